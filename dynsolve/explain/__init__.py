@@ -80,6 +80,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
 What the signs of a report mean:
 
     notation_list      the list of notation: a line for every sign that occurs
+    definition_units   the units of abbreviations, from the formulas that define them
     textbook_letters   the lines of the textbook's letters
     roles              what the parameters of a problem are: a mass, a length of the table
     parameter_meanings the same in words: the length of link 2, from o_1 to o_2

@@ -89,17 +89,19 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     if others:
         why = "The sum over the bodies" if len(bodies) > 1 else "That of the body"
         why += f", and that of the {'springs' if name == 'P' else 'rotors'}"
+    why += "."
     members: list[Node] = [letter, sum_of([*bodies, *others])]
     weightless = name == "P" and context.robot.gravity.is_zero
     if are_counted(context.robot.bodies) and len(bodies) > 1 and not weightless:
         members.append(sum_of([_summed(context, name), *others]))
+        why += _without_turning(context) if name == "K" else ""
     acting = [name + ("s" if name == "P" else "m")] if others else []
     way = summed(context, [*(name + body.name for body in context.robot.bodies), *acting], name, letter)
     return Step(
         id=name,
         stage=STAGE,
         title=f"Total {kind} energy",
-        why=(f"{why}.",),
+        why=(why,),
         formula=equation(*members),
         source=spong("7.2.3" if name == "P" else "7.2.2"),
         lines=way.lines,
@@ -107,6 +109,12 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         result=(equation(letter, context.form(name)),),
         detail=Detail.BRIEF,
     )
+
+
+def _without_turning(context: Context) -> str:
+    """What is left of the sum for points, where it has a term that they have not."""
+    points = [body.is_point for body in context.robot.bodies]
+    return " A point mass has no second term." if any(points) and not all(points) else ""
 
 
 def _summed(context: Context, name: str) -> Node:

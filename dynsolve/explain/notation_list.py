@@ -9,25 +9,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Block, Inline, Prose, Table
-from dynsolve.explain.abbreviations import Abbreviated, Definition
+from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.definition_units import units_of
 from dynsolve.explain.parameter_meanings import meanings, told_together
-from dynsolve.explain.recurring import expanded
+from dynsolve.explain.recurring import Definition
 from dynsolve.explain.roles import Role
 from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.signs import shorthands
-from dynsolve.explain.textbook_letters import BY_ENTRY, SHAPES, Line, of_inertias, textbook
+from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Function, Letter, Node, Product, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
-from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
-from dynsolve.robot.units import si
 
 COUNTING = ("i", "j", "k", "n", "t")
 """The names that every textbook counts with, and time: told in a sentence."""
@@ -121,13 +119,13 @@ class Notation:
 
     @property
     def sentence(self) -> Prose:
-        """The lines as a sentence."""
+        """The lines as a sentence, and what is said of all signs."""
         prose: list[Inline] = ["Notation: "]
         for place, line in enumerate(self.lines):
             unit: Prose = (" (", unit_node(line.unit), ")") if line.unit else ()
             what = (line.sign, f" {words}") if isinstance(words := line.words, str) else (words,)
             prose += (*(("; ",) if place else ()), *what, *unit)
-        return (*prose, ".")
+        return (*prose, ". ", *self.remarks)
 
 
 def notation(
@@ -146,7 +144,13 @@ def notation(
     shown = _merged(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
-    remarks = (*_counting(occurring - own), *_numbers(style), *_bold(occurring), *_of_craig(robot, occurring))
+    remarks = (
+        *_counting(occurring - own),
+        *_numbers(style),
+        *_units_of_entries(robot, occurring),
+        *_bold(occurring),
+        *_of_craig(robot, occurring),
+    )
     return Notation(remarks, shown)
 
 
@@ -178,33 +182,29 @@ def _told(line: Line, style: Style) -> Line:
 
 def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]:
     """The names of constants and recurring terms."""
-    if short is not None and short.constants:
-        yield _named(
-            [d.name.name for d in short.constants], "inertial constants, see Abbreviations", BY_ENTRY
-        )
-    if short is not None and short.sums:
-        if short.at_symbols:
-            yield from _of_shorthands(robot, short.sums)
-        else:
-            names = [d.name.name for d in short.sums]
-            yield _named(names, "recurring terms, see Abbreviations", BY_ENTRY)
+    if short is None:
+        return
+    yield from (_where_they_occur(robot, short.sums) if short.at_symbols else _in_a_section(robot, short))
 
 
-def _of_shorthands(robot: Robot, definitions: Sequence[Definition]) -> Iterator[Line]:
-    """The names that are defined where they first occur, those of one unit in a line."""
-    by_unit: dict[str, list[str]] = {}
-    known = Dimensions(robot.ring, robot)
-    for one, meaning in zip(
-        definitions, expanded(definitions, [d.meaning for d in definitions]), strict=True
-    ):
-        found = known.of(value_of(robot.ring, meaning)) if known.known else None
-        unit = of_inertias(robot) if found is None else si(found)
-        by_unit.setdefault(unit, []).append(one.name.name)
-    for unit, names in by_unit.items():
-        several = "abbreviations, defined where they first occur"
+def _where_they_occur(robot: Robot, sums: Sequence[Definition]) -> Iterator[Line]:
+    """The names of a short model."""
+    for unit, names in units_of(robot, sums).items():
+        told = "abbreviation, defined where it first occurs"
         yield _named(
-            names, several if len(names) > 1 else "abbreviation, defined where it first occurs", unit
+            names, told if len(names) == 1 else "abbreviations, defined where they first occur", unit
         )
+
+
+def _in_a_section(robot: Robot, short: Abbreviated) -> Iterator[Line]:
+    """The names of a long model, all of a kind in one line."""
+    by_unit = units_of(robot, short.definitions)
+    of = {name: unit for unit, names in by_unit.items() for name in names}
+    for definitions, what in ((short.constants, "inertial constants"), (short.sums, "recurring terms")):
+        names = [one.name.name for one in definitions]
+        if names:
+            units = " or ".join(sorted({of[name] for name in names} - {""}))
+            yield _named(names, f"{what}, see Abbreviations", units)
 
 
 def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
@@ -237,6 +237,18 @@ def _numbers(style: Style) -> Iterator[Inline]:
         return
     yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
     yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. "
+
+
+def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:
+    """What the entries of D, C, N and c_ijk are measured in where not all coordinates are angles."""
+    if len({q.type for q in robot.coordinates}) < 2:
+        return
+    shown = [sign for sign in ENTRIES_IN_PRODUCTS if kind_of(sign, PLAIN) in occurring]
+    if shown:
+        of = "The unit" if len(shown) == 1 else "The units"
+        verb = "is" if len(shown) == 1 else "are"
+        yield from (f"{of} of ", *listed(shown), f" {verb} listed for angles: ")
+        yield "divide by m for each index that belongs to a length. "
 
 
 def _of_craig(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:

@@ -179,8 +179,7 @@ def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
     """The symbols by their names, which are defined first."""
     named = {context.forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()}
     step = _result_exchanged(step, named)
-    early = () if short.inertias is None else short.inertias.definitions
-    own = short.sums[len(early) :]
+    own = _own_names(short)
     if not own:
         return step
     line = Line(
@@ -189,6 +188,12 @@ def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
         label=NAMES,
     )
     return replace(step, lines=(*step.lines, line), concluding=("Put into the formula:",))
+
+
+def _own_names(short: Abbreviated) -> tuple[Definition, ...]:
+    """The names of symbols, after those of inertias."""
+    early = () if short.inertias is None else short.inertias.definitions
+    return short.sums[len(early) :]
 
 
 def _result_exchanged(step: Step, named: Mapping[Node, Node]) -> Step:
@@ -205,9 +210,9 @@ def _result_exchanged(step: Step, named: Mapping[Node, Node]) -> Step:
 
 
 def _model(step: Step, context: Context, short: Abbreviated) -> Step:
-    """The model, its rows in d_ij, g_k and the names, which repeats nothing."""
+    """The model; its rows in the names of symbols, d_ij and g_k, where forces were derived before these."""
     step = _result_exchanged(step, {context.form("C"): short.C})
-    return replace(step, lines=(rows_in_names(context, short.symbol),))
+    return replace(step, lines=(rows_in_names(context, short.symbol),)) if _own_names(short) else step
 
 
 def _skew(step: Step, context: Context, short: Abbreviated) -> Step:

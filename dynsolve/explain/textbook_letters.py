@@ -20,9 +20,6 @@ from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, JointType, Robot
 
-BY_ENTRY = "by entry"
-"""In the place of a unit: each entry has its own."""
-
 WIDEST = 8.0
 """Signs of one meaning that are wider together, in em, are the first, the second and the last."""
 
@@ -80,6 +77,10 @@ SHAPES = {
     "l_z": "side along z",
 }
 """The letters of the formulas of uniform shapes."""
+
+
+ENTRIES_IN_PRODUCTS = (letters.D, letters.C, letters.bold("N"), Letter("c", Row((_I, _J, _K))))
+"""What a rate multiplies for each of its indices: the unit of an entry depends on all of them."""
 
 
 def textbook(robot: Robot, style: Style) -> Iterator[Line]:
@@ -263,7 +264,10 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     yield _each(totals, f" of the {machine(robot)}", "J")
     yield from _forces(robot, style)
     yield from _actions()
-    inertia, rate = of_inertias(robot), of_entries(robot, "kg m^2/s", "kg/s", BY_ENTRY)
+    inertia, rate = (
+        of_entries(robot, "kg m^2", "kg", "kg m^2"),
+        of_entries(robot, "kg m^2/s", "kg/s", "kg m^2/s"),
+    )
     yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")], "", inertia)
     yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points", inertia)
     yield _line(_entry("c", _I, _J, _K), "Christoffel symbol", inertia)
@@ -327,11 +331,6 @@ def of_entries(robot: Robot, turning: str, sliding: str, both: str = "") -> str:
 def of_jacobian(robot: Robot) -> str:
     """The units of a Jacobian's entries: of velocities by rates."""
     return "m or 1" if any(q.type is JointType.REVOLUTE for q in robot.coordinates) else "1"
-
-
-def of_inertias(robot: Robot) -> str:
-    """The units of the entries of D, those that couple an angle with a length too."""
-    return of_entries(robot, "kg m^2", "kg", "kg m^2, kg m, kg")
 
 
 def _actions() -> Iterator[Line]:

@@ -41,7 +41,10 @@ _COUNTED = "[Bb]ody|[Cc]olumn|coordinate|force|[Ff]rame|[Jj]oint|[Ll]ink|matrix|
 _COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
 """What is counted by a letter: frame i-1."""
 
-_AMONG_WORDS = re.compile(rf"{_COUNT}|(?<![^\W_]){_FORMULA.pattern}(?![^\W_])")
+_AXIS = r"(?<![^\s(-])(?P<axis>[xyz])(?![^\s,.;:)-]|\.\w)"
+"""An axis or a coordinate along it, which no word is: about its axis z, the x-axis."""
+
+_AMONG_WORDS = re.compile(rf"{_COUNT}|{_AXIS}|(?<![^\W_]){_FORMULA.pattern}(?![^\W_])")
 
 _AFTER_UNIT = re.compile(r"(?:\b(?:kg|N|J|rad|m)[ ·]|/)$")
 """What stands before m² or s² where that is a unit: kg m², m/s²."""
@@ -81,7 +84,7 @@ def typographic(text: str) -> str:
 
 
 def with_formulas(text: str) -> Iterator[str | Node]:
-    """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇, the i of frame i.
+    """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇, the i of frame i, an axis z.
 
     >>> list(with_formulas("Row 1: A₁"))
     ['Row 1: ', Letter(base='A', sub=Number(...), sup=None, style='bold', dots=0)]
@@ -91,6 +94,10 @@ def with_formulas(text: str) -> Iterator[str | Node]:
         if found["counted"]:
             yield text[place : found.end("counted")]
             yield _counting(found["count"], bool(found["less"]))
+            place = found.end()
+            continue
+        if found["axis"]:
+            yield from (text[place : found.start()], Symbol(found["axis"]))
             place = found.end()
             continue
         if found["base"].isascii() and not (found["dots"] or found["sub"] or found["sup"]):

@@ -75,7 +75,7 @@ def solution_document(
         *_numbers(solution, detail, stages),
         *summary_blocks(solution.robot, steps, short, is_short=solution.is_short),
     )
-    stated = tuple(_statement(solution, detail, stages))
+    stated = tuple(_statement(solution, stages))
     return Document((
         *_opening(solution, _sources(steps, detail, short)),
         *stated,
@@ -85,9 +85,9 @@ def solution_document(
     ))  # fmt: skip
 
 
-def _statement(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
+def _statement(solution: Dynamics, stages: Iterable[str] | None) -> Iterator[Block]:
     """The exercise, before a whole solution of it."""
-    if stages is None and detail > Detail.BRIEF:
+    if stages is None:
         yield from map(Text, statement(solution.forms, solution.problem))
 
 

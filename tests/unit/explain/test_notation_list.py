@@ -184,7 +184,8 @@ MEANINGS = [
     ("elbow-3r", "𝐪, qᵢ", "column of the coordinates, coordinate i", "rad"),
     ("cartesian-pp", "𝐉, 𝐉_v, 𝐉_ω, 𝐉ᵢ", JACOBIANS, "1"),
     ("planar-2r", "𝐉, 𝐉_v, 𝐉_ω, 𝐉ᵢ", JACOBIANS, "m or 1"),
-    ("in3140-rp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg m², kg m, kg"),
+    ("in3140-rp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg m²"),
+    ("cartesian-pp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg"),
     ("planar-2r", "Kᵢ, K_vi, K_ωi, Pᵢ",
      "kinetic energy, its part of translation, its part of rotation, potential energy of body i", "J"),
     ("planar-2r", "𝐈ᵢ^b", "inertia tensor of body i about its mass centre, along its axes", "kg m²"),
@@ -268,7 +269,7 @@ def test_no_shorthand_where_its_letter_is_a_coordinate() -> None:
 def test_in_brief_the_list_is_a_sentence() -> None:
     text = "".join(
         part if isinstance(part, str) else to_unicode(part, solved("in3140-rp").style)
-        for block in document("in3140-rp", Detail.BRIEF).blocks[:5]
+        for block in document("in3140-rp", Detail.BRIEF).blocks[:8]
         if not isinstance(block, Heading | Fold)
         for part in block.parts  # type: ignore[union-attr]
     )
@@ -309,6 +310,19 @@ def test_the_letters_of_shapes_are_told_where_there_are_shapes() -> None:
 def test_what_a_dot_means_is_told_wherever_there_is_one(problem: str) -> None:
     remarks = notation(solved(problem).robot, solved(problem).style, document(problem).blocks).remarks
     assert "A dot is the derivative with respect to the time " in remarks
+
+
+@pytest.mark.parametrize(
+    ("problem", "told"),
+    [("in3140-rp", "𝐃, 𝐂, 𝐍 and cᵢⱼₖ"), ("planar-2r", ""), ("cartesian-pp", "")],
+)
+def test_units_of_entries_are_those_for_angles_where_there_are_lengths_too(problem: str, told: str) -> None:
+    """d₂₂ = m₂ of the RP arm is in kg m²/m² = kg, c₁₂₁ = m₂ L₂ in kg m²/m."""
+    style = solved(problem).style
+    remarks = notation(solved(problem).robot, style, document(problem).blocks).remarks
+    said = "".join(part if isinstance(part, str) else to_unicode(part, style) for part in remarks)
+    rule = f"The units of {told} are listed for angles: divide by m for each index that belongs to a length."
+    assert (rule in said) if told else ("listed for angles" not in said)
 
 
 def test_the_entries_of_the_parameters_are_not_lengths_of_the_table() -> None:

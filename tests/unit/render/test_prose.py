@@ -29,6 +29,9 @@ def shown(text: str) -> list[str]:
         ("Joint i moves", ["Joint ", "$i$", " moves"]),
         ("axis zᵢ₋₁", ["axis ", "$z_{i - 1}$"]),
         ("column index, link joint", ["column index, link joint"]),
+        ("its axes x and z", ["its axes ", "$x$", " and ", "$z$"]),
+        ("the x-axis (y).", ["the ", "$x$", "-axis (", "$y$", ")."]),
+        ("x.yaml, xs, x=1", ["x.yaml, xs, x=1"]),
         (
             "inertia in kg m², gravity in m/s²",
             ["inertia in kg ", r"$\mathrm{m}^{2}$", ", gravity in m/", r"$\mathrm{s}^{2}$"],
