@@ -10,6 +10,7 @@ and if all of these vanish, the rates vanish one by one.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 from dynsolve.algebra.expr import Expr
@@ -29,6 +30,7 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
+    Parenthesized,
     Power,
     Product,
     Relation,
@@ -46,8 +48,18 @@ LONGEST = 60
 """The operations of a determinant up to which it is of use to a reader."""
 
 
-_Shown = tuple[Prose, tuple[Node, ...], Prose]
-"""Why D is definite, the formulas that show it, and the words after them."""
+LONGEST_ENTRY = 8
+"""The operations of an entry of the diagonal up to which it is written again."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    """Why D is definite, the lines that show it, the words after them, and what these lead to."""
+
+    why: Prose
+    lines: tuple[Line, ...] = ()
+    concluding: Prose = ()
+    result: tuple[Node, ...] = ()
 
 
 def definite_step(context: Context) -> Step | None:
@@ -57,17 +69,16 @@ def definite_step(context: Context) -> Step | None:
     found = _by_entries(context) or _by_bodies(context)
     if found is None:
         return None
-    why, shown, concluding = found
     assumed: Prose = ("Let all parameters be positive. ",) if context.robot.parameters else ()
     return Step(
         id="definite",
         stage=Stage.VECTORIZED,
         title="Check: the inertia matrix is positive definite",
-        why=(*assumed, *why),
+        why=(*assumed, *found.why),
         source=spong("7.5.1"),
-        lines=(Line((), shown),) if concluding else (),
-        concluding=concluding,
-        result=() if concluding else shown,
+        lines=found.lines,
+        concluding=found.concluding,
+        result=found.result,
         is_task=False,
     )
 
@@ -78,7 +89,7 @@ def _by_entries(context: Context) -> _Shown | None:
     determinants: list[Determinant] = []
     D = context.values["D"]
     for block in blocks(D):
-        first = next((k for k in (block[0], block[-1]) if _own_part(context, k) is not None), None)
+        first = _first(context, block)
         if first is None:
             return None
         firsts.append(first)
@@ -89,48 +100,86 @@ def _by_entries(context: Context) -> _Shown | None:
             determinants += minors
     why = _diagonal(context, firsts)
     if not determinants:
-        return (*why, " All other entries are zero, so ", letters.D, " is positive definite."), (), ()
+        return _Shown((*why, " All other entries are zero, so ", letters.D, " is positive definite."))
     if len(firsts) > 1:
         parts = listed([_block(context, block) for block in blocks(D)])
-        why += (
-            " ",
-            letters.D,
-            " consists of ",
-            *parts,
-            ", not coupled with each other: each counts by itself.",
-        )
+        why += (" ", letters.D, " consists of ", *parts)
+        why += (", not coupled with each other: each counts by itself.",)
+    why += (*_of_determinants(context, determinants), " So ", letters.D)
+    why += (" is positive definite (Sylvester's criterion)",)
+    result = tuple(each.line for each in determinants)
+    lines = tuple(each.differences for each in determinants if each.differences is not None)
+    by = said_of(determinants)
+    if lines:
+        return _Shown((*why, "."), lines, ("With these, ", *by, ":"), result)
+    return _Shown((*why, "; ", *by, ":"), result=result)
+
+
+def _first(context: Context, block: Sequence[int]) -> int | None:
+    """The end of a block from which the minors go: one that is seen to be positive, if there is one."""
+    ends = (block[0], block[-1])
+    seen = (k for k in ends if _is_positive(context, context.show(context.values["D"][k, k])))
+    return next(seen, next((k for k in ends if _own_part(context, k) is not None), None))
+
+
+def _of_determinants(context: Context, determinants: Sequence[Determinant]) -> Prose:
+    """Why determinants are positive: what no term takes away from, and the term that is never 0."""
     several = len(determinants) > 1
-    why += (
-        " The determinants below are" if several else " The determinant below is",
-        " positive, too: no term of ",
+    said: Prose = (
+        f" The determinant{'s' if several else ''} below {'are' if several else 'is'} positive, too: ",
     )
-    why += ("their last lines" if several else "its last line", " is negative, and not all can be 0. So ")
-    why += (letters.D, " is positive definite (Sylvester's criterion); ", *said_of(determinants), ":")
-    return why, tuple(each.line for each in determinants), ()
+    least = [_never_zero(context, each.form) for each in determinants]
+    said += (f"in {'their last lines' if several else 'its last line'} no term is negative, and ",)
+    return (*said, *listed(least), ".")
+
+
+def _never_zero(context: Context, form: Node) -> Node:
+    """I₁ I₂ > 0, a term of a sum that is positive in every pose; M + m s² ≥ M > 0, a factor of a product."""
+    if isinstance(form, Sum):
+        return Relation((min(_sure(context, form), key=cost), ZERO), (">",))
+    factors = form.factors if isinstance(form, Product) else (form,)
+    for factor in (each.argument if isinstance(each, Parenthesized) else each for each in factors):
+        sure = _sure(context, factor)
+        if isinstance(factor, Sum) and len(sure) < len(factor.terms):
+            return Relation((factor, min(sure, key=cost), ZERO), ("≥", ">"))
+    return Relation((form, ZERO), (">",))
+
+
+def _sure(context: Context, form: Node) -> list[Node]:
+    """The terms of a sum that are positive in every pose."""
+    return [term for term in form.terms if _is_positive(context, term)] if isinstance(form, Sum) else []
 
 
 def _diagonal(context: Context, places: Sequence[int]) -> Prose:
     """Why entries of the diagonal are positive: seen from them, or from what one body adds to them."""
-    names: list[Node] = [letters.entry("d", k + 1, k + 1) for k in places]
-    one = len(places) == 1
-    if all(_is_positive(context, context.show(context.values["D"][k, k])) for k in places):
-        least = [_least(context, k) for k in places]
-        return ("On the diagonal of ", letters.D, Reference(("D",), " in "), ", ", *listed(least), ".")
+    entries = [(k, context.show(context.values["D"][k, k])) for k in places]
+    seen = [_least(context, k) for k, form in entries if _is_positive(context, form)]
+    by_body = [k for k, form in entries if not _is_positive(context, form)]
+    where: Prose = (letters.D, Reference(("D",), " in "))
+    why: Prose = ("On the diagonal of ", *where, ", ", *listed(seen), ".") if seen else ()
+    if not by_body:
+        return why
+    names: list[Node] = [letters.entry("d", k + 1, k + 1) for k in by_body]
     i = Symbol("i")
     rate, entry = Letter("q", i, dots=1), Letter("d", Row((i, i)))
-    why: Prose = ("No body adds anything negative to ", entry, ", which is ", Product((Number(2), letters.K)))
-    why += (" where ", equation(rate, Number(1)), " and the other rates are 0. ")
-    why += (*listed(names), Reference(("D",), " in "), f" {'is' if one else 'are'} positive: ")
-    return (*why, *listed(tuple(_adding(context, k) for k in places)), ".")
+    why += (" " if seen else "", "No body adds anything negative to ", entry, ", which is ")
+    why += (Product((Number(2), letters.K)), " where ", equation(rate, Number(1)))
+    why += (" and the other rates are 0. ", *listed(names), *(() if seen else where[1:]))
+    why += (f" {'is' if len(by_body) == 1 else 'are'} positive: ",)
+    return (*why, *listed(tuple(_adding(context, k) for k in by_body)), ".")
 
 
 def _least(context: Context, k: int) -> Node:
-    """d_kk ≥ I > 0, where other terms may be 0; d_kk > 0 where none may."""
+    """d_kk ≥ I > 0, where other terms may be 0; d_kk = m l² + I > 0, where none may and it is short."""
     name, form = letters.entry("d", k + 1, k + 1), context.show(context.values["D"][k, k])
-    sure = [term for term in form.terms if _is_positive(context, term)] if isinstance(form, Sum) else []
-    if not isinstance(form, Sum) or not sure or len(sure) == len(form.terms):
-        return Relation((name, ZERO), (">",))
-    return Relation((name, sum_of(sure), ZERO), ("≥", ">"))
+    sure = _sure(context, form)
+    if isinstance(form, Sum) and 0 < len(sure) < len(form.terms):
+        return Relation((name, sum_of(sure), ZERO), ("≥", ">"))
+    if cost(form) <= LONGEST_ENTRY:
+        return Relation((name, form, ZERO), ("=", ">"))
+    if sure:
+        return Relation((name, min(sure, key=cost), ZERO), (">", ">"))
+    return Relation((name, ZERO), (">",))
 
 
 def _block(context: Context, block: Sequence[int]) -> Prose:
@@ -181,7 +230,7 @@ def _by_bodies(context: Context) -> _Shown | None:
         letters.D,
         " is positive definite.",
     )
-    return why, tuple(lines), concluding
+    return _Shown(why, (Line((), tuple(lines)),), concluding)
 
 
 def blocks(D: Matrix) -> list[list[int]]:
@@ -223,7 +272,8 @@ def _minors(context: Context, block: Sequence[int]) -> list[Determinant] | None:
         if size == 2:
             found.append(determinant_of_two(context, (places[0], places[1]), value, form))
         else:
-            found.append(Determinant(equation(Row((Words("det "), letters.D)), form), (MULTIPLIED_OUT,)))
+            line = equation(Row((Words("det "), letters.D)), form)
+            found.append(Determinant(line, form, (MULTIPLIED_OUT,)))
     return found
 
 

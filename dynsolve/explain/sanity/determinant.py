@@ -1,8 +1,8 @@
 """The determinant of two coupled coordinates, from its formula to the value: d_aa d_bb - d_ab².
 
-The square of an entry that is a sum is long.  Where it is shorter, the determinant is written with
-differences of entries first: (d_aa - 2 d_ab + d_bb) d_bb - (d_ab - d_bb)² is the same, and what two
-entries share is gone.
+The square of an entry that is a sum is long.  Where it is shorter, row and column b are subtracted
+from row and column a first: (d_aa - 2 d_ab + d_bb) d_bb - (d_ab - d_bb)² is the same, and what two
+entries share is gone.  Of a robot in numbers nothing is gained by it: sums of numbers are numbers.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from dynsolve.algebra.compact.terms import Rational
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.step import Line
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.kinetic import without_signs
@@ -40,19 +42,24 @@ LONGEST = 60
 """The operations of the entries up to which they are put in."""
 
 
-OPERATIONS = ("written with differences of entries", "the entries put in", "multiplied out", "collected")
+OPERATIONS = ("the entries put in", "multiplied out", "collected")
 """What may be done to a determinant, in this order."""
 
-_BY_DIFFERENCES, _PUT_IN, MULTIPLIED_OUT, _COLLECTED = OPERATIONS
+_PUT_IN, MULTIPLIED_OUT, _COLLECTED = OPERATIONS
 
 
 @dataclass(frozen=True, slots=True)
 class Determinant:
-    """The determinant of two coordinates: its lines, each by an operation, and the identities of the last."""
+    """The determinant of coupled coordinates: its members, by which operations, the identities of the last.
+
+    `form` is its last member, `differences` what rows and columns leave that are subtracted first.
+    """
 
     line: Node
+    form: Node
     operations: tuple[str, ...] = ()
     used: tuple[Identity, ...] = ()
+    differences: Line | None = None
 
 
 def said_of(determinants: Sequence[Determinant]) -> Prose:
@@ -70,6 +77,7 @@ class _Written:
 
     in_letters: Node
     values: tuple[Expr, Expr, Expr]
+    differences: Line | None = None
 
     def put_in(self, context: Context) -> Node:
         p, q, r = map(context.show, self.values)
@@ -85,14 +93,14 @@ def determinant_of_two(context: Context, places: tuple[int, int], value: Expr, f
     best = min((plain, *others), key=lambda way: cost(way.put_in(context)))
     before = best.put_in(context)
     members, operations = [plain.in_letters], list[str]()
+    if cost(before) > LONGEST or not equals(before, value):
+        return Determinant(equation(*members, form), form, (MULTIPLIED_OUT,))
     if best is not plain:
         members.append(best.in_letters)
-        operations.append(_BY_DIFFERENCES)
-    if cost(before) > LONGEST or not equals(before, value):
-        return Determinant(equation(*members, form), (*operations, MULTIPLIED_OUT))
     operations.append(_PUT_IN)
     if are_alike(before, form):
-        return Determinant(equation(*members, form), tuple(operations))
+        line = equation(*members, form)
+        return Determinant(line, form, tuple(operations), differences=best.differences)
     lines, last = [before], MULTIPLIED_OUT
     expanded, count = _multiplied_out(context, before)
     if count <= MOST_TERMS and not are_alike(expanded, form) and equals(expanded, value):
@@ -100,7 +108,8 @@ def determinant_of_two(context: Context, places: tuple[int, int], value: Expr, f
         operations.append(MULTIPLIED_OUT)
         last = _COLLECTED
     used = identities(context.robot.ring, lines[-1], form) or ()
-    return Determinant(equation(*members, *lines, form), (*operations, last), used)
+    line = equation(*members, *lines, form)
+    return Determinant(line, form, (*operations, last), used, best.differences)
 
 
 def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
@@ -113,11 +122,18 @@ def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
 
     d_aa, d_bb = (letters.entry("d", k + 1, k + 1) for k in (a, b))
     yield _Written(Sum((Product((d_aa, d_bb)), square(d_ab))), (D[a, a], D[b, b], D[a, b]))
-    whole = Parenthesized(Sum((d_aa, Negative(Product((Number(2), d_ab))), d_bb)))
-    for k, kept in ((b, d_bb), (a, d_aa)):
-        difference = Parenthesized(Sum((d_ab, Negative(kept))))
-        written = Sum((Product((whole, kept)), square(difference)))
-        yield _Written(written, (D[a, a] - D[a, b] * 2 + D[b, b], D[k, k], D[a, b] - D[k, k]))
+    if is_numeric(context.robot):
+        return
+    whole = Sum((d_aa, Negative(Product((Number(2), d_ab))), d_bb))
+    for k, changed, kept in ((b, a, d_bb), (a, b, d_aa)):
+        difference = Sum((d_ab, Negative(kept)))
+        written = Sum((Product((Parenthesized(whole), kept)), square(Parenthesized(difference))))
+        values = (D[a, a] - D[a, b] * 2 + D[b, b], D[k, k], D[a, b] - D[k, k])
+        shown = (equation(whole, context.show(values[0])), equation(difference, context.show(values[2])))
+        by = f"Row {k + 1} is subtracted from row {changed + 1}, and then column {k + 1} from column "
+        by += f"{changed + 1}, which does not change the determinant. In the place of "
+        entries = (letters.entry("d", changed + 1, changed + 1), " and ", d_ab, " there are then:")
+        yield _Written(written, values, Line((by, *entries), shown))
 
 
 def _multiplied_out(context: Context, node: Node) -> tuple[Node, int]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.notation.unicode import to_unicode
 from tests.support import solved
 from tests.unit.explain.told import said, shown, step
 from tests.unit.explain.working.evaluated import members
@@ -13,7 +14,7 @@ WITH_ONE = ("elbow-3r", "planar-2r", "planar-2r-friction", "planar-2r-remote", "
 
 
 def test_the_entries_are_put_in_multiplied_out_and_collected_line_by_line() -> None:
-    (line,) = shown("elbow-3r", "definite")
+    *_, line = shown("elbow-3r", "definite")
     assert line.split(" = ") == [
         "d₂₂ d₃₃ - d₂₃²",
         "(d₂₂ - 2d₂₃ + d₃₃) d₃₃ - (d₂₃ - d₃₃)²",
@@ -22,22 +23,38 @@ def test_the_entries_are_put_in_multiplied_out_and_collected_line_by_line() -> N
         "- m₃² L₂² l_c3² c₃²",
         "m₃ (l_c3² (m₂ l_c2² + I_2zz + m₃ L₂² s₃²) + I_3zz L₂²) + I_3zz (m₂ l_c2² + I_2zz)",
     ]
-    assert said(step("elbow-3r", "definite").why, "elbow-3r").endswith(
-        "written with differences of entries, the entries put in, multiplied out, and collected with "
-        "s₃² + c₃² = 1:"
+    assert said(step("elbow-3r", "definite").concluding, "elbow-3r") == (
+        "With these, the entries put in, multiplied out, and collected with s₃² + c₃² = 1:"
     )
+
+
+def test_differences_of_entries_have_lines_of_their_own() -> None:
+    (line,) = step("elbow-3r", "definite").lines
+    assert said(line.by, "elbow-3r") == (
+        "Row 3 is subtracted from row 2, and then column 3 from column 2, which does not change the "
+        "determinant. In the place of d₂₂ and d₂₃ there are then:"
+    )
+    assert [to_unicode(node, solved("elbow-3r").style) for node in line.formulas] == [
+        "d₂₂ - 2d₂₃ + d₃₃ = m₂ l_c2² + m₃ L₂² + I_2zz",
+        "d₂₃ - d₃₃ = m₃ L₂ l_c3 c₃",
+    ]
 
 
 def test_differences_of_entries_are_used_where_they_are_shorter_alone() -> None:
     assert " - 2d₁₂ " in shown("planar-2r", "definite")[0]
-    plain = shown("planar-2r-remote", "definite")[0]
+    (plain,) = shown("planar-2r-remote", "definite")
     assert plain.split(" = ")[1].startswith("(m₁ l_c1² + m₂ l₁² + I₁)(m₂ l_c2² + I₂) - (m₂ l₁ l_c2 cos(")
 
 
+def test_a_determinant_in_numbers_is_multiplied_out_as_it_stands() -> None:
+    (line,) = shown("numeric-2r", "definite")
+    assert line.split(" = ")[:2] == ["d₁₁ d₂₂ - d₁₂²", "(0.862833 + 0.48 c₂)·0.167 - (0.167 + 0.24 c₂)²"]
+
+
 def test_entries_that_make_a_product_need_no_further_line() -> None:
-    assert shown("planar-2r-friction", "definite")[0].count(" = ") == 2
-    assert said(step("planar-2r-friction", "definite").why, "planar-2r-friction").endswith(
-        "written with differences of entries, and the entries put in:"
+    assert shown("planar-2r-friction", "definite")[-1].count(" = ") == 2
+    assert said(step("planar-2r-friction", "definite").concluding, "planar-2r-friction") == (
+        "With these, the entries put in:"
     )
 
 

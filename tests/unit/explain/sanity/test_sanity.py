@@ -264,10 +264,14 @@ def test_the_determinant_of_the_planar_arm() -> None:
     assert step is not None
     (shown,) = step.result
     assert to_unicode(shown, solved("planar-2r").style).startswith("d₁₁ d₂₂ - d₁₂² = ")
-    assert "d₁₁ is positive: body 1 adds m₁ l_c1² + I₁ to d₁₁." in said("planar-2r", "definite")
+    assert said("planar-2r", "definite") == (
+        "Let all parameters be positive. On the diagonal of D, d₂₂ = m₂ l_c2² + I₂ > 0. The determinant "
+        "below is positive, too: in its last line no term is negative, and I₂ (m₁ l_c1² + I₁) > 0. So D is "
+        "positive definite (Sylvester's criterion)."
+    )
     assert said("in3140-rp", "definite") == (
-        "Let all parameters be positive. On the diagonal of D, d₁₁ ≥ I_1zz > 0 and d₂₂ > 0. All other "
-        "entries are zero, so D is positive definite."
+        "Let all parameters be positive. On the diagonal of D, d₁₁ ≥ I_1zz > 0 and d₂₂ = m₂ > 0. All "
+        "other entries are zero, so D is positive definite."
     )
 
 
@@ -282,7 +286,8 @@ def test_the_determinant_of_an_arm_in_numbers_is_written_without_a_minus() -> No
 
 
 def test_a_body_shows_that_an_entry_is_positive_where_its_terms_do_not() -> None:
-    """m₂ (4l₂² - b²)/12 c₂² stands in d₁₁ of the box, and is negative where b > 2l₂."""
+    """m₂ (4l₂² - b²)/12 c₂² stands in d₁₁ of the box, and is negative where b > 2l₂; so in no other entry."""
+    assert "d₂₂ > m₂ (4l₂² + b²)/12 > 0 and d₃₃ = m₃ + m₄ > 0." in said("box-cylinder-rod-sphere", "definite")
     assert "body 1 adds m₁ r₁²/2 to d₁₁" in said("box-cylinder-rod-sphere", "definite")
 
 
