@@ -13,7 +13,7 @@ from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.own_axes import turned
-from dynsolve.explain.working.products import used_in_product
+from dynsolve.explain.working.products import cancelled_in_product, used_in_product
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
 from dynsolve.explain.writing import name_of, spong, sum_of
 from dynsolve.notation.build import number_in_front
@@ -104,7 +104,8 @@ def _worked_out(context: Context, body: Body, step: Step, turns: bool) -> Step:
     products = of_columns(context, body)
     if products is None:
         used = dict.fromkeys((*used_in_product(context, J.T, J, J.T @ J), *angular_used))
-        return replace(step, lines=angular, concluding=_by("Multiplied out", list(used)))
+        cancelled = cancelled_in_product(context, J.T, J)
+        return replace(step, lines=angular, concluding=_by("Multiplied out", list(used), cancelled))
     by: Prose = ("By ", *said(products.used))
     by += (", and the numbers multiplied",) if body.mass.is_number else ()
     if turns:
@@ -116,9 +117,10 @@ def _worked_out(context: Context, body: Body, step: Step, turns: bool) -> Step:
     return replace(step, lines=(*products.lines, *angular), concluding=by if turns else (*by, ":"))
 
 
-def _by(operation: str, used: Sequence[Identity]) -> Prose:
-    """Multiplied out, with s₁² + c₁² = 1:"""
-    return (f"{operation}, with ", *said(used), ":") if used else (f"{operation}:",)
+def _by(operation: str, used: Sequence[Identity], cancelled: Prose = ()) -> Prose:
+    """Multiplied out, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):"""
+    named: Prose = (", with ", *said(used)) if used else ()
+    return (operation, *named, *cancelled, ":")
 
 
 def sum_step(context: Context) -> Step | None:

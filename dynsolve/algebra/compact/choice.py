@@ -2,8 +2,8 @@
 
 The shortest form of one may be dear for the whole: a product of sines and cosines that
 other coefficients are written with already costs only its own coefficient.  So the
-shortest form is taken for each, and then chosen again at the prices that this first
-choice has made.
+shortest form is taken for each, and then chosen again, one after the other, at the prices
+that the forms of the others make: beside l² c₂² it is b² (2 - c₂²) and not b² (1 + s₂²).
 """
 
 from __future__ import annotations
@@ -53,10 +53,11 @@ class FormChoice:
         options = {key: self._options(polynomial) for key, polynomial in polynomials.items()}
         chosen = {key: made[0] for key, (made, _) in options.items()}
         uses = Counter(mono for option in chosen.values() for mono, _ in option.items)
-        common = {mono for mono, count in uses.items() if count > 1}
         for key, (made, _) in options.items():
-            if len(made) > 1 and common:
-                chosen[key] = min(made, key=lambda option: _price_beside(option, common))
+            if len(made) > 1:
+                uses.subtract(mono for mono, _ in chosen[key].items)
+                chosen[key] = min(made, key=lambda option: _price_beside(option, uses))
+                uses.update(mono for mono, _ in chosen[key].items)
         return {key: [(m, f * options[key][1]) for m, f in option.items] for key, option in chosen.items()}
 
     def _options(self, polynomial: TrigPolynomial) -> tuple[list[_Option], Rational]:
@@ -80,10 +81,10 @@ def _option(form: TrigForm) -> _Option:
     return _Option(tuple(form.items()), TERM * len(form) + sum(trig_prices) + odd, trig_prices)
 
 
-def _price_beside(option: _Option, common: set[TrigMonomial]) -> float:
-    """The price where some monomials occur already."""
+def _price_beside(option: _Option, uses: Counter[TrigMonomial]) -> float:
+    """The price where other coefficients are written with some monomials."""
     terms = zip(option.items, option.trig_prices, strict=True)
-    return option.price - SHARED * sum(price for (mono, _), price in terms if mono in common)
+    return option.price - SHARED * sum(price for (mono, _), price in terms if uses[mono])
 
 
 def _angle_price(multiples: Multiples) -> int:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations_with_replacement
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
@@ -16,6 +17,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working import squares
@@ -24,10 +26,11 @@ from dynsolve.explain.working.expansion import is_trigonometric
 from dynsolve.explain.working.identities import Identity, identities, pythagoras, said
 from dynsolve.explain.working.kinetic import MOST_GROUPS, without_signs
 from dynsolve.explain.working.other_axes import turned_name, turning_line
+from dynsolve.explain.working.products import products_cancel
 from dynsolve.explain.working.proved import equals
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import negated, total
+from dynsolve.notation.build import factors_of, negated, number_in_front, times, total
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
@@ -108,7 +111,10 @@ def _along(context: Context, body: Body, velocity: Matrix) -> Products | None:
     components = [x for x in velocity.entries if not x.is_zero]
     if any(map(squares.has_roots, components)):
         return None
+    factor = _fraction(context, components)
+    components = [Expr(robot.ring, x.poly / factor.poly) for x in components]
     found = squares.turned(robot.ring, components)
+    mixed: Prose = () if found is None else _mixed_products(context, found)
     if found is not None:
         components = squares.exchanged(components, found)
     rows = [[squares.factor_of_rate(x, q.name) for q in robot.coordinates] for x in components]
@@ -117,8 +123,30 @@ def _along(context: Context, body: Body, velocity: Matrix) -> Products | None:
     used = dict.fromkeys(identity for entry in shown for identity in entry.used)
     if len(shown) < len(entries) or not used or (found is None and len(used) < 2):
         return None
-    turning = None if found is None else pythagoras(angle_node(found.pair.angle, robot.ring.names))
-    return Products(tuple(_lines(context, body, shown, turning)), tuple(used))
+    first: Prose = ()
+    if found is not None:
+        first = ("With ", *said([pythagoras(angle_node(found.pair.angle, robot.ring.names))]), *mixed)
+    return Products(tuple(_lines(context, body, shown, first, factor)), tuple(used))
+
+
+def _fraction(context: Context, components: Sequence[Expr]) -> Expr:
+    """The length that all components share, where a fraction goes with it: ½ l₂; 1 of decimals."""
+    ring = context.robot.ring
+    length = ring.one if is_numeric(context.robot) else squares.shared(ring, components).length
+    (coefficient,) = length.poly.coeffs()
+    return length if int(coefficient.q) != 1 else ring.one
+
+
+def _mixed_products(context: Context, found: squares.Turned) -> Prose:
+    """That the terms with s c cancel, if there are any in (U s + V c)(X s + Y c) + (U c - V s)(X c - Y s)."""
+    slopes = [
+        (squares.factor_of_rate(found.parts[0], q.name), squares.factor_of_rate(found.parts[1], q.name))
+        for q in context.robot.coordinates
+    ]
+    pairs = combinations_with_replacement(slopes, 2)
+    if all((u * y + v * x).is_zero for (u, v), (x, y) in pairs):
+        return ()
+    return products_cancel(context.robot.ring, found.pair)
 
 
 def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> _Entry | None:
@@ -162,10 +190,12 @@ def _has_sums(products: Node) -> bool:
 
 
 def _lines(
-    context: Context, body: Body, entries: Sequence[_Entry], turning: Identity | None
+    context: Context, body: Body, entries: Sequence[_Entry], first: Prose, factor: Expr
 ) -> Iterator[Line]:
-    """The products of the columns, where an identity leads to them, and these multiplied out."""
-    first: Prose = () if turning is None else ("With ", *said([turning]))
+    """The products of the columns, where an identity leads to them, and these multiplied out.
+
+    `first` is said of that identity; the factor is what is taken out of the columns.
+    """
     is_expanded = any(entry.multiplied != entry.products for entry in entries)
     plain = _matrix(context, [(entry.place, entry.products) for entry in entries])
     expanded = _matrix(context, [(entry.place, entry.multiplied) for entry in entries])
@@ -175,8 +205,9 @@ def _lines(
     )
     if all(matrix_width(context, matrix) <= WIDEST for _, matrix in stages):
         mass, columns = context.mass(body), letters.transposed_product(letters.jv(body))
+        front = factors_of(_in_front(context, [body.mass, factor * factor]))
         for by, matrix in stages:
-            whole = Product((context.show(body.mass), matrix))
+            whole = Product((*front, matrix))
             yield Line((*by, ":"), (equation(Product((mass, columns)), whole),))
         return
     by = first or ("The columns multiplied with each other",)
@@ -184,7 +215,12 @@ def _lines(
     by += (", then multiplied out",) if first and is_expanded else ()
     are_some_zero = any(entry.products == ZERO for entry in entries)
     by += (f" (the matrix is symmetric{', all other entries are 0' * are_some_zero}):",)
-    yield Line(by, tuple(_listed(context, body, entries, with_products=bool(first))))
+    yield Line(by, tuple(_listed(context, body, entries, factor, with_products=bool(first))))
+
+
+def _in_front(context: Context, scalars: Sequence[Expr]) -> Node:
+    """The product of scalars as it stands before a matrix: ¼ m₂ l₂²."""
+    return number_in_front(times(1, [(context.show(x), 1) for x in scalars if x != x.ring.one]))
 
 
 def _matrix(context: Context, entries: Sequence[tuple[tuple[int, int], Node]]) -> tree.Matrix:
@@ -195,9 +231,10 @@ def _matrix(context: Context, entries: Sequence[tuple[tuple[int, int], Node]]) -
 
 
 def _listed(
-    context: Context, body: Body, entries: Sequence[_Entry], *, with_products: bool
+    context: Context, body: Body, entries: Sequence[_Entry], factor: Expr, *, with_products: bool
 ) -> Iterator[Node]:
-    """The entries that are not zero from the start, one under another, a number as mass in front."""
+    """The entries that are not zero from the start, a number as mass and the factor in front of them."""
+    scalars = [body.mass] * body.mass.is_number + [factor * factor] * (factor != factor.ring.one)
     columns = letters.transposed_product(letters.jv(body))
     for entry in entries:
         if entry.products == ZERO:
@@ -205,9 +242,10 @@ def _listed(
         i, j = entry.place
         members = [entry.products] * with_products + [entry.multiplied]
         named: Node = columns
+        if scalars:
+            front = factors_of(_in_front(context, scalars))
+            members = [Product((*front, Parenthesized(member))) for member in members]
         if body.mass.is_number:
-            mass = context.show(body.mass)
-            members = [Product((mass, Parenthesized(member))) for member in members]
             named = Product((context.mass(body), columns))
         name = Entry(named, Row((Number(i + 1), Number(j + 1))))
         yield equation(name, *dict.fromkeys(members))

@@ -22,7 +22,7 @@ from dynsolve.explain.working.other_axes import turning_line
 from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import negated, number_in_front, split_sign, times, total
+from dynsolve.notation.build import factors_of, negated, number_in_front, split_sign, times, total
 from dynsolve.notation.tree import (
     Function,
     Negative,
@@ -70,20 +70,23 @@ def squared(context: Context, body: Body) -> Node:
     return _energy(context, body, factor, sum_of([Power(without_signs(x), Number(2)) for x in entries]))
 
 
-def _with_factor(context: Context, body: Body) -> tuple[Expr, Matrix]:
+def _with_factor(context: Context, body: Body) -> tuple[squares.Shared, Matrix]:
     """What the entries of v share, and what it is multiplied by; of decimals they share nothing."""
     ring, value = context.robot.ring, context.values[f"v{body.name}"]
-    factor = ring.one if is_numeric(context.robot) else squares.shared_factor(ring, value.entries)
-    return factor, value.map(lambda entry: Expr(ring, entry.poly / factor.poly))
+    if is_numeric(context.robot):
+        return squares.Shared(ring.one, ring.one), value
+    factor = squares.shared(ring, value.entries)
+    return factor, value.map(lambda entry: Expr(ring, entry.poly / factor.whole.poly))
 
 
-def _energy(context: Context, body: Body, factor: Expr, squares: Node) -> Node:
-    """½ m a² (...), a being the factor that is taken out of the squares."""
-    mass = context.show(body.mass)
-    if factor == factor.ring.one:
-        return Product((letters.HALF, mass, squares))
-    front = number_in_front(times(Fraction(1, 2), [(mass, 1), (context.show(factor), 2)]))
-    return Product((*(front.factors if isinstance(front, Product) else (front,)), squares))
+def _energy(context: Context, body: Body, factor: squares.Shared | None, added: Node) -> Node:
+    """½ m a² q̇² (...), a and q̇ being what is taken out of the squares."""
+    mass, one = context.show(body.mass), context.robot.ring.one
+    if factor is None or factor.whole == one:
+        return Product((letters.HALF, mass, added))
+    taken = [(context.show(part), 2) for part in (factor.length, factor.rate) if part != one]
+    front = number_in_front(times(Fraction(1, 2), [(mass, 1), *taken]))
+    return Product((*factors_of(front), added))
 
 
 def _written(context: Context, value: Matrix, form: tree.Matrix) -> tree.Matrix:
@@ -194,7 +197,7 @@ def _begun_along(context: Context, body: Body, i: int, way: Way) -> Way:
 
 
 def _from_components(
-    context: Context, body: Body, velocity: Matrix, factor: Expr | None = None
+    context: Context, body: Body, velocity: Matrix, factor: squares.Shared | None = None
 ) -> Way | None:
     """The lines from the squares of some components on; None where these do not come apart plainly.
 
@@ -221,7 +224,7 @@ def _from_components(
         lines += multiplied
         before = lines[-1][1] if lines else _sum_of_squares(context, components)
         concluding = collected(before, context.form(f"Kv{body.name}"))
-        last = _energy(context, body, factor or ring.one, lines[-1][1]) if lines else None
+        last = _energy(context, body, factor, lines[-1][1]) if lines else None
         if last is not None and to_unicode(last) == to_unicode(context.form(f"Kv{body.name}")):
             concluding = lines.pop()[0]
     return _chain(context, body, lines, concluding, factor)
@@ -232,13 +235,15 @@ def _chain(
     body: Body,
     lines: list[tuple[Prose, Node]],
     concluding: Prose,
-    factor: Expr | None = None,
+    factor: squares.Shared | None = None,
 ) -> Way:
     """The lines, each of them squares, as energies."""
-    name, shared = letters.energy_part("v", body), factor or context.robot.ring.one
+    name = letters.energy_part("v", body)
+    if concluding and body.mass.is_number:
+        concluding = (*concluding[:-1], f"{str(concluding[-1]).removesuffix(':')}; the numbers multiplied:")
     return chain(
         context.values[f"Kv{body.name}"],
-        [(by, _energy(context, body, shared, tree)) for by, tree in lines],
+        [(by, _energy(context, body, factor, tree)) for by, tree in lines],
         lambda tree: equation(name, tree),
         concluding,
     )

@@ -16,7 +16,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.other_axes import turned_name
-from dynsolve.explain.working.products import used_in_product
+from dynsolve.explain.working.products import cancelled_in_product, used_in_product
 from dynsolve.explain.writing import block_of
 from dynsolve.notation.tree import Letter, Node, Parenthesized, Product, Transpose, equation
 from dynsolve.quantities import letters
@@ -94,6 +94,7 @@ def _made_of(context: Context, body: Body, seen: Matrix) -> Prose:
 
 
 def _with(context: Context, R: Matrix, value: Matrix) -> Prose:
-    """, with s₁² + c₁² = 1"""
+    """, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel)"""
     used = used_in_product(context, R.T, value, R.T @ value)
-    return (", with ", *said(used)) if used else ()
+    named: Prose = (", with ", *said(used)) if used else ()
+    return (*named, *cancelled_in_product(context, R.T, value))

@@ -10,7 +10,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -58,19 +58,37 @@ def parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
     return (Expr(x.ring, a), Expr(x.ring, b)) if poly == a * s + b * c else None
 
 
-def shared_factor(ring: Ring, components: Sequence[Expr]) -> Expr:
-    """The length, with its number, that all components share: ½ l₂ of l₂ s₁ q̇₁/2 and l₂ c₁ q̇₁/2; else 1."""
+@dataclass(frozen=True, slots=True)
+class Shared:
+    """What all components of a velocity share: ½ l₂ and q̇₁ of l₂ s₁ q̇₁/2 and l₂ c₁ q̇₁/2; 1 for nothing."""
+
+    length: Expr
+    rate: Expr
+
+    @property
+    def whole(self) -> Expr:
+        """The length times the rate."""
+        return self.length * self.rate
+
+
+def shared(ring: Ring, components: Sequence[Expr]) -> Shared:
+    """The powers of lengths, with the number before them, and of rates that all components share."""
     terms = [term for x in components for term in x.poly.to_dict().items()]
-    lengths = [g for g in ring.generators if g.kind == "symbol" and g.name in ring.parameters]
-    powers = {g.index: min((int(exponents[g.index]) for exponents, _ in terms), default=0) for g in lengths}
-    if not any(powers.values()):
-        return ring.one
-    numbers = [Fraction(int(c.p), int(c.q)) for _, c in terms]
-    number = Fraction(gcd(*(n.numerator for n in numbers)), lcm(*(n.denominator for n in numbers)))
-    factor = ring.one * number
-    for index, power in powers.items():
-        factor = factor * ring.generator(index) ** power
-    return factor
+
+    def common(generators: Iterable[Generator]) -> Expr:
+        product = ring.one
+        for g in generators:
+            power = min((int(exponents[g.index]) for exponents, _ in terms), default=0)
+            product = product * ring.generator(g.index) ** power
+        return product
+
+    symbols = [g for g in ring.generators if g.kind == "symbol"]
+    length = common(g for g in symbols if g.name in ring.parameters)
+    if length != ring.one:
+        numbers = [Fraction(int(c.p), int(c.q)) for _, c in terms]
+        above, below = zip(*((n.numerator, n.denominator) for n in numbers), strict=True)
+        length = length * Fraction(gcd(*above), lcm(*below))
+    return Shared(length, common(g for g in symbols if g.dots == 1))
 
 
 def exchanged(components: Sequence[Expr], found: Turned) -> list[Expr]:

@@ -117,6 +117,8 @@ def test_what_the_components_of_a_velocity_share_is_taken_out_of_the_squares() -
     crust, style = "crustcrawler-2r", solved("crustcrawler-2r").style
     (squares,) = (to_unicode(node, style) for node in step(crust, "Kv2").working)
     assert squares.startswith("K_v2 = ½ m₂ (L₂/2)² ((s₁ c₂ θ̇₁ + c₁ s₂ θ̇₂)² + ")
+    (with_rate,) = (to_unicode(node, style) for node in step("planar-2r", "Kv1").working)
+    assert with_rate == "K_v1 = ½ m₁ l_c1² q̇₁² (s₁² + c₁²)"
     (unshared,) = (to_unicode(node) for node in step("in3140-rp", "Kv2").working)
     assert unshared.startswith("K_v2 = ½ m₂ ((-L₂ sin(θ₁)")
     (decimal,) = (to_unicode(node) for node in step("numeric-2r", "Kv1").working)
@@ -164,7 +166,7 @@ def test_a_turned_vector_of_two_products_is_multiplied_out() -> None:
 
 def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None:
     found = lines("elbow-3r", "Kw2")
-    assert found[0] == "Along the body's own axes, with s₁² + c₁² = 1:"
+    assert found[0] == "Along the body's own axes, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):"
     assert found[1].endswith(" = [[s₂ θ̇₁], [c₂ θ̇₁], [θ̇₂]]")
     assert found[-3:] == [
         "Multiplied out:",
@@ -260,7 +262,9 @@ def test_the_columns_of_a_leaning_arm_are_multiplied_along_axes_in_which_that_is
     assert found[1].endswith(f" = {turned}")
     assert found[2] == "Their products:"
     assert found[3] == f"m 𝐉_v1ᵀ 𝐉_v1 = m ((𝐑₀^w)ᵀ 𝐉_v1)ᵀ ((𝐑₀^w)ᵀ 𝐉_v1) = m {turned}ᵀ {turned}"
-    assert found[4] == "With s₁² + c₁² = 1:" and found[-1] == "By s₂² + c₂² = 1:"
+    assert (
+        found[4] == "With s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):" and found[-1] == "By s₂² + c₂² = 1:"
+    )
     assert not step(TILTED, "D_direct1").working
     assert "√" not in "".join(found[2:])
 
@@ -281,7 +285,8 @@ def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -
     assert shown.startswith("(𝐑₀^w)ᵀ 𝛚₂ = [[1, 0, 0], [0, √3/2, -½], [0, ½, √3/2]]ᵀ [[")
     assert shown.endswith(" = [[s₁ q̇₂], [-c₁ q̇₂], [q̇₁]]")
     assert by == (
-        "From there along the body's own axes, by (𝐑₀^w)ᵀ 𝐑₂, the rotation of 𝐀₁ 𝐀₂, with s₁² + c₁² = 1:"
+        "From there along the body's own axes, by (𝐑₀^w)ᵀ 𝐑₂, the rotation of 𝐀₁ 𝐀₂, with s₁² + c₁² = 1 "
+        "(the terms with s₁ c₁ cancel):"
     )
     assert second == (
         "𝐑₂ᵀ 𝛚₂ = ((𝐑₀^w)ᵀ 𝐑₂)ᵀ (𝐑₀^w)ᵀ 𝛚₂ = [[c₁ c₂, -c₁ s₂, s₁], [s₁ c₂, -s₁ s₂, -c₁], [s₂, c₂, 0]]ᵀ"
@@ -361,7 +366,7 @@ def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
     (linear,) = (to_unicode(node, style) for node in part.working)
     assert linear.startswith("m₃ 𝐉_v3ᵀ 𝐉_v3 = m₃ [[")
     along, turned, put_in, angular, concluding = lines("elbow-3r", "Dw3")
-    assert along == "Along the body's own axes, with s₁² + c₁² = 1:"
+    assert along == "Along the body's own axes, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):"
     assert turned.endswith(" = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]")
     assert put_in == "The tensor along the same axes put in:"
     in_letters, product = "𝐉_ω3ᵀ 𝓘₃ 𝐉_ω3 = (𝐑₃ᵀ 𝐉_ω3)ᵀ 𝐈₃ (𝐑₃ᵀ 𝐉_ω3)", "[[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]"
@@ -375,8 +380,8 @@ def test_the_columns_of_a_jacobian_are_multiplied_by_one_identity_after_the_othe
     """s₁² + c₁² = 1 leaves products without θ₁; these are multiplied out; then come the other identities."""
     first, *entries = lines("elbow-3r", "D_direct3")[:5]
     assert first == (
-        "With s₁² + c₁² = 1, entry by entry, then multiplied out (the matrix is symmetric, all other "
-        "entries are 0):"
+        "With s₁² + c₁² = 1 (the terms with s₁ c₁ cancel), entry by entry, then multiplied out "
+        "(the matrix is symmetric, all other entries are 0):"
     )
     assert entries == [
         "(𝐉_v3ᵀ 𝐉_v3)₁₁ = (L₂ c₂ + l_c3 c₂₃)²",
@@ -393,7 +398,7 @@ def test_the_columns_of_a_jacobian_are_multiplied_by_one_identity_after_the_othe
 
 def test_narrow_products_of_columns_stand_in_a_matrix_and_trivial_ones_take_no_line() -> None:
     by, matrix, concluding = lines("spherical-rrp", "D_direct3")
-    assert (by, concluding) == ("With s₁² + c₁² = 1:", "By s₂² + c₂² = 1:")
+    assert (by, concluding) == ("With s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):", "By s₂² + c₂² = 1:")
     assert "d₃² s₂² + d₃² c₂², d₃ s₂ c₂ - d₃ s₂ c₂" in matrix
     assert lines("planar-2r", "D_direct1")[-1] == "Multiplied out, with s₁² + c₁² = 1:"
     assert "𝐉_v1" not in "".join(lines("planar-2r", "D_direct1"))
@@ -411,8 +416,22 @@ def test_a_mass_in_numbers_is_multiplied_last() -> None:
 def test_identities_of_cross_products_and_of_sums_of_energies_are_named() -> None:
     box = "box-cylinder-rod-sphere"
     assert lines(box, "Jv2") == ["With s₁² + c₁² = 1:"]
-    assert lines(box, "K")[::2] == ["", "Collected, with s₂² + c₂² = 1:"]  # after the plain sum
+    assert lines(box, "K")[::2] == ["", "Collected:"]  # s₂² is gone since the energy of body 2
     assert lines("planar-2r", "Jv2") == []
+
+
+def test_an_identity_leads_to_one_kind_of_square() -> None:
+    """(l₂² + b²) c₂² + 2b² s₂² as what one substitution makes of it: c₂² alone, as beside l₂²."""
+    box = "box-cylinder-rod-sphere"
+    *_, concluding = lines(box, "Kw2")
+    result = to_unicode(solved(box).forms("Kw2"), solved(box).style)
+    assert concluding == "By s₂² + c₂² = 1:"
+    assert result == "(1/24) m₂ ((2b² + (l₂² - b²) c₂²) θ̇₁² + (l₂² + b²) θ̇₂²)"
+
+
+def test_a_fraction_that_the_columns_share_stays_in_front_of_their_products() -> None:
+    _, matrix, _ = lines("crustcrawler-2r", "D_direct2")
+    assert matrix == "m₂ 𝐉_v2ᵀ 𝐉_v2 = ¼ m₂ L₂² [[c₂², 0], [0, s₂² + c₂²]]"
 
 
 def test_a_square_of_rates_is_opened_after_it_is_added() -> None:
