@@ -47,7 +47,7 @@ def agreement_step(context: Context) -> Step:
     )
     same = [name for name, holds in verdicts if holds]
     wrong = [name for name, holds in verdicts if not holds]
-    why: Prose = ()
+    why: Prose = ()  # after the rows that it speaks of
     if same:
         why += ("Read off and assembled directly: the same ", *listed(same), ".")
     if wrong:
@@ -56,9 +56,10 @@ def agreement_step(context: Context) -> Step:
         id="agreement",
         stage=STAGE,
         title="Both ways agree" if not wrong else "The two ways differ",
-        why=why,
+        why=("What was read off and what was assembled directly must be the same.",) if rows else why,
         source=spong("7.3"),
         lines=rows,
+        concluding=why if rows else (),
         uses=("christoffel", "C"),
         is_task=False,
     )

@@ -17,6 +17,7 @@ from math import gcd
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline
 from dynsolve.explain.abbreviations import RECURRING, Abbreviated, Index, free_names
+from dynsolve.explain.agreement import ROWS
 from dynsolve.explain.closing import rows_in_names
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import coriolis_matrix
@@ -158,7 +159,9 @@ def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abb
         "christoffel": lambda step: _christoffel(step, context, short),
         "C": lambda step: _by_names(_result_exchanged(step, {context.form("C"): short.C})),
         "model": lambda step: _model(step, context, short),
-        "agreement": lambda step: _by_names(replace(step, lines=coriolis_rows(context, short.symbol))),
+        "agreement": lambda step: _by_names(
+            replace(step, lines=coriolis_rows(context, short.symbol, label=ROWS))
+        ),
         "skew": lambda step: _skew(step, context, short),
         "terms": lambda step: _terms(step, context, short),
     }

@@ -72,8 +72,8 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}
 \renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-9pt plus -3pt}{2pt}{\normalsize\bfseries}}
 \newcommand\contentsrow[2]{\@dottedtocline{1}{0pt}{1.6em}{#1}{\pageref{#2}}}
-% A reference that the first run does not know yet is as wide as a number, so that pages stay where they are.
-\def\@setref#1#2#3{\ifx#1\relax\G@refundefinedtrue 00\@latex@warning{Reference `#3' undefined}%
+% A reference that the first run does not know is as wide as the last number: pages stay where they are.
+\def\@setref#1#2#3{\ifx#1\relax\G@refundefinedtrue\theequation\@latex@warning{Reference `#3' undefined}%
   \else\expandafter#2#1\null\fi}
 \makeatother
 \pagestyle{myheadings}

@@ -196,7 +196,7 @@ def test_a_long_list_of_zeros_is_not_printed() -> None:
 
 
 def test_what_agrees_is_said_in_a_sentence() -> None:
-    assert said(step("planar-2r", "agreement").why, "planar-2r") == (
+    assert said(step("planar-2r", "agreement").concluding, "planar-2r") == (
         "Read off and assembled directly: the same 𝐃, 𝐂 𝐪̇ and 𝐠."
     )
 

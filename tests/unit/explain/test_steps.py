@@ -245,7 +245,7 @@ def test_without_masses_it_ends_with_the_jacobian() -> None:
 
 
 def test_the_checks_are_shown() -> None:
-    assert said(step("planar-2r", "agreement").why, "planar-2r").endswith("the same 𝐃, 𝐂 𝐪̇ and 𝐠.")
+    assert said(step("planar-2r", "agreement").concluding, "planar-2r").endswith("the same 𝐃, 𝐂 𝐪̇ and 𝐠.")
     assert shown("planar-2r", "skew")[-1] == "𝐍 + 𝐍ᵀ = 𝟎"
 
 

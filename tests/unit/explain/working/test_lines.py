@@ -117,7 +117,7 @@ def test_what_the_components_of_a_velocity_share_is_taken_out_of_the_squares() -
     crust, style = "crustcrawler-2r", solved("crustcrawler-2r").style
     (squares,) = (to_unicode(node, style) for node in step(crust, "Kv2").working)
     assert squares.startswith("K_v2 = ½ m₂ (L₂/2)² ((s₁ c₂ θ̇₁ + c₁ s₂ θ̇₂)² + ")
-    (with_rate,) = (to_unicode(node, style) for node in step("planar-2r", "Kv1").working)
+    (with_rate,) = (to_unicode(node, solved("planar-2r").style) for node in step("planar-2r", "Kv1").working)
     assert with_rate == "K_v1 = ½ m₁ l_c1² q̇₁² (s₁² + c₁²)"
     (unshared,) = (to_unicode(node) for node in step("in3140-rp", "Kv2").working)
     assert unshared.startswith("K_v2 = ½ m₂ ((-L₂ sin(θ₁)")
