@@ -10,7 +10,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.sign import is_positive, with_lengths
+from dynsolve.explain.sanity.sign import sign_of
 from dynsolve.notation.tree import ZERO, Degrees, Negative, Node, Row, Words, equation
 from dynsolve.quantities import letters
 
@@ -47,9 +47,7 @@ def _zero(context: Context, k: int, known: Sequence[Zero]) -> Zero | None:
         return None
     (factor,) = turning
     beside = _put(value, {factor.index: 1})
-    positive, constant = with_lengths(context.robot), frozenset(ring.parameters)
-    has_a_sign = any(is_positive(context.show(each), positive, constant) for each in (beside, -beside))
-    if value != beside * ring.generator(factor.index) or not has_a_sign:
+    if value != beside * ring.generator(factor.index) or not sign_of(context, beside):
         return None
     return Zero(k, value, factor)
 

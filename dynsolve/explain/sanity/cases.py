@@ -12,7 +12,7 @@ from dynsolve.algebra.generators import Generator, Pair
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.pose import Pose, at, degrees, written
-from dynsolve.explain.sanity.sign import is_positive, with_lengths
+from dynsolve.explain.sanity.sign import sign_of
 from dynsolve.explain.step import Line
 from dynsolve.notation.tree import ZERO, Function, Node, Row, Symbol, Words, equation
 from dynsolve.quantities import letters
@@ -67,7 +67,7 @@ def _factors(context: Context, row: Expr) -> tuple[Generator, Generator] | None:
     first, second = turning
     beside = Expr(ring, row.poly.derivative(first.index).derivative(second.index))
     product = beside * ring.generator(first.index) * ring.generator(second.index)
-    is_whole = product == row and _has_a_sign(context, beside) and all(_name(g.angle) for g in turning)
+    is_whole = product == row and sign_of(context, beside) and all(_name(g.angle) for g in turning)
     return (first, second) if is_whole else None
 
 
@@ -80,27 +80,29 @@ def _branch(context: Context, factor: Generator, row: int, names: Sequence[str])
     for angle in (0, 180) if factor.kind == "sin" else (90, -90):
         here = {name: angle}
         value = at(context.robot.ring, context.values["g"][row, 0], here)
-        solved = _solved(context, value, left)
-        if solved is None:
+        found = solved(context, value, left)
+        if found is None:
             return None
-        said, angles = solved
+        said, angles = found
         both = Row((degrees(angles[0]), Words(" or "), degrees(angles[1])))
         zero = equation(letters.entry("g", row + 1), context.show(value), ZERO)
         where = (*written(here), Words(": "), zero, Words(", so "), said, Words(", "))
         formulas.append(Row((*where, equation(Symbol(left), both))))
-        poses += [{**here, left: found} for found in angles]
+        poses += [{**here, left: other} for other in angles]
     return _Branch(tuple(formulas), tuple(poses))
 
 
-def _solved(context: Context, value: Expr, name: str) -> tuple[Node, tuple[int, int]] | None:
+def solved(context: Context, value: Expr, name: str) -> tuple[Node, tuple[int, int]] | None:
     """The angle where a s + b c is 0: what follows for s, c or its tangent, and the two angles."""
     ring, q = context.robot.ring, Symbol(name)
-    pair = next(pair for pair in ring.pairs if _name(pair.angle) == name)
+    pair = next((pair for pair in ring.pairs if _name(pair.angle) == name), None)
+    if pair is None:
+        return None
     for index, zeros in ((pair.sine, (0, 180)), (pair.cosine, (90, -90))):
         beside = Expr(ring, value.poly.derivative(index))
-        if value == beside * ring.generator(index) and _has_a_sign(context, beside):
+        if value == beside * ring.generator(index) and sign_of(context, beside):
             return equation(context.show(ring.generator(index)), ZERO), zeros
-    if not (_is_linear(value, pair) and _has_a_sign(context, Expr(ring, value.poly.derivative(pair.sine)))):
+    if not (_is_linear(value, pair) and sign_of(context, Expr(ring, value.poly.derivative(pair.sine)))):
         return None
     for angle, tangent in _tangents(context):
         if at(ring, value, {name: angle}).is_zero:
@@ -126,12 +128,6 @@ def _is_linear(value: Expr, pair: Pair) -> bool:
     parts = [Expr(ring, value.poly.derivative(index)) for index in (pair.sine, pair.cosine)]
     total = parts[0] * ring.generator(pair.sine) + parts[1] * ring.generator(pair.cosine)
     return value == total and not any(map(ring.depends_on_coordinates, parts))
-
-
-def _has_a_sign(context: Context, value: Expr) -> bool:
-    """Whether a value is positive, or negative, whatever the pose."""
-    positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
-    return any(is_positive(context.show(each), positive, constant) for each in (value, -value))
 
 
 def _name(angle: Angle) -> str:

@@ -15,7 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.balance import Zero, at_zeros
 from dynsolve.explain.sanity.definite import determinant
 from dynsolve.explain.sanity.pose import Pose, at
-from dynsolve.explain.sanity.sign import is_positive, with_lengths
+from dynsolve.explain.sanity.sign import sign_of
 from dynsolve.notation.tree import (
     Negative,
     Node,
@@ -59,12 +59,7 @@ def _second(context: Context, names: Sequence[str], known: Sequence[Zero]) -> li
 
 def signs_of(context: Context, found: Sequence[Expr], pose: Pose) -> list[int]:
     """The sign of each minor in a pose: 1, -1, or 0 where it is not seen."""
-    return [_sign(context, at(context.robot.ring, minor, pose)) for minor in found]
-
-
-def _sign(context: Context, value: Expr) -> int:
-    positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
-    return next((sign for sign in (1, -1) if is_positive(context.show(value * sign), positive, constant)), 0)
+    return [sign_of(context, at(context.robot.ring, minor, pose)) for minor in found]
 
 
 def kind_of(signs: Sequence[int]) -> Kind | None:
@@ -90,7 +85,7 @@ def shown(context: Context, names: Sequence[str], known: Sequence[Zero] | None) 
         yield equation(*slopes, context.show(value))
     if known is None or len(names) == 1:
         return
-    letters_of = [[_slope(context, i, j) for j in names] for i in names]
+    letters_of = [[slope(context, i, j) for j in names] for i in names]
     last = context.show(minors(context, names, known)[-1])
     yield equation(DET, _determinant(letters_of), last)
 
@@ -106,16 +101,17 @@ def _by_value(
             if slopes is None:
                 slopes = []
                 found.append((value, slopes))
-            slopes.append(_slope(context, name, by))
+            slopes.append(slope(context, name, by))
     yield from found
 
 
 def slope_of_last(context: Context, names: Sequence[str]) -> Node:
     """∂g_n/∂q_n"""
-    return _slope(context, names[-1], names[-1])
+    return slope(context, names[-1], names[-1])
 
 
-def _slope(context: Context, row: str, by: str) -> Node:
+def slope(context: Context, row: str, by: str) -> Node:
+    """∂g_i/∂q_j, by the names of the coordinates."""
     place = context.robot.ring.names.index(row) + 1
     return letters.partial_derivative(letters.entry("g", place), Symbol(by))
 

@@ -1,7 +1,8 @@
-"""Where g is zero: in every pose, or in poses of quarter turns, hanging and upright among them.
+"""Where g is zero: in every pose, in none, or in poses of quarter turns, hanging and upright among them.
 
 Where g = 0 is solved row by row (`balance`), all poses are found; what P has there is read off its
 second derivatives (`curvature`).  Else those poses are told in which P surely has an extremum.
+Where a joint slides up and down, `sliding` has the answer.
 """
 
 from __future__ import annotations
@@ -11,16 +12,15 @@ from collections.abc import Sequence
 from dynsolve.algebra.matrix import cross
 from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Inline, Prose, Reference, Table
-from dynsolve.explain.closing import driving_side
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity import balance, cases, curvature
+from dynsolve.explain.sanity import balance, cases, curvature, sliding
+from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, these_alone, told
 from dynsolve.explain.sanity.curvature import Kind
 from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.writing import listed, side_by_side, spong
+from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.tree import Node, Row, Symbol, Words, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import JointType
 
 QUARTER_TURNS = (0, 90, 180, -90)
@@ -32,24 +32,13 @@ def equilibrium_step(context: Context) -> Step | None:
     if robot.gravity.is_zero or robot.given is not None or robot.actions.springs:
         return None
     if context.values["g"].is_zero:
-        return _step(_everywhere(context))
+        return told(_everywhere(context))
+    if (nowhere := sliding.nowhere(context)) is not None:
+        return nowhere
+    if _slides(context):
+        return sliding.at_one_length(context)
     zero = _balanced(context)
     return (_all_poses(context, zero) or _extrema(context, zero)) if zero else None
-
-
-def _step(why: Prose, lines: Sequence[Line] = (), concluding: Prose = (), table: Table | None = None) -> Step:
-    return Step(
-        id="equilibrium",
-        stage=Stage.VECTORIZED,
-        title="Check: where gravity is balanced",
-        why=why,
-        source=spong("7.2.3"),
-        lines=tuple(lines),
-        concluding=concluding,
-        table=table,
-        table_last=bool(lines),
-        is_task=False,
-    )
 
 
 def _everywhere(context: Context) -> Prose:
@@ -93,22 +82,15 @@ def _told_of_all(
     if len(kinds) != len(zero):
         return None
     shows = len(names) <= curvature.MOST_SHOWN
-    told = (
+    found = (
         (*_signs(each, shows), *_told(context, pose, kind))
         for pose, each, kind in zip(zero, signs, kinds, strict=True)
     )
-    table = tuple((side_by_side(written(pose)), *row) for pose, row in zip(zero, told, strict=True))
+    table = tuple((side_by_side(written(pose)), *row) for pose, row in zip(zero, found, strict=True))
     shown = (_second_derivatives(context, names, rows),) if shows else ()
-    concluding: Prose = (_all(zero), *_free(context, zero[0]), ". ", *_by_minors(context, names))
-    why = (*_at_rest(context), *_assumed(context), *_rows_of(context, rows))
-    return _step(why, (*lines, *shown), concluding, Table(_header(context, names), table))
-
-
-def _at_rest(context: Context) -> Prose:
-    """What an equilibrium is."""
-    at_rest = equation(driving_side(context), letters.bold("0"))
-    zero = equation(letters.G, letters.bold("0"))
-    return (f"In an equilibrium the {context.machine} stays at rest with ", at_rest, ", so ", zero, ". ")
+    concluding: Prose = (these_alone(len(zero)), *free(context, zero[0]), ". ", *_by_minors(context, names))
+    why = (*at_rest(context), *assumed(context), *_rows_of(context, rows))
+    return told(why, (*lines, *shown), concluding, Table(_header(context, names), table))
 
 
 def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:
@@ -160,22 +142,6 @@ def _signs(signs: Sequence[int], shows: bool) -> tuple[str, ...]:
     return tuple({1: "> 0", 0: "", -1: "< 0"}[sign] for sign in signs) if shows else ()
 
 
-def _all(zero: Sequence[Pose]) -> str:
-    return (
-        f"Gravity is balanced in {'this pose' if len(zero) == 1 else 'these poses'} alone (up to full turns)"
-    )
-
-
-def _assumed(context: Context) -> Prose:
-    return ("Let all parameters be positive. ",) if context.robot.parameters else ()
-
-
-def _free(context: Context, pose: Pose) -> Prose:
-    """The coordinates that g does not depend on."""
-    free = [Symbol(q.name) for q in context.robot.coordinates if q.name not in pose]
-    return (", whatever ", *listed(free), " is" if len(free) == 1 else " are") if free else ()
-
-
 def _told(context: Context, pose: Pose, kind: Kind) -> tuple[Inline, Inline]:
     """What P has in a pose, and how stable that is."""
     whole = len(pose) == context.robot.n
@@ -217,9 +183,9 @@ def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
     ]
     if not rows:
         return None
-    why = (*_assumed(context), equation(letters.G, letters.bold("0")))
-    why += (" in this pose" if len(rows) == 1 else " in these poses", *_free(context, zero[0]), ":")
-    return _step(why, table=Table(("pose", "potential energy", "equilibrium"), tuple(rows)))
+    why = (*assumed(context), equation(letters.G, letters.bold("0")))
+    why += (" in this pose" if len(rows) == 1 else " in these poses", *free(context, zero[0]), ":")
+    return told(why, table=Table(("pose", "potential energy", "equilibrium"), tuple(rows)))
 
 
 def _kind(context: Context, pose: Pose) -> Kind | None:
@@ -227,16 +193,11 @@ def _kind(context: Context, pose: Pose) -> Kind | None:
     return curvature.kind_of(curvature.signs_of(context, curvature.minors(context, list(pose)), pose))
 
 
-def balanced_poses(context: Context) -> dict[Kind, Pose]:
-    """A pose of quarter turns in which P surely has a minimum, a maximum, a saddle point."""
-    return {kind: pose for pose in _balanced(context) if (kind := _kind(context, pose)) is not None}
-
-
 def _balanced(context: Context) -> list[Pose]:
-    """The poses of quarter turns in which g is zero; none where a length changes the potential energy."""
+    """The poses of quarter turns in which g is zero."""
     g = context.values["g"].entries
     names = turning_in(context.robot, *g)
-    if not names or _slides(context):
+    if not names:
         return []
     return [pose for pose in poses(names, QUARTER_TURNS) if all(at(x.ring, x, pose).is_zero for x in g)]
 

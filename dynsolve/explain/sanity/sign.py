@@ -8,6 +8,7 @@ not said.
 from __future__ import annotations
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.explain.context import Context
 from dynsolve.notation.tree import (
     Function,
     Node,
@@ -93,3 +94,9 @@ def is_positive(node: Node, positive: Names, constant: Names) -> bool:
         case Parenthesized(argument) | Function("sqrt", argument):
             return is_positive(argument, positive, constant)
     return isinstance(node, Symbol) and is_nonnegative(node, positive)
+
+
+def sign_of(context: Context, value: Expr) -> int:
+    """The sign of a value in every pose, lengths positive: 1 or -1; 0 where none is seen."""
+    positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
+    return next((sign for sign in (1, -1) if is_positive(context.show(value * sign), positive, constant)), 0)
