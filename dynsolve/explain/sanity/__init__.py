@@ -3,7 +3,7 @@
     conserved     how the energy changes, and the momentum of a coordinate that does not appear in L
     definite      D is positive definite, by its diagonal and its determinants or body by body
     inertia_poses the moments of inertia on the diagonal of D, the arm stretched and folded
-    equilibrium   the poses in which g is zero, hanging and upright among them
+    equilibrium   the poses in which g is zero, hanging and upright among them, or that there are none
     point_masses  D without the moments of inertia of the bodies, and what is left over
     dependence    the coordinates on which D cannot depend, and its constant entry
     unloaded      the joints that gravity does not load
@@ -15,7 +15,9 @@ They are made of
     sign          a formula that is positive for positive masses, moments and lengths
     balance       how g = 0 is solved, row by row
     cases         how it is solved where a row has two factors
+    sliding       how it is solved where a joint slides up and down
     curvature     what P has there, by the minors of its second derivatives
+    at_rest       what is said of every equilibrium
 
 Of longer arms those are done that read off a result what its pages hide: a coordinate that is
 cyclic, on what D depends, entries of g that are zero.
@@ -53,7 +55,9 @@ CHECKS = (
     Check("conserved", "the model follows from energies, or a coordinate is cyclic", conserved_step),
     Check("definite", "D is seen to be definite for positive masses", definite_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
-    Check("equilibrium", "gravity is balanced everywhere, or in some poses", equilibrium_step),
+    Check(
+        "equilibrium", "gravity is balanced everywhere, nowhere, or in some poses", equilibrium_step
+    ),
     Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
 )
 """All checks of short arms, in the order in which they are shown."""
