@@ -55,9 +55,7 @@ CHECKS = (
     Check("conserved", "the model follows from energies, or a coordinate is cyclic", conserved_step),
     Check("definite", "D is seen to be definite for positive masses", definite_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
-    Check(
-        "equilibrium", "gravity is balanced everywhere, nowhere, or in some poses", equilibrium_step
-    ),
+    Check("equilibrium", "gravity is balanced everywhere, nowhere, or in some poses", equilibrium_step),
     Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
 )
 """All checks of short arms, in the order in which they are shown."""
