@@ -321,17 +321,22 @@ def _right_frame(context: Context, link: int) -> Iterator[Prose]:
 def _base_tensor(context: Context, body: Body) -> Step:
     name, R = letters.base_tensor(letters.index_of(body.name)), letters.of_body("R", body, "bold")
     turning, base = turning_of(context, body, R), context.form(f"I{body.name}")
+    detail = _detail(context, body, base)
+    leads: Prose = (R, f" leads from the body's axes to those of the {context.ground}.")
+    if detail is Detail.FULL:
+        leads += (
+            " Below the energy is worked out along the body's own axes, where the tensor is ",
+            letters.tensor(context.robot, body),
+            ".",
+        )
+    else:
+        told = f" will be written in {context.ground} coordinates, so the tensor must be, too: "
+        leads = (letters.of_body("omega", body, "bold"), told, *leads)
     return Step(
         id=f"I{body.name}",
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
-        why=(
-            letters.of_body("omega", body, "bold"),
-            f" will be written in {context.ground} coordinates, so the tensor must be, too: ",
-            R,
-            f" leads from the body's axes to those of the {context.ground}.",
-            *turning.why,
-        ),
+        why=(*leads, *turning.why),
         formula=equation(name, Product((R, letters.tensor(context.robot, body), Transpose(R)))),
         source=spong("7.2.1"),
         working=tuple(equation(name, line) for line in turning.lines),
@@ -339,7 +344,7 @@ def _base_tensor(context: Context, body: Body) -> Step:
         result=(equation(name, *((turning.same,) if turning.same else ()), base),),
         notes=turning.notes,
         uses=(f"I_body{body.name}",) if _is_kept(context, body) else None,
-        detail=_detail(context, body, base),
+        detail=detail,
     )
 
 

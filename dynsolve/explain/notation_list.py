@@ -236,7 +236,9 @@ def _numbers(style: Style) -> Iterator[Inline]:
     if not style.digits:
         return
     yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
-    yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. "
+    yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands "
+    yield "behind a number, and behind a matrix of which all entries have it; any other formula has that of "
+    yield "its left side. "
 
 
 def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:

@@ -4,7 +4,8 @@ A number that ends within the digits of the report is written whole, and = stand
 rounded where it is printed, and ≈ stands between the members of an equation of which one is rounded.
 
 A result that is a number alone has its unit behind it, and so has a matrix whose entries are all measured
-in one.  A formula of several factors or terms has none: its signs have theirs in the list of notation.
+in one.  A formula of several factors or terms has none: the unit is that of its left side in the list of
+notation, which says so.
 """
 
 from __future__ import annotations

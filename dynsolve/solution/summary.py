@@ -11,7 +11,7 @@ from dynsolve.document import Block, Equations, Formula, Heading, Prose, Referen
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.inertia_names import INERTIAS
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.symbol_names import NAMES
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import equation
@@ -25,7 +25,12 @@ _MATRICES = ("D", "C", "friction", "g")
 
 
 def summary_blocks(
-    robot: Robot, steps: Sequence[Step], short: Abbreviated | None = None, *, is_short: bool = True
+    robot: Robot,
+    steps: Sequence[Step],
+    detail: Detail,
+    short: Abbreviated | None = None,
+    *,
+    is_short: bool = True,
 ) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
 
@@ -42,9 +47,7 @@ def summary_blocks(
     yield Formula(model.formula, source=model.source)
     if not is_short:
         number = list(stages_of(robot)).index(model.stage) + 1
-        symbols: Prose = ("the Christoffel symbols of ", letters.C, Reference(("christoffel",)))
-        matrices = listed([(letters.D, Reference(("D",))), symbols, (letters.G, Reference(("g",)))])
-        yield Text((*matrices, f" are those of section {number}."))
+        yield Text(_where_they_are(f" are those of section {number}", by_id["christoffel"].detail <= detail))
         return
     found = Reference(_MATRICES, ", ")
     if model.result:
@@ -66,6 +69,22 @@ def summary_blocks(
         lead = "Row by row" if len(forces) > 1 else "Multiplied out"
         yield Text((lead, Reference(tuple(forces), ", "), ":"))
         yield Equations(tuple(by_id[name].result[0] for name in forces))
+
+
+def _where_they_are(place: str, with_symbols: bool) -> Prose:
+    """Where D, C and g of a long model are; C is its Christoffel symbols, where these are shown."""
+    D, g = (letters.D, Reference(("D",))), (letters.G, Reference(("g",)))
+    if not with_symbols:
+        return (
+            *listed([D, g]),
+            f"{place}; ",
+            letters.C,
+            " follows from ",
+            letters.D,
+            " as it is told there.",
+        )
+    symbols = ("the Christoffel symbols of ", letters.C, Reference(("christoffel",)))
+    return (*listed([D, symbols, g]), f"{place}.")
 
 
 def _results(by_id: Mapping[str, Step], names: Sequence[str]) -> Iterator[Formula]:

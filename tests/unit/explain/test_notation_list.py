@@ -325,6 +325,13 @@ def test_units_of_entries_are_those_for_angles_where_there_are_lengths_too(probl
     assert (rule in said) if told else ("listed for angles" not in said)
 
 
+def test_in_numbers_it_is_said_which_formulas_have_a_unit() -> None:
+    solution = solved("numeric-2r")
+    remarks = notation(solution.robot, solution.style, document("numeric-2r").blocks).remarks
+    text = "".join(part for part in remarks if isinstance(part, str))
+    assert "A unit stands behind a number, and behind a matrix of which all entries have it; " in text
+
+
 def test_the_entries_of_the_parameters_are_not_lengths_of_the_table() -> None:
     """With a_i in the table, entry i of the parameters is (a)_i."""
     (step,) = (step for step in solved("rp-parameters").steps if step.id == "a")

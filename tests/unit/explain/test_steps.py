@@ -314,3 +314,29 @@ def test_levels_of_detail() -> None:
     assert levels["D"] is Detail.BRIEF and levels["Kv1"] is Detail.NORMAL
     assert levels["D_direct1"] is Detail.NORMAL  # the products of short arms alone
     assert "D_direct1" not in {each.id for each in solved("stanford-6").steps}
+
+
+@pytest.mark.parametrize(
+    ("problem", "body", "told"),
+    [
+        ("in3140-rp", "1", " will be written in base coordinates, so the tensor must be, too"),  # used
+        ("elbow-3r", "2", "Below the energy is worked out along the body's own axes"),  # in full alone
+    ],
+)
+def test_what_the_tensor_along_the_base_is_for(problem: str, body: str, told: str) -> None:
+    """Where K_ω is ½ (Rᵀω)ᵀ I (Rᵀω), the tensor along the axes of the base is an aside."""
+    said = step(problem, f"I{body}").why
+    text = "".join(part if isinstance(part, str) else to_unicode(part) for part in said)
+    assert told in text
+
+
+@pytest.mark.parametrize(
+    ("problem", "told"),
+    [
+        ("in3140-rp", " A point mass has no second term."),
+        ("planar-2r", ""),
+        ("crustcrawler-2r", ""),  # the bodies are named, and no sum over i is written
+    ],
+)
+def test_of_the_total_kinetic_energy_it_is_said_what_points_have_not(problem: str, told: str) -> None:
+    assert step(problem, "K").why == (f"The sum over the bodies.{told}",)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.document import Document, Equations, Fold, Formula, Reference, Text
+from dynsolve.explain.step import Detail
 from dynsolve.notation.tree import Symbol, equation
 from dynsolve.render import html, markdown, terminal
 from dynsolve.render.references import numbered
@@ -64,3 +65,10 @@ def test_the_summary_of_a_long_model_refers_to_its_matrices() -> None:
     number, text = numbered(document), markdown.render(document)
     for id in ("D", "christoffel", "g"):
         assert f"$ ({number[id]})" in text.split("Summary")[-1]
+
+
+def test_in_brief_the_summary_of_a_long_model_speaks_of_no_symbols_for_there_are_none() -> None:
+    said = markdown.render(solution_document(solved("stanford-6"), Detail.BRIEF)).split("Summary")[-1]
+    assert (
+        "Christoffel" not in said and r"$\mathbf{C}$ follows from $\mathbf{D}$ as it is told there." in said
+    )
