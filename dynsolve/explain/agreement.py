@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.agreement import agreement
 from dynsolve.document import Prose, Reference
@@ -35,11 +38,16 @@ ROWS = "Cqd-rows"
 """The label of the rows of C q̇ that are compared."""
 
 
+def compared_rows(context: Context, named: Callable[[int, int, int], Node] | None = None) -> tuple[Line, ...]:
+    """The rows of C q̇ by the Christoffel symbols, with a number; what they are, the step's text says."""
+    return tuple(replace(line, by=(), label=ROWS) for line in coriolis_rows(context, named))
+
+
 def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
     agreed = context.agreement or agreement(context.robot, context.values)
     coriolis = Product((letters.C, letters.QD))
-    rows = coriolis_rows(context, label=ROWS) if agreed.coriolis else ()
+    rows = compared_rows(context) if agreed.coriolis else ()
     verdicts = (
         ((letters.D, Reference(("D", "D_sum"), " in ")), agreed.inertia),
         ((coriolis, Reference(("Cqd", ROWS if rows else "C"), " in ")), agreed.coriolis),
@@ -56,7 +64,7 @@ def agreement_step(context: Context) -> Step:
         id="agreement",
         stage=STAGE,
         title="Both ways agree" if not wrong else "The two ways differ",
-        why=("What was read off and what was assembled directly must be the same.",) if rows else why,
+        why=("The rows of ", coriolis, ", multiplied out:") if rows else why,
         source=spong("7.3"),
         lines=rows,
         concluding=why if rows else (),

@@ -17,7 +17,7 @@ from math import gcd
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline
 from dynsolve.explain.abbreviations import RECURRING, Abbreviated, Index, free_names
-from dynsolve.explain.agreement import ROWS
+from dynsolve.explain.agreement import compared_rows
 from dynsolve.explain.closing import rows_in_names
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import coriolis_matrix
@@ -27,7 +27,7 @@ from dynsolve.explain.recurring import Definition
 from dynsolve.explain.short_arms import is_short
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
-from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
+from dynsolve.explain.working.derivatives import inertia_rate
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.printing import flat_factors
@@ -159,9 +159,7 @@ def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abb
         "christoffel": lambda step: _christoffel(step, context, short),
         "C": lambda step: _by_names(_result_exchanged(step, {context.form("C"): short.C})),
         "model": lambda step: _model(step, context, short),
-        "agreement": lambda step: _by_names(
-            replace(step, lines=coriolis_rows(context, short.symbol, label=ROWS))
-        ),
+        "agreement": lambda step: _by_names(replace(step, lines=compared_rows(context, short.symbol))),
         "skew": lambda step: _skew(step, context, short),
         "terms": lambda step: _terms(step, context, short),
     }

@@ -237,7 +237,7 @@ def step_blocks(
 
     `inputs` are the labels of what its result is computed from, as are the `uses` of its lines.
     """
-    if detail > Detail.BRIEF and step.why:
+    if detail > Detail.BRIEF and step.why and not _opens_way(step):
         yield Text(step.why)
     if detail > Detail.BRIEF and step.figure and drawn and (picture := drawn(step.figure)):
         yield picture
@@ -266,8 +266,14 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
         yield Formula(step.formula, step.source)
     for formula in step.further:
         yield Formula(formula, optional=True)
-    following = tuple(_leading_on(step))
+    following = (*((Text(step.why),) if _opens_way(step) else ()), *_leading_on(step))
     yield from _with_uses(following, inputs) if inputs else following
+
+
+def _opens_way(step: Step) -> bool:
+    """Whether what is said of a step leads on to its first line, and so names what goes in there."""
+    opened = bool(step.lines) and not step.lines[0].by and not step.working
+    return opened and step.formula is None and step.table is None and leads_on(step.why)
 
 
 def _leading_on(step: Step) -> Iterator[Block]:

@@ -97,24 +97,28 @@ def _collected(used: Sequence[Identity]) -> Prose:
     return ("Collected, with ", *said(used), ":") if used else ("Collected:",)
 
 
+MOST_AT_A_LOOK = 2
+"""The terms of a potential energy whose derivatives are a look, if no product rule is needed."""
+
+
 def gravity_rows(context: Context) -> tuple[Line, ...]:
     """g_k = ∂P/∂q_k as it is differentiated, and collected, where one of them asks for more than a look."""
     if not context.is_short:
         return ()
     P, g, decimal = context.form("P"), context.matrix("g"), is_numeric(context.robot)
+    has_few_terms = not isinstance(P, Sum) or len(P.terms) <= MOST_AT_A_LOOK
     rows: list[Node] = []
     used: dict[Identity, None] = {}
     for q, (form,) in zip(context.robot.coordinates, g.rows, strict=True):
         value = context.values["g"][q.index - 1, 0]
-        tree = differentiated(P, by_symbol(Symbol(q.name)), decimal=decimal).tree
-        if are_alike(tree, form):
+        slope = differentiated(P, by_symbol(Symbol(q.name)), decimal=decimal)
+        if are_alike(slope.tree, form) or (has_few_terms and not slope.by_product_rule):
             continue
-        found = identities(value.ring, tree, form)
-        if found is None or not equals(tree, value):
+        found = identities(value.ring, slope.tree, form)
+        if found is None or not equals(slope.tree, value):
             return ()
         used |= dict.fromkeys(found)
-        slope = letters.partial_derivative(letters.P, Symbol(q.name))
-        rows.append(equation(letters.entry("g", q.index), slope, tree, form))
+        rows.append(equation(letters.entry("g", q.index), slope.tree, form))
     if not rows:
         return ()
     by: Prose = ("Term by term, and collected", *((" with ", *said(list(used))) if used else ()), ":")
@@ -225,9 +229,7 @@ def coriolis_sums(context: Context) -> tuple[Line, ...]:
     return (Line(("The sums, without what is zero:",), tuple(shown)),)
 
 
-def coriolis_rows(
-    context: Context, named: Callable[[int, int, int], Node] | None = None, label: str = ""
-) -> tuple[Line, ...]:
+def coriolis_rows(context: Context, named: Callable[[int, int, int], Node] | None = None) -> tuple[Line, ...]:
     """(C q̇)_k = Σ c_ijk q̇_i q̇_j, row by row, those that are not zero; `named` has other names for c_ijk."""
     n, robot = context.robot.n, context.robot
     if not context.is_short or context.values["C"].is_zero:
@@ -249,7 +251,7 @@ def coriolis_rows(
             )
             shown.append(equation(whole, by_symbols, value))
     by = f"{'The rows of ' if n > 1 else ''}"
-    return (Line((by, product, ", multiplied out:"), tuple(shown), label=label),)
+    return (Line((by, product, ", multiplied out:"), tuple(shown)),)
 
 
 def _in_the_order_of(value: Node, terms: Mapping[tuple[int, int], Node]) -> list[tuple[int, int]]:

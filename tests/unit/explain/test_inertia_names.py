@@ -70,8 +70,8 @@ def test_results_in_names_mean_the_same(problem: str, name: str) -> None:
 
 
 @pytest.mark.parametrize(("problem", "name", "row"), [
-    (BOX, "g", "g₂ = ∂𝒫/∂θ₂ = m₂ g l₂ c₂/2 + m₃ g (d₃ - l₃/2) c₂ + m₄ g d₃ c₂ = g (m₂ l₂/2 + σ₃) c₂"),
-    (BOX, "g", "g₃ = ∂𝒫/∂d₃ = m₃ g s₂ + m₄ g s₂ = g (m₃ + m₄) s₂"),
+    (BOX, "g", "g₂ = m₂ g l₂ c₂/2 + m₃ g (d₃ - l₃/2) c₂ + m₄ g d₃ c₂ = g (m₂ l₂/2 + σ₃) c₂"),
+    (BOX, "g", "g₃ = m₃ g s₂ + m₄ g s₂ = g (m₃ + m₄) s₂"),
     ("spherical-rrp", "D_sum", "d₁₁ = I₁ + m₂ l_c2² c₂² + I₂ c₂² + m₃ d₃² c₂² = I₁ + σ₁ c₂²"),
     ("spherical-rrp", "D_sum", "d₂₂ = m₂ l_c2² + I₂ + m₃ d₃² = σ₁"),
 ])  # fmt: skip
