@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
@@ -9,6 +11,7 @@ from dynsolve.explain.writing import spong
 from dynsolve.notation.tree import Letter, Node, Product, Row, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
 
 
 def motion(axis: str, amount: Node, turns: bool) -> Node:
@@ -52,5 +55,15 @@ def base_step(context: Context) -> Step:
         formula=equation(H, Product(factors) if len(factors) > 1 else factors[0]) if is_whole else None,
         source=spong("2.7"),
         result=(equation(H, context.form("H0")),),
+        notes=tuple(_matters_to(robot)),
         detail=Detail.BRIEF,
     )
+
+
+def _matters_to(robot: Robot) -> Iterator[Prose]:
+    """Where frame 0 is turned against gravity: which of the results depend on how."""
+    if robot.bodies and robot.base_rotation @ robot.gravity != robot.gravity:
+        yield (
+            "How the base is turned matters to the potential energy and the gravity terms alone: a constant "
+            "rotation leaves lengths unchanged, so speeds may be taken along the axes of frame 0.",
+        )

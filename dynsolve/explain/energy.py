@@ -9,12 +9,14 @@ from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
+from dynsolve.explain.jacobian import is_told_how_read_off
 from dynsolve.explain.jacobian_columns import (
     BESIDE,
     ZERO,
     coordinate_column,
     crosses,
     end_of,
+    how_read_off,
     parallel,
     read_off,
 )
@@ -66,7 +68,7 @@ def steps(context: Context) -> Iterator[Step]:
     springs, rotors = acting_steps(context)
     yield from springs
     yield _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
-    told = read = False
+    told, read = False, is_told_how_read_off(context)
     for body in bodies:
         jacobians = _jacobians(context, body) if context.robot.has_table else jacobians_step(context, body)
         if not read and (way := _read_off(context, body)):
@@ -169,10 +171,11 @@ def _jacobians(context: Context, body: Body) -> Step:
 
 
 def _read_off(context: Context, body: Body) -> Prose:
-    """How the columns of which no product is shown are read off."""
+    """How the columns of which no product is shown are read off, where those of the end do not tell."""
     if not (context.is_short and context.robot.has_table) or _is_at_the_end(context, body):
         return ()
-    return read_off(context, body.link, context.values[f"rc{body.name}"])
+    joint = read_off(context, body.link, context.values[f"rc{body.name}"])
+    return () if joint is None else (" ", *how_read_off(context, joint), ".")
 
 
 def _zero_column(context: Context, body: Body) -> Prose:

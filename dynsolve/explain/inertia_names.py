@@ -62,8 +62,8 @@ DERIVATIVES = "inertia-derivatives"
 _COLLECTED = frozenset({"D_sum", "g"})
 """The steps that are worked out anew from what stands before the names, and end in these."""
 
-_DIFFERENTIATED = re.compile(r"ddt\d|dLdq\d|christoffel")
-"""The steps in which a named sum is differentiated."""
+_DIFFERENTIATED = re.compile(r"ddt\d|christoffel")
+"""The steps that differentiate what they are written in, by the time or by all coordinates."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,11 +76,15 @@ class _Exchange:
 
 @dataclass(frozen=True, slots=True)
 class InertiaNames:
-    """The definitions in order, their derivatives by the coordinates, and the formulas in these names."""
+    """The definitions in order, their derivatives by the coordinates, and the formulas in these names.
+
+    `by` are the coordinates, from 1, that the named sums depend on.
+    """
 
     definitions: tuple[Definition, ...] = ()
     slopes: tuple[Relation, ...] = ()
     exchanges: tuple[_Exchange, ...] = ()
+    by: frozenset[int] = frozenset()
 
     def put(self, node: Node) -> Node:
         """The tree with the names in the places of what they mean.
@@ -113,8 +117,8 @@ class InertiaNames:
         for step in steps:
             named = step.id == "K" or (step.stage in _AFTER and step.id not in _BODY_BY_BODY)
             written = self._in_step(step) if named else step
-            if self._names_in(written.result):
-                written = replace(written, names=(*written.names, *self._used_in(step)))
+            if named:
+                written = replace(written, names=(*written.names, *self._used_in(written)))
             if written != step and not defined:
                 defined = True
                 written = self._defining(step, written)
@@ -122,9 +126,12 @@ class InertiaNames:
 
     def _used_in(self, step: Step) -> Iterator[str]:
         """The labels of what a step needs to be written in the names."""
-        if self.slopes and _DIFFERENTIATED.match(step.id):
+        in_names = self._names_in(step.result)
+        if step.id in {f"dLdq{k}" for k in self.by} or (
+            self.slopes and in_names and _DIFFERENTIATED.match(step.id)
+        ):
             yield DERIVATIVES
-        elif step.id in _COLLECTED:
+        elif in_names and step.id in _COLLECTED:
             yield INERTIAS
 
     def _defining(self, step: Step, written: Step) -> Step:
@@ -282,7 +289,10 @@ def _with_slopes(forms: Forms, found: Sequence[Definition], names: Iterator[Symb
             if isinstance(tree, Sum):
                 exchanges.append(_Exchange(frozenset(tree.terms), name))
     return InertiaNames(
-        definitions, tuple(equation(*left, right) for right, left in equal.items()), tuple(exchanges)
+        definitions,
+        tuple(equation(*left, right) for right, left in equal.items()),
+        tuple(exchanges),
+        frozenset(forms.robot.ring.names.index(slope.by.name) + 1 for slope in slopes),
     )
 
 

@@ -17,7 +17,9 @@ from dynsolve.explain.jacobian_columns import (
     coordinate_column,
     end_of,
     frame_parts,
+    how_read_off,
     joints_moved,
+    read_off,
     used_in_cross,
 )
 from dynsolve.explain.step import Detail, Step
@@ -66,6 +68,7 @@ def _axes(context: Context) -> Step:
         stage=STAGE,
         title="Axes and origins of the frames",
         why=(
+            *_purpose(context),
             "In the first three rows of ",
             Letter("H", style="bold"),
             Reference(tuple(f"H{i}" for i in told if i), " in "),
@@ -84,6 +87,14 @@ def _axes(context: Context) -> Step:
         result=tuple(pairs),
         uses=(),
     )
+
+
+def _purpose(context: Context) -> Prose:
+    """What the Jacobian of the last frame is for, and what the dynamics take instead."""
+    why = f"The Jacobian takes the rates of the coordinates to the velocity of {context.end}. "
+    if context.robot.bodies:
+        why += "For the dynamics each body has its own, at its mass centre, from the same axes and origins. "
+    return (why,)
 
 
 def _moving_frames(robot: Robot) -> list[int]:
@@ -161,7 +172,6 @@ def _column(context: Context, q: Coordinate) -> Step:
     linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
     name = Letter("J", Number(q.index), style="bold")
     joint = _plain_joint(robot, k)
-    named = _turning_named(context, joint)
     return Step(
         id=f"J{q.index}",
         stage=STAGE,
@@ -170,7 +180,7 @@ def _column(context: Context, q: Coordinate) -> Step:
         formula=equation(name, column(*in_letters)),
         source=spong("4.6.3"),
         working=column_shown(context, joints_moved(context, k, last), end_of(context), in_letters[0], linear),
-        concluding=named,
+        concluding=_turning_named(context, joint) or _read_off(context, joint),
         result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
         uses=("axes",),
     )
@@ -211,6 +221,28 @@ def _turning_named(context: Context, joint: Joint | None) -> Prose:
         return ()
     used = used_in_cross(context, joint, end_of(context))
     return ("With ", *said(used), ":") if used else ()
+
+
+def _read_off(context: Context, joint: Joint | None) -> Prose:
+    """How a product with an axis of the base is read off: told once, as the mass centres have such too."""
+    if joint is None or joint != _told_read_off(context):
+        return ()
+    return ("As ", *how_read_off(context, joint), ":")
+
+
+def _told_read_off(context: Context) -> Joint | None:
+    """The joint of whose column it is told how it is read off."""
+    robot = context.robot
+    if not (context.is_short and robot.has_table and robot.bodies):
+        return None
+    joint = read_off(context, len(robot.joints), end_of(context))
+    alone = [_plain_joint(robot, k) for k in range(robot.n)]
+    return joint if joint in alone else None
+
+
+def is_told_how_read_off(context: Context) -> bool:
+    """Whether a column of the end tells how a product with an axis of the base is read off."""
+    return _told_read_off(context) is not None
 
 
 def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
@@ -260,11 +292,12 @@ def _whole(context: Context) -> Step:
         stage=STAGE,
         title=f"The Jacobian of {context.end}",
         why=(
-            "The columns side by side: ",
-            equation(letters.bold("v"), Product((letters.JV, letters.QD))),
-            " and ",
-            equation(letters.bold("omega"), Product((letters.JW, letters.QD))),
-            " for all velocities of the joints.",
+            "The columns side by side. ",
+            Product((letters.JV, letters.QD)),
+            f" is the velocity of {context.end}, ",
+            Product((letters.JW, letters.QD)),
+            f" the angular velocity of frame {len(context.robot.joints)}.",
+            *_still(context),
         ),
         formula=equation(*in_letters),
         source=spong("4.6.3"),
@@ -272,9 +305,19 @@ def _whole(context: Context) -> Step:
         together=context.robot.n <= BESIDE,
         also=("Jw",),
         uses=tuple(f"J{q.index}" for q in context.robot.coordinates),
-        notes=tuple(_notes(context)),
         detail=Detail.BRIEF,
     )
+
+
+def _still(context: Context) -> Prose:
+    """Why J_v is zero, where nothing slides and the point is on the axes of all joints."""
+    frames = [context.values[f"H{i}"] for i in _moving_frames(context.robot)]
+    slides = any(joint.type is JointType.PRISMATIC for joint in context.robot.joints)
+    if slides or not all(algebra.cross(axis(H), end_of(context) - origin(H)).is_zero for H in frames):
+        return ()
+    which = "all joint axes" if len(frames) > 1 else "the joint axis"
+    last = letters.o(len(context.robot.joints))
+    return (" ", equation(letters.JV, ZERO), ", as ", last, f" lies on {which}.")
 
 
 def _columns_in_letters(context: Context) -> Matrix:
@@ -282,11 +325,3 @@ def _columns_in_letters(context: Context) -> Matrix:
     last = len(context.robot.joints)
     columns = [coordinate_column(context, k, last, letters.o(last)) for k in range(context.robot.n)]
     return Matrix(tuple(zip(*(column for column in columns if column), strict=True)))
-
-
-def _notes(context: Context) -> Iterator[Prose]:
-    if context.robot.bodies:
-        yield (
-            f"This Jacobian belongs to {context.end}. Each body has its own, at its mass centre; they "
-            "follow below.",
-        )

@@ -22,9 +22,13 @@ from dynsolve.notation.tree import (
     Matrix,
     Negative,
     Node,
+    Number,
     Parenthesized,
     Product,
+    Row,
     Sum,
+    Transpose,
+    Words,
     equation,
     number,
 )
@@ -111,19 +115,40 @@ def crosses(
     return tuple(shown), (words, *said(used), ":") if used else ()
 
 
-def read_off(context: Context, link: int, point: algebra.Matrix) -> Prose:
-    """How the columns that are a look are read off: z₀ × (x, y, z) is (-y, x, 0); nothing without any."""
+def read_off(context: Context, link: int, point: algebra.Matrix) -> Joint | None:
+    """The first joint whose column is a look; None without any."""
     for joint in context.robot.path(link):
         lever = _lever(context, joint, point)
-        if joint.type is not JointType.REVOLUTE or not _is_fixed(context, joint) or lever.is_zero:
-            continue
-        i = joint_frame(context.robot, joint)
-        z = axis(context.values[f"H{i}"])
-        if not algebra.cross(z, lever).is_zero:
-            signs = [[entry.number for entry in row] for row in algebra.skew(z).rows]
-            turned = ", ".join(map(_signed_letter, signs))
-            return (" ", letters.z(i), f" × (x, y, z) is ({turned}).")
-    return ()
+        if joint.type is JointType.REVOLUTE and _is_fixed(context, joint):
+            z = axis(context.values[f"H{joint_frame(context.robot, joint)}"])
+            if not algebra.cross(z, lever).is_zero:
+                return joint
+    return None
+
+
+def how_read_off(context: Context, joint: Joint) -> Prose:
+    """z₀ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ, by which a column of this joint is a look."""
+    i = joint_frame(context.robot, joint)
+    u = [letters.any_vector(context.robot, Number(k)) for k in (1, 2, 3)]
+    rows = algebra.skew(axis(context.values[f"H{i}"])).rows
+    turned = [
+        total(
+            [
+                e if sign.number > 0 else Negative(e)
+                for sign, e in zip(row, u, strict=True)
+                if not sign.is_zero
+            ]
+        )
+        for row in rows
+    ]
+    return (equation(Cross(letters.z(i), _in_a_row(u)), _in_a_row(turned)), " for any vector")
+
+
+def _in_a_row(entries: Sequence[Node]) -> Node:
+    """(a, b, c)ᵀ, a column within a sentence."""
+    a, b, c = entries
+    comma = Words(", ")
+    return Transpose(Parenthesized(Row((a, comma, b, comma, c))))
 
 
 def parallel(context: Context, link: int, name: Node, point: algebra.Matrix) -> Prose:
@@ -137,12 +162,6 @@ def parallel(context: Context, link: int, name: Node, point: algebra.Matrix) -> 
             between = Sum((name, Negative(letters.o(i))))
             return (" ", between, " is parallel to ", letters.z(i), ", so their cross product is zero.")
     return ()
-
-
-def _signed_letter(row: Sequence[Fraction]) -> str:
-    """The coordinate that a row of 0 and one ±1 takes, as it is written: -y."""
-    found = (("-" if sign < 0 else "") + name for sign, name in zip(row, "xyz", strict=True) if sign)
-    return next(found, "0")
 
 
 def joints_moved(context: Context, k: int, link: int) -> list[tuple[Fraction, Joint]]:

@@ -289,19 +289,6 @@ def _coriolis(context: Context) -> Step:
     )
 
 
-def _turned_base(context: Context) -> Iterator[Prose]:
-    """Where frame 0 is turned against gravity: which of the results depend on how."""
-    robot = context.robot
-    if robot.base_rotation @ robot.gravity != robot.gravity:
-        yield (
-            "How the base is turned matters to ",
-            *listed([letters.P, letters.G]),
-            " alone: a constant rotation leaves every speed unchanged, so ",
-            *listed([letters.K, letters.D, letters.C]),
-            " do not depend on it.",
-        )
-
-
 def _gravity(context: Context) -> Step:
     still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
     why: Prose = (
@@ -322,7 +309,6 @@ def _gravity(context: Context) -> Step:
         source=spong("7.3"),
         lines=gravity_rows(context),
         result=(equation(letters.G, context.form("g")),),
-        notes=() if still else tuple(_turned_base(context)),
         uses=("P",),
         hint=(
             "Directly, without ",

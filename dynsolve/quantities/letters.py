@@ -204,6 +204,12 @@ def height(robot: Robot, index: Node) -> Letter:
     return Letter("eta" if any(split(name)[0] == "h" for name in names) else "h", index)
 
 
+def any_vector(robot: Robot, index: Node) -> Letter:
+    """u_i, an entry of any vector; ξ_i where u or u_1 is something in the problem."""
+    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
+    return Letter("xi" if any(split(name)[0] == "u" for name in names) else "u", index)
+
+
 def tensor(robot: Robot, body: Body) -> Letter:
     """I_1, the tensor in the body's own frame; I_1^b in a problem that calls a parameter I_1 or I_2."""
     taken = any(is_taken(robot, "I", other) for other in robot.bodies)

@@ -17,7 +17,7 @@ from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.other_axes import turned_name
 from dynsolve.explain.working.products import cancelled_in_product, used_in_product
-from dynsolve.explain.writing import block_of
+from dynsolve.explain.writing import block_of, is_small
 from dynsolve.notation.tree import Letter, Node, Parenthesized, Product, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Robot
@@ -47,7 +47,7 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
         lines: tuple[Line, ...] = (Line(by, (equation(whole, letter),)),)
     elif leans(context.robot):
         by_rotation = "H0"
-        lines = tuple(_by_frame_0(context, body, letter, value, written))
+        lines = tuple(_by_frame_0(context, body, quantity, letter, written))
     else:
         by = ("Along the body's own axes", *_with(context, R, value), ":")
         product = Product((Transpose(context.form(f"R{body.name}")), written))
@@ -62,9 +62,10 @@ def leans(robot: Robot) -> bool:
     return robot.has_table and any(entry not in plain for entry in robot.base_rotation.entries)
 
 
-def _by_frame_0(context: Context, body: Body, letter: Letter, value: Matrix, written: Node) -> Iterator[Line]:
-    """(R_0^w)ᵀ ω with both matrices, and from there along the body's own axes."""
+def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter, written: Node) -> Iterator[Line]:
+    """(R_0^w)ᵀ ω, and from there along the body's axes, which are found once, with ω: a product a line."""
     base, R = rotation(context.values["H0"]), letters.of_body("R", body, "bold")
+    value = context.values[f"{quantity}{body.name}"]
     seen, along = base.T @ context.values[f"R{body.name}"], base.T @ value
     own = context.show(seen.T @ along)
     axes, in_frame = (turned_name(context, 0, each) for each in (R, letter))
@@ -76,12 +77,30 @@ def _by_frame_0(context: Context, body: Body, letter: Letter, value: Matrix, wri
         yield Line(by, (equation(whole, in_frame, first, own),))
         return
     yield Line((*by, ":"), (equation(in_frame, first, context.show(along)),))
-    by = ("From there along the body's own axes, by ", axes, *_made_of(context, body, seen))
-    in_letters = Product((Transpose(Parenthesized(axes)), in_frame))
+    if quantity == "w":
+        yield _axes_seen(context, body, axes, seen)
+    by = ("From there along the body's own axes, by ", axes, *_with(context, seen, along), ":")
+    in_letters = Product((Transpose(Parenthesized(axes)), Parenthesized(in_frame)))
     second = Product((Transpose(context.show(seen)), context.show(along)))
-    by += (*_with(context, seen, along), ":")
+    yield Line(by, (equation(whole, in_letters, second, own),), (_axes_label(body),))
+
+
+def _axes_label(body: Body) -> str:
+    return f"R{body.name}-from-frame-0"
+
+
+def _axes_seen(context: Context, body: Body, axes: Node, seen: Matrix) -> Line:
+    """(R_0^w)ᵀ R with both matrices, and what it is: the body's axes seen from frame 0."""
+    base, R = rotation(context.values["H0"]), context.form(f"R{body.name}")
+    block = block_of(context.matrix("H0"), 3, 0, 3)
+    members: list[Node] = [axes]
+    if is_small(block, R):
+        members.append(Product((Transpose(block), R)))
+    by: Prose = ("The body's axes seen from frame 0", *_made_of(context, body, seen))
+    by += (*_with(context, base, context.values[f"R{body.name}"]), ":")
     rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
-    yield Line(by, (equation(whole, in_letters, second, own),), rows)
+    uses = ("H0", f"R{body.name}", *rows)
+    return Line(by, (equation(*members, context.show(seen)),), uses, _axes_label(body))
 
 
 def _made_of(context: Context, body: Body, seen: Matrix) -> Prose:

@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from dynsolve.explain.inertia_names import InertiaNames
+from dynsolve.explain.inertia_names import DERIVATIVES, InertiaNames
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Node, Relation
 from dynsolve.notation.tree_values import evaluate
@@ -54,6 +54,14 @@ def test_what_is_named(problem: str, definitions: list[str]) -> None:
 ])  # fmt: skip
 def test_their_derivatives(problem: str, slopes: list[str]) -> None:
     assert [shown(problem, slope) for slope in inertias(problem).slopes] == slopes
+
+
+@pytest.mark.parametrize(("problem", "users"), [
+    ("spherical-rrp", {"ddt1", "ddt2", "dLdq3", "christoffel"}),  # θ₂ is not in σ₁, nor is σ₁ in ∂ℒ/∂ḋ₃
+    ("puma560-first3", set()),
+])  # fmt: skip
+def test_the_derivatives_are_referred_to_where_they_are_used(problem: str, users: set[str]) -> None:
+    assert {name for name, step in steps(problem).items() if DERIVATIVES in step.names} == users
 
 
 @pytest.mark.parametrize("problem", NAMED)
