@@ -301,8 +301,8 @@ class TypesetPage(MarkupPage):
         return LAST_OF_DOCUMENT if self.closes(block) else LAST_OF_DISPLAY
 
     def inline(self, node: Node) -> str:
-        """A formula in a sentence."""
-        return f"${self.printer.text(node)}$"
+        """A formula in a sentence; those of a list with the commas of the sentence between them."""
+        return ", ".join(f"${self.printer.text(one)}$" for one in self.side_by_side(node))
 
     def side_by_side(self, node: Node) -> list[Node]:
         """The formulas of a list in a sentence, between which a line may end; else the formula alone."""

@@ -52,3 +52,9 @@ def test_a_hostile_title_is_text() -> None:
     assert r"\[s\](t) \*u\*" in first
     assert "&#36;x^2&#36;" in first
     assert not set("\u202e\u202c\u200f<") & set(first)
+
+
+def test_signs_of_a_list_in_a_table_have_the_commas_of_words() -> None:
+    problem = next(path for path in LIBRARY if path.stem == "in3140-rp")
+    text = made(problem, Format.MARKDOWN).decode()
+    assert "| $m_{1}$, $m_{2}$, $m_{i}$ | mass of body $i$ | $\\text{kg}$ |" in text
