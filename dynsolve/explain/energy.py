@@ -92,10 +92,13 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         why = "The sum over the bodies" if len(bodies) > 1 else "That of the body"
         why += f", and that of the {'springs' if name == 'P' else 'rotors'}"
     why += "."
-    members: list[Node] = [letter, sum_of([*bodies, *others])]
+    formula: Node = equation(letter, sum_of([*bodies, *others]))
     weightless = name == "P" and context.robot.gravity.is_zero
-    if are_counted(context.robot.bodies) and len(bodies) > 1 and not weightless:
-        members.append(sum_of([_summed(context, name), *others]))
+    if len(bodies) > 1 and not weightless:
+        if are_counted(context.robot.bodies):
+            formula = equation(letter, sum_of([*bodies, *others]), sum_of([_summed(context, name), *others]))
+        else:
+            formula = side_by_side([formula, equation(Letter(name, Symbol("i")), _of_body(context, name))])
         why += _without_turning(context) if name == "K" else ""
     acting = [name + ("s" if name == "P" else "m")] if others else []
     way = summed(context, [*(name + body.name for body in context.robot.bodies), *acting], name, letter)
@@ -104,7 +107,7 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         stage=STAGE,
         title=f"Total {kind} energy",
         why=(why,),
-        formula=equation(*members),
+        formula=formula,
         source=spong("7.2.3" if name == "P" else "7.2.2"),
         lines=way.lines,
         concluding=way.concluding,
@@ -120,17 +123,26 @@ def _without_turning(context: Context) -> str:
 
 
 def _summed(context: Context, name: str) -> Node:
-    """The sum over the bodies of -m_i g₀ᵀ r_ci, or of ½ m_i v_iᵀ v_i + ½ ω_iᵀ I_i ω_i."""
-    i, bodies = Symbol("i"), context.robot.bodies
-    count, mass = Number(len(bodies)), Letter("m", i)
+    """The sum over the bodies of what each has."""
+    own, count = _of_body(context, name), Number(len(context.robot.bodies))
+    i, first = Symbol("i"), Number(1)
+    if isinstance(own, Negative):
+        return Negative(BigSum(own.argument, i, first, count))
+    return BigSum(own, i, first, count)
+
+
+def _of_body(context: Context, name: str) -> Node:
+    """Of body i: -m_i g₀ᵀ r_ci, or ½ m_i v_iᵀ v_i + ½ ω_iᵀ I_i ω_i."""
+    i = Symbol("i")
+    mass = Letter("m", i)
     if name == "P":
         center = letters.bold("r", Row((Words("c"), i)))
-        return Negative(BigSum(Product((mass, Transpose(letters.GRAVITY), center)), i, Number(1), count))
+        return Negative(Product((mass, Transpose(letters.GRAVITY), center)))
     v, w = (letters.bold(base, i) for base in ("v", "omega"))
     linear = Product((letters.HALF, mass, letters.transposed_product(v)))
     angular = Product((letters.HALF, letters.transposed_product(w, letters.base_tensor(i))))
-    turning = any(not body.is_point for body in bodies)
-    return BigSum(Sum((linear, angular)) if turning else linear, i, Number(1), count)
+    turning = any(not body.is_point for body in context.robot.bodies)
+    return Sum((linear, angular)) if turning else linear
 
 
 # -- kinetic energy --------------------------------------------------------------------------------

@@ -48,7 +48,9 @@ class Line:
             pairs = (*side_by_side(shown[:2]).parts, Words(", …, "), *side_by_side(shown[-2:]).parts)
             return together if len(shown) <= 4 else Row(pairs)
         if len(shown) > 3 and not self.each and Ruler().width(together) > WIDEST:
-            return Row((*side_by_side(shown[:2]).parts, Words(", …, "), shown[-1]))
+            counts = isinstance(shown[-1], Letter) and isinstance(shown[-2], Symbol)  # m_i, after m_1 to m_6
+            last = side_by_side(shown[-2:]).parts if counts else shown[-1:]
+            return Row((*side_by_side(shown[:2]).parts, Words(", …, "), *last))
         return together
 
     @property

@@ -211,6 +211,7 @@ MEANINGS = [
     ("box-cylinder-rod-sphere", "r₁, r₄", "radius of body i", "m"),
     ("box-cylinder-rod-sphere", "b", "side of body 2 along its axes x and y", "m"),
     ("box-cylinder-rod-sphere", "m", "mass of a uniform shape", "kg"),
+    ("box-cylinder-rod-sphere", "m₁, m₂, …, m₄, mᵢ", "mass of body i", "kg"),
     ("box-cylinder-rod-sphere", "l, r, l_x, l_y, l_z",
      "length, radius, side along x, side along y, side along z of a uniform shape", "m"),
 ]  # fmt: skip

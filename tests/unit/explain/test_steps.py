@@ -335,8 +335,21 @@ def test_what_the_tensor_along_the_base_is_for(problem: str, body: str, told: st
     [
         ("in3140-rp", " A point mass has no second term."),
         ("planar-2r", ""),
-        ("crustcrawler-2r", ""),  # the bodies are named, and no sum over i is written
+        ("crustcrawler-2r", " A point mass has no second term."),
     ],
 )
 def test_of_the_total_kinetic_energy_it_is_said_what_points_have_not(problem: str, told: str) -> None:
     assert step(problem, "K").why == (f"The sum over the bodies.{told}",)
+
+
+@pytest.mark.parametrize(
+    ("problem", "printed"),
+    [
+        ("planar-2r", "𝒫 = P₁ + P₂ = -Σᵢ₌₁² mᵢ 𝐠₀ᵀ 𝐫_ci"),
+        ("crustcrawler-2r", "𝒫 = P₁ + P₂ + P_p, Pᵢ = -mᵢ 𝐠₀ᵀ 𝐫_ci"),  # one body has a name, and no number
+    ],
+)
+def test_a_total_says_what_its_parts_are(problem: str, printed: str) -> None:
+    formula = step(problem, "P").formula
+    assert formula is not None
+    assert to_unicode(formula, solved(problem).style) == printed
