@@ -122,7 +122,7 @@ def _kinematics(robot: Robot, ground: str) -> Iterator[Line]:
     )
     about_z = Letter("R", Row((Words("z"), Words(","), Row((Symbol("theta"),)))), style="bold")
     yield _line(about_z, "rotation by an angle about an axis: 3×3 matrix")
-    yield _line([Symbol("U"), Symbol("V")], "abbreviations within one identity")
+    yield _line([Symbol("U"), Symbol("V")], "any two quantities, in an identity")
     yield _line(letters.any_vector(robot, _I), "entry i of any vector")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")

@@ -256,7 +256,10 @@ def _is_plain(found: squares.Turned) -> bool:
 
 
 def _turn(context: Context, found: squares.Turned) -> Prose:
-    """The identity by which a turned vector has the square of the vector."""
+    """The identity by which a turned vector has the square of the vector, and what goes in for U and V.
+
+    They are any two quantities, so that they mean the same wherever the identity is used.
+    """
     angle = angle_node(found.pair.angle, context.robot.ring.names)
     s, c = Function("sin", angle), Function("cos", angle)
     if any(part.is_zero for part in found.parts):
@@ -270,7 +273,7 @@ def _turn(context: Context, found: squares.Turned) -> Prose:
         both = Sum((Vc, Negative(Us))), Sum((Uc, Vs))
     left = Sum(tuple(Power(Parenthesized(x), Number(2)) for x in both))
     identity = equation(left, Sum((Power(U, Number(2)), Power(V, Number(2)))))
-    return "By ", identity, " with ", equation(U, first), " and ", equation(V, second), ":"
+    return "By ", identity, " with ", first, " and ", second, " for ", U, " and ", V, ":"
 
 
 def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:

@@ -193,7 +193,7 @@ MEANINGS = [
     ("spherical-rrp", "σ₁", "abbreviation, defined where it first occurs", "kg m²"),
     ("box-cylinder-rod-sphere", "σ₁, σ₂", "abbreviations, defined where they first occur", "kg m²"),
     ("box-cylinder-rod-sphere", "σ₃", "abbreviation, defined where it first occurs", "kg m"),
-    ("elbow-3r", "U, V", "abbreviations within one identity", ""),
+    ("elbow-3r", "U, V", "any two quantities, in an identity", ""),
     ("in3140-rp", "s₁, c₁", "s₁ = sin θ₁, c₁ = cos θ₁", ""),
     ("in3140-rp", "τᵢ, fᵢ",
      "generalized force i: a torque at a revolute joint, a force (fᵢ) at a prismatic one", "N m or N"),

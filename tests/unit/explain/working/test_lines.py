@@ -80,8 +80,8 @@ def test_squares_of_absolute_angles_by_the_cosine_of_a_difference() -> None:
 
 def test_a_velocity_turned_with_the_waist_has_the_square_of_the_velocity() -> None:
     assert lines("elbow-3r", "Kv3")[:2] == [
-        "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = (L₂ c₂ + l_c3 c₂₃) θ̇₁ "
-        "and V = L₂ s₂ θ̇₂ + l_c3 s₂₃ (θ̇₂ + θ̇₃):",
+        "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with (L₂ c₂ + l_c3 c₂₃) θ̇₁ "
+        "and L₂ s₂ θ̇₂ + l_c3 s₂₃ (θ̇₂ + θ̇₃) for U and V:",
         "K_v3 = ½ m₃ (((L₂ c₂ + l_c3 c₂₃) θ̇₁)² + (L₂ s₂ θ̇₂ + l_c3 s₂₃ (θ̇₂ + θ̇₃))² "
         "+ (L₂ c₂ θ̇₂ + l_c3 c₂₃ (θ̇₂ + θ̇₃))²)",
     ]
@@ -95,7 +95,7 @@ def test_a_velocity_is_written_so_that_its_square_is_seen() -> None:
         "[d₃ c₂ θ̇₂ + s₂ d\u0307₃]]"
     )
     assert lines("spherical-rrp", "Kv3")[0] == (
-        "By (V c₁ - U s₁)² + (U c₁ + V s₁)² = U² + V² with U = d₃ c₂ θ̇₁ and V = -d₃ s₂ θ̇₂ + c₂ d\u0307₃:"
+        "By (V c₁ - U s₁)² + (U c₁ + V s₁)² = U² + V² with d₃ c₂ θ̇₁ and -d₃ s₂ θ̇₂ + c₂ d\u0307₃ for U and V:"
     )
     plain = to_unicode(step("elbow-3r", "v2").result[0], solved("elbow-3r").style)
     assert "-l_c2 (s₁ c₂ θ̇₁ + c₁ s₂ θ̇₂)" in plain, "each stands once: nothing is hidden"
@@ -152,7 +152,7 @@ def test_what_a_line_needs_is_referred_to_where_it_goes_in() -> None:
 
 def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
     assert lines("planar-2r", "Kv1") == ["By s₁² + c₁² = 1:"]
-    turned = "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = c₂ θ̇₁ and V = s₂ θ̇₂:"
+    turned = "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with c₂ θ̇₁ and s₂ θ̇₂ for U and V:"
     assert lines("crustcrawler-2r", "Kvp")[0] == turned
 
 
@@ -250,7 +250,8 @@ def test_a_velocity_is_squared_along_the_axes_in_which_that_is_plain() -> None:
     assert found[1].startswith("(𝐑₀^w)ᵀ 𝐯₁ = [[1, 0, 0], [0, √3/2, -½], [0, ½, √3/2]]ᵀ [[")
     assert found[2] == "The squares of its entries:"
     assert not step(TILTED, "Kv1").working
-    assert found[4].startswith("By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = ")
+    assert found[4].startswith("By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with ")
+    assert found[4].endswith(" for U and V:")
     assert "√" not in found[1].rpartition(" = ")[2] and "√" not in "".join(found[2:])
 
 
