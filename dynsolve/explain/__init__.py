@@ -93,8 +93,10 @@ Long models are written in names (`--abbreviate`):
     recurring            what stands in several places
     recurring_multiples  sums that are multiples of each other
     abbreviated_steps    the steps of a derivation in these names
-    symbol_names         names for the Christoffel symbols of a short model, and its steps in these
+    named_steps          which sums of a short model have names, where these are introduced; its steps in them
     inertia_names        names for its long sums of masses and lengths, from the kinetic energy on
+    symbol_names         names for its Christoffel symbols
+    exchanges            a sum or a product exchanged for its name
     long_model           those of a long model, which stay in d_ij, c_ijk and g_k where they can
 
 And hints (`--hint`), made of the same steps:

@@ -14,8 +14,8 @@ from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import collected_coriolis_force
 from dynsolve.explain.long_model.steps import of_long_model
+from dynsolve.explain.named_steps import steps_in_names
 from dynsolve.explain.step import Step
-from dynsolve.explain.symbol_names import steps_with_symbols_named
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Product, Relation, Sum, equation
 from dynsolve.notation.walk import with_children
@@ -25,7 +25,7 @@ from dynsolve.quantities.stages import Stage
 def in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
     """The steps, with names in them and, of a long model, without what fills pages."""
     if short.at_symbols:
-        return steps_with_symbols_named(steps, context, short)
+        return steps_in_names(steps, context, short)
     return of_long_model(steps, context, short) if short.long else _of_short_model(steps, context, short)
 
 

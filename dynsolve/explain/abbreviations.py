@@ -10,8 +10,7 @@ of sines, cosines and these.
    and the energy here.
 2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`): h₁, h₂, ... are heights.
 
-A short model needs no constants; unless names are asked for, its Christoffel symbols alone get them
-(`explain.symbol_names`), and its long sums of masses and lengths (`explain.inertia_names`).
+A short model needs no constants; unless names are asked for, `explain.named_steps` says what has some.
 What recurs in it gets a name alone; if that is one term, it is the books' h:
 h = -m₂ l₁ l_c2 s₂ of the planar elbow.
 """
@@ -30,6 +29,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.derivation.vectorized import christoffel_symbols
 from dynsolve.explain.base_parameters import BaseParameters
 from dynsolve.explain.entry_formulas import coriolis_matrix, pairs
+from dynsolve.explain.exchanges import Exchange
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, name_recurring
 from dynsolve.notation import tree
@@ -92,6 +92,23 @@ class Abbreviated:
     def definitions(self) -> tuple[Definition, ...]:
         """All definitions in order."""
         return (*self.constants, *self.sums)
+
+    @property
+    def of_symbols(self) -> tuple[Definition, ...]:
+        """Those of Christoffel symbols, where they have names of their own."""
+        early = () if self.inertias is None else self.inertias.definitions
+        return self.sums[len(early) :] if self.at_symbols else ()
+
+    @property
+    def single(self) -> Definition | None:
+        """h, where it is what all Christoffel symbols are but for sign."""
+        return next((one for one in self.of_symbols if one.name == Symbol(SINGLE)), None)
+
+    def put_symbols(self, node: Node) -> Node:
+        """A tree with the names of symbols in the places of what they mean; not with h, which is a glance."""
+        for one in self.of_symbols:
+            node = node if one == self.single else Exchange.of(one).put(node)
+        return node
 
     @property
     def lists(self) -> tuple[str, ...]:

@@ -4,74 +4,38 @@ The kinetic energy of an arm with bodies of many parts has long sums of masses a
 
     m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12) + m₄ d₃²
 
-Each stands in L, in momenta, forces, D, C and the summary.  A textbook names it where it is met first, with
-its derivative where a joint that slides changes it; what follows is written with the names.
+Each stands in L, in momenta, forces, D, C and the summary.  It is named where it is met first
+(`explain.named_steps`), with its derivative where a joint that slides changes it.
 """
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from dynsolve.algebra.ring_values import value_of
-from dynsolve.document import Inline, Prose
+from dynsolve.explain.exchanges import Exchange
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, expanded
-from dynsolve.explain.step import Line, Step
-from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
-from dynsolve.notation.build import cost, negated, total
+from dynsolve.notation.build import cost, total
 from dynsolve.notation.tree import (
-    Entry,
     Function,
-    Letter,
-    Matrix,
-    Negative,
     Node,
-    Product,
     Relation,
     Sum,
     Symbol,
     equation,
 )
-from dynsolve.notation.walk import children, walk, with_children
+from dynsolve.notation.walk import children, walk
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 
 LEAST_SAVED = 80
 """The operations that a name saves in the energies, momenta, forces and D, at least: four lines of text."""
 
 SHORTEST = 4
 """The operations from which on such a sum, or one in its derivative, is worth a name."""
-
-_AFTER = (Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED)
-"""The stages whose steps are in the names, as is the total kinetic energy."""
-
-_BODY_BY_BODY = frozenset({"inertia_poses", "point_masses"})
-"""The checks that ask what each body adds, and so show it."""
-
-
-INERTIAS = "inertia-names"
-"""The label of the names' definitions."""
-
-DERIVATIVES = "inertia-derivatives"
-"""The label of the names' derivatives."""
-
-_COLLECTED = frozenset({"D_sum", "g"})
-"""The steps that are worked out anew from what stands before the names, and end in these."""
-
-_DIFFERENTIATED = re.compile(r"ddt\d|christoffel")
-"""The steps that differentiate what they are written in, by the time or by all coordinates."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Exchange:
-    """A sum, and what stands in its place."""
-
-    terms: frozenset[Node]
-    name: Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,126 +47,19 @@ class InertiaNames:
 
     definitions: tuple[Definition, ...] = ()
     slopes: tuple[Relation, ...] = ()
-    exchanges: tuple[_Exchange, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
     by: frozenset[int] = frozenset()
 
     def put(self, node: Node) -> Node:
-        """The tree with the names in the places of what they mean.
-
-        >>> from dynsolve.notation.python import to_python
-        >>> a, b, c, name = map(Symbol, "abcs")
-        >>> names = InertiaNames(exchanges=(_Exchange(frozenset({a, b}), name),))
-        >>> to_python(names.put(Product((c, Sum((a, c, b))))))
-        'c*(s + c)'
-        """
+        """The tree with the names in the places of what they mean."""
         for exchange in self.exchanges:
-            node = _exchanged(node, exchange)
+            node = exchange.put(node)
         return node
 
     @property
     def symbols(self) -> frozenset[Node]:
         """The names."""
         return frozenset(one.name for one in self.definitions)
-
-    def lines(self) -> Iterator[Line]:
-        """Where the names are defined, and the derivatives that follow from that."""
-        defined = (equation(one.name, one.meaning) for one in self.definitions)
-        yield Line(("Abbreviations:",), tuple(defined), label=INERTIAS)
-        if self.slopes:
-            yield Line(("Hence:",), self.slopes, label=DERIVATIVES)
-
-    def in_steps(self, steps: Iterable[Step]) -> Iterator[Step]:
-        """The steps from the total kinetic energy on with the names, defined in the first that has one."""
-        defined = False
-        for step in steps:
-            named = step.id == "K" or (step.stage in _AFTER and step.id not in _BODY_BY_BODY)
-            written = self._in_step(step) if named else step
-            if named:
-                written = replace(written, names=(*written.names, *self._used_in(written)))
-            if written != step and not defined:
-                defined = True
-                written = self._defining(step, written)
-            yield written
-
-    def _used_in(self, step: Step) -> Iterator[str]:
-        """The labels of what a step needs to be written in the names."""
-        in_names = self._names_in(step.result)
-        if step.id in {f"dLdq{k}" for k in self.by} or (
-            self.slopes and in_names and _DIFFERENTIATED.match(step.id)
-        ):
-            yield DERIVATIVES
-        elif in_names and step.id in _COLLECTED:
-            yield INERTIAS
-
-    def _defining(self, step: Step, written: Step) -> Step:
-        """The step that defines the names: its result stands before them without any, if it was collected."""
-        if not step.concluding:
-            return replace(written, lines=(*written.lines, *self.lines()))
-        collected = Line(step.concluding, step.result)
-        return replace(written, lines=(*written.lines, collected, *self.lines()), concluding=("With these:",))
-
-    def _names_in(self, nodes: Iterable[Node]) -> bool:
-        """Whether formulas are written in the names."""
-        return not self.symbols.isdisjoint(walk(*nodes))
-
-    def _in_step(self, step: Step) -> Step:
-        """A step in the names; its last line is left out where only the order of the result differs."""
-        lines = step.lines  # the plain sum of K stands before the names are defined
-        if step.id != "K":
-            put = self._last if step.id in _COLLECTED else self.put
-            lines = tuple(replace(line, formulas=tuple(map(put, line.formulas))) for line in lines)
-        result = tuple(map(self._last if step.id in _COLLECTED else self.put, step.result))
-        written = replace(
-            step,
-            why=self._prose(step.why),
-            working=tuple(map(self.put, step.working)),
-            lines=lines,
-            result=result,
-            notes=tuple(map(self._prose, step.notes)),
-            table=step.table and replace(step.table, rows=tuple(map(self._prose, step.table.rows))),
-        )
-        alike = written != step and lines and result and are_alike(lines[-1].formulas[-1], result[0])
-        return replace(written, lines=lines[:-1], concluding=()) if alike else written
-
-    def _last(self, node: Node) -> Node:
-        """An equation whose last member is in the names: beside the sum as it stands, or in its place."""
-        if not isinstance(node, Relation):
-            return self.put(node)
-        *before, last = node.parts
-        named = self.put(last)
-        is_alone = named != last and not isinstance(last, Matrix) and all(map(_is_letter, before))
-        return equation(*before, *([last] if is_alone else []), named)
-
-    def _prose(self, parts: tuple[Inline, ...]) -> Prose:
-        return tuple(self.put(part) if isinstance(part, Node) else part for part in parts)
-
-
-def _is_letter(node: Node) -> bool:
-    """Whether a member of an equation names a quantity."""
-    return isinstance(node, Letter | Entry)
-
-
-def _exchanged(node: Node, exchange: _Exchange) -> Node:
-    """A tree with one sum exchanged, wherever its terms stand in a sum, with either sign."""
-    if isinstance(node, Function):  # no angle has a name
-        return node
-    changed = with_children(node, lambda part: _exchanged(part, exchange))
-    match changed:
-        case Sum(terms) if len(terms) >= len(exchange.terms):
-            for own, name in (
-                (exchange.terms, exchange.name),
-                (frozenset(map(negated, exchange.terms)), negated(exchange.name)),
-            ):
-                if own <= set(terms):
-                    place = next(i for i, term in enumerate(terms) if term in own)
-                    rest = [term for term in terms if term not in own]
-                    before = sum(term not in own for term in terms[:place])
-                    return total([*rest[:before], name, *rest[before:]])
-        case Product(factors) if changed is not node and any(
-            isinstance(factor, Product | Negative) for factor in factors
-        ):
-            return product_of(1, [(factor, 1) for factor in factors])
-    return changed
 
 
 # -- which sums get a name -------------------------------------------------------------------------
@@ -217,7 +74,7 @@ def name_inertias(forms: Forms, names: Iterator[Symbol]) -> InertiaNames:
     found: list[Definition] = []
     while (best := _worth_a_name(trees)) is not None:
         found.append(Definition(next(names), best))
-        trees = [_exchanged(node, _by_name(found[-1])) for node in trees]
+        trees = [Exchange.of(found[-1]).put(node) for node in trees]
     return _with_slopes(forms, found, names)
 
 
@@ -251,11 +108,6 @@ def _is_inertia(node: Sum) -> bool:
     return not any(moving)
 
 
-def _by_name(definition: Definition) -> _Exchange:
-    assert isinstance(definition.meaning, Sum)
-    return _Exchange(frozenset(definition.meaning.terms), definition.name)
-
-
 # -- their derivatives -----------------------------------------------------------------------------
 
 
@@ -275,7 +127,7 @@ def _with_slopes(forms: Forms, found: Sequence[Definition], names: Iterator[Symb
     sums = (part for slope in slopes for part in walk(slope.collected) if isinstance(part, Sum))
     long = (part for part in dict.fromkeys(sums) if cost(part) >= SHORTEST)
     definitions = (*found, *(Definition(name, part) for part, name in zip(long, names, strict=False)))
-    named = InertiaNames(definitions, (), tuple(map(_by_name, definitions)))
+    named = InertiaNames(definitions, (), tuple(map(Exchange.of, definitions)))
     equal: dict[Node, list[Node]] = {}
     exchanges = list(named.exchanges)
     for slope in slopes:
@@ -287,7 +139,7 @@ def _with_slopes(forms: Forms, found: Sequence[Definition], names: Iterator[Symb
             (_times(slope.termwise, rate), _times(short, rate)),
         ):
             if isinstance(tree, Sum):
-                exchanges.append(_Exchange(frozenset(tree.terms), name))
+                exchanges.append(Exchange(tree, name))
     return InertiaNames(
         definitions,
         tuple(equation(*left, right) for right, left in equal.items()),

@@ -1,45 +1,31 @@
-"""Names for the Christoffel symbols of an arm whose C would fill half a page: σ₁, σ₂, ...
+"""Names for what Christoffel symbols are: h of the planar elbow, or σ₁, σ₂, ...
+
+Symbols are equal, or opposite, again and again: c_112 = -c_121.  Where all are one value but for its sign,
+that is the books' h (Spong, Hutchinson, Vidyasagar, section 7.4).  Otherwise they get names where C would
+fill half a page; C, Ḋ and N = Ḋ - 2C are then short sums of names and rates.
 
 What recurs in the energies already is named there (`inertia_names`), and the symbols are written by that.
-
-Symbols are equal, or opposite, again and again: c_112 = -c_121.  A textbook names such a value
-once, as h of the planar elbow in Spong, Hutchinson, Vidyasagar, section 7.4; C, Ḋ and
-N = Ḋ - 2C are short sums of names and rates.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
-from math import gcd
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.document import Inline
-from dynsolve.explain.abbreviations import RECURRING, Abbreviated, Index, free_names
-from dynsolve.explain.agreement import compared_rows
-from dynsolve.explain.closing import rows_in_names
-from dynsolve.explain.context import Context
+from dynsolve.explain.abbreviations import RECURRING, SINGLE, Abbreviated, Index, free_names
 from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inertia_names import InertiaNames, name_inertias
 from dynsolve.explain.recurring import Definition
 from dynsolve.explain.short_arms import is_short
-from dynsolve.explain.step import Line, Step
-from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
-from dynsolve.explain.working.derivatives import inertia_rate
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.printing import flat_factors
-from dynsolve.notation.tree import ZERO, Matrix, Negative, Node, Relation, Sum, equation
-from dynsolve.notation.walk import with_children
-from dynsolve.quantities import letters
+from dynsolve.notation.tree import ZERO, Matrix, Negative, Node, Sum
 
 LONG = 50
 """The operations of C from which on its symbols get names: it would not fit the page as a matrix."""
-
-NAMES = "symbol-names"
-"""The label of the names' definitions."""
 
 SHORTEST = 4
 """The operations from which on a symbol is worth a name."""
@@ -53,10 +39,16 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     robot, C = forms.robot, forms("C")
     if not is_short(robot, forms.values) or not isinstance(C, Matrix):
         return None
-    free = free_names(RECURRING, {*robot.ring.parameters, *robot.ring.names})
+    taken = {*robot.ring.parameters, *robot.ring.names}
+    free = free_names(RECURRING, taken)
     inertias = name_inertias(forms, free)
     is_long = sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG
-    definitions, symbols = _named(forms, inertias, free) if is_long else ((), _written(forms, inertias))
+    if SINGLE not in taken and _is_one_value(forms):
+        definitions, symbols = _one_named(forms, inertias)
+    elif is_long:
+        definitions, symbols = _named(forms, inertias, free)
+    else:
+        definitions, symbols = (), _written(forms, inertias)
     if not (inertias.definitions or definitions):
         return None
     D, g = inertias.put(forms("D")), inertias.put(forms("g"))
@@ -64,6 +56,30 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
     sums = (*inertias.definitions, *definitions)
     return Abbreviated((), sums, D, C, g, symbols, at_symbols=True, inertias=inertias)
+
+
+def _is_one_value(forms: Forms) -> bool:
+    """Whether several symbols are not zero, all of them the same but for sign, and worth a name."""
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    found = [value for value in values.values() if not value.is_zero]
+    alike = all(value in (found[0], -found[0]) for value in found)
+    return len(found) > 1 and alike and cost(forms.of(found[0])) >= SHORTEST
+
+
+def _one_named(forms: Forms, inertias: InertiaNames) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
+    """h, with the sign of the symbol that is shown first, and every symbol by it."""
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    order = (values[key] for key in _as_shown(values))
+    first = next(value for value in order if not value.is_zero)
+    name = tree.Symbol(SINGLE)
+    by_name: dict[Expr, Node] = {first: name, -first: Negative(name)}
+    symbols = {key: by_name.get(value, ZERO) for key, value in values.items()}
+    return (Definition(name, inertias.put(forms.of(first))),), symbols
+
+
+def _as_shown(indices: Iterable[Index]) -> list[Index]:
+    """The indices in the order in which the symbols are shown."""
+    return sorted(indices, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
 
 
 def _written(forms: Forms, inertias: InertiaNames) -> dict[Index, Node]:
@@ -76,7 +92,7 @@ def _named(
 ) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
     """The definitions, in the order in which the symbols are shown, and every symbol by them."""
     values: Mapping[Index, Expr] = forms.values["christoffel"]
-    order = sorted(values, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
+    order = _as_shown(values)
     namer = _Namer(lambda value: inertias.put(forms.of(value)), [values[key] for key in order], free)
     symbols = {key: namer.written(values[key]) for key in order}
     return tuple(namer.definitions), {key: symbols[key] for key in values}
@@ -148,133 +164,3 @@ def _factors(node: Node) -> tuple[Node, ...]:
 def _starts_with_minus(node: Node) -> bool:
     """Whether a form starts with a minus: of a sum, that every term has one."""
     return isinstance(node.terms[0] if isinstance(node, Sum) else node, Negative)
-
-
-# -- the steps in these names ----------------------------------------------------------------------
-
-
-def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
-    """The steps in names: those of inertias from the kinetic energy on, those of symbols where these are."""
-    changes: dict[str, Callable[[Step], Step]] = {
-        "christoffel": lambda step: _christoffel(step, context, short),
-        "C": lambda step: _by_names(_result_exchanged(step, {context.form("C"): short.C})),
-        "model": lambda step: _model(step, context, short),
-        "agreement": lambda step: _by_names(replace(step, lines=compared_rows(context, short.symbol))),
-        "skew": lambda step: _skew(step, context, short),
-        "terms": lambda step: _terms(step, context, short),
-    }
-    changed = (changes.get(step.id, _unchanged)(step) for step in steps)
-    return changed if short.inertias is None else short.inertias.in_steps(changed)
-
-
-def _unchanged(step: Step) -> Step:
-    return step
-
-
-def _by_names(step: Step) -> Step:
-    """The step with the equation of the names among what it uses."""
-    return replace(step, names=(NAMES,))
-
-
-def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
-    """The symbols by their names, which are defined first."""
-    named = {context.forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()}
-    step = _result_exchanged(step, named)
-    own = _own_names(short)
-    if not own:
-        return step
-    line = Line(
-        ("What comes up several times below is named once:",),
-        tuple(equation(definition.name, definition.meaning) for definition in own),
-        label=NAMES,
-    )
-    return replace(step, lines=(*step.lines, line), concluding=("Put into the formula:",))
-
-
-def _own_names(short: Abbreviated) -> tuple[Definition, ...]:
-    """The names of symbols, after those of inertias."""
-    early = () if short.inertias is None else short.inertias.definitions
-    return short.sums[len(early) :]
-
-
-def _result_exchanged(step: Step, named: Mapping[Node, Node]) -> Step:
-    """The step with parts of its results exchanged."""
-
-    def exchanged(node: Node) -> Node:
-        found = named.get(node)
-        if found is not None:
-            return found
-        inside = isinstance(node, Relation | Sum | tree.Product)
-        return with_children(node, exchanged) if inside else node
-
-    return replace(step, result=tuple(map(exchanged, step.result)))
-
-
-def _model(step: Step, context: Context, short: Abbreviated) -> Step:
-    """The model; its rows in the names of symbols, d_ij and g_k, where forces were derived before these."""
-    step = _result_exchanged(step, {context.form("C"): short.C})
-    return replace(step, lines=(rows_in_names(context, short.symbol),)) if _own_names(short) else step
-
-
-def _skew(step: Step, context: Context, short: Abbreviated) -> Step:
-    """Ḋ and N by the symbols: ∂d_kj/∂q_i = c_ijk + c_ikj, so that n_kj = Σ_i (c_ikj - c_ijk) q̇_i."""
-    n, c = context.robot.n, short.symbol
-
-    def entry(signs: tuple[int, int], k: int, j: int) -> Node:
-        first, second = signs
-        return _collected(
-            term
-            for i, q in enumerate(context.robot.coordinates)
-            for term in ((first, c(i, j, k), letters.velocity(q)), (second, c(i, k, j), letters.velocity(q)))
-        )
-
-    rows = tuple(tuple(entry((-1, 1), k, j) for j in range(n)) for k in range(n))
-    lines = inertia_rate(context, lambda i, j: entry((1, 1), i, j), (NAMES, "christoffel"))
-    return replace(step, lines=lines, result=(equation(letters.bold("N"), Matrix(rows)), *step.result[-1:]))
-
-
-def _collected(terms: Iterable[tuple[int, Node, Node]]) -> Node:
-    """Σ factor · symbol · rate, the rates of each symbol in one sum."""
-    rates: dict[Node, dict[Node, int]] = {}
-    for factor, symbol, rate in terms:
-        sign, name = split_sign(symbol)
-        if name != ZERO:
-            own = rates.setdefault(name, {})
-            own[rate] = own.get(rate, 0) + sign * factor
-    return total([_product(name, own) for name, own in rates.items()])
-
-
-def _product(name: Node, rates: Mapping[Node, int]) -> Node:
-    """name · Σ factor · rate, with what the factors share in front."""
-    shared = gcd(*rates.values())
-    if not shared:
-        return ZERO
-    if all(factor <= 0 for factor in rates.values()):
-        shared = -shared
-    inner = total([times(factor // shared, [(rate, 1)]) for rate, factor in rates.items()])
-    return times(shared, [(name, 1), (inner, 1)])
-
-
-def _terms(step: Step, context: Context, short: Abbreviated) -> Step:
-    """The table of the terms of the forces, centrifugal and Coriolis terms by the names."""
-    assert step.table is not None
-    by_rates = (Kind.CENTRIFUGAL, Kind.CORIOLIS)
-    named: dict[Node, Node] = {}
-    for k in range(context.robot.n):
-        for term in terms_of(context, k):
-            if term.kind in by_rates:
-                name = name_of_term(context, term)
-                named[name] = equation(name, _by_name(context, short, term, k))
-
-    def cell(part: Inline) -> Inline:
-        left = part.parts[0] if isinstance(part, Relation) else part
-        return named.get(left, part) if isinstance(left, Node) else part
-
-    rows = tuple(tuple(map(cell, row)) for row in step.table.rows)
-    return replace(step, table=replace(step.table, rows=rows))
-
-
-def _by_name(context: Context, short: Abbreviated, term: Term, k: int) -> Node:
-    """The value of a term of force k, its symbol by its name."""
-    (i, _), (j, _) = term.rates
-    return times(term.count, [(short.symbol(i, j, k), 1), *rates_of(context, term)])

@@ -184,7 +184,7 @@ def _referring(step: Step, earlier: EarlierResults) -> Iterator[Line]:
 
 def _first_in_names(steps: Iterable[Step], short: Abbreviated | None) -> Stage:
     """The stage before which names are defined: that of C, or an earlier one in which there are some."""
-    names = frozenset() if short is None or short.inertias is None else short.inertias.symbols
+    names = frozenset() if short is None else frozenset(one.name for one in short.definitions)
     found = (step.stage for step in steps if not names.isdisjoint(walk(*step.result)))
     return next(found, Stage.VECTORIZED)
 

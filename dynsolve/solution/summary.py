@@ -10,9 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dynsolve.document import Block, Equations, Formula, Heading, Prose, Reference, Text
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviated
-from dynsolve.explain.inertia_names import INERTIAS
+from dynsolve.explain.named_steps import labels_of_names
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.symbol_names import NAMES
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import equation
 from dynsolve.quantities import letters
@@ -58,8 +57,9 @@ def summary_blocks(
         yield Text(("The matrices of this robot", found, ":"))
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     if short is not None and short.at_symbols:
-        where: Prose = ("these",) if short.inertias else (letters.C,)
-        yield Text(("In ", *where, " and in the rows below", Reference((INERTIAS, NAMES), ", "), ":"))
+        where: Prose = ("these",) if short.inertias and short.inertias.definitions else (letters.C,)
+        defined = Reference(labels_of_names(steps, short), ", ")
+        yield Text(("In ", *where, " and in the rows below", defined, ":"))
         yield Equations(tuple(equation(one.name, one.meaning) for one in short.sums))
     for line in model.lines:
         yield Text(line.by)

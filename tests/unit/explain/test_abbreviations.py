@@ -139,7 +139,7 @@ def test_a_short_model_needs_no_constants(problem: str) -> None:
     assert not abbreviate(solved(problem).forms).constants
 
 
-@pytest.mark.parametrize("problem", ["planar-2r", "crustcrawler-2r", "in3140-rp"])
+@pytest.mark.parametrize("problem", ["cart-pole", "numeric-2r", "in3140-rp"])
 def test_a_short_model_is_left_alone(problem: str) -> None:
     assert solved(problem).abbreviated("auto") is None
     assert solution_document(solved(problem)) == solution_document(

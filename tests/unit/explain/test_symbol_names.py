@@ -19,6 +19,7 @@ from tests.support import solved
 from tests.unit.explain.test_abbreviated_steps import displayed
 
 NAMED = ("elbow-3r", "box-cylinder-rod-sphere", "spherical-rrp")
+WITH_H = ("planar-2r", "crustcrawler-2r", "five-bar")
 
 
 def named(problem: str) -> Abbreviated:
@@ -72,17 +73,18 @@ def test_what_is_named_in_the_energies_is_in_the_symbols() -> None:
     assert symbols == ["σ₃ c₂²", "σ₃", "-σ₁ s₂ c₂"]
 
 
-@pytest.mark.parametrize("problem", NAMED)
+@pytest.mark.parametrize("problem", [*NAMED, *WITH_H])
 def test_the_rows_of_the_summary_are_in_the_names(problem: str) -> None:
     """d_kj q̈_j + the names + g_k come to the forces, which are the rows where they are in the names."""
     solution, values = solved(problem), known(problem)
     D, g = evaluate(solution.forms("D"), values), evaluate(solution.forms("g"), values)
-    for i in range(3):
-        values |= {f"d{i + 1}{j + 1}": D[i][j] for j in range(3)} | {f"g{i + 1}": g[i][0]}
+    n = solution.robot.n
+    for i in range(n):
+        values |= {f"d{i + 1}{j + 1}": D[i][j] for j in range(n)} | {f"g{i + 1}": g[i][0]}
     found = {step.id: step for step in solution.explain(["torque", "vectorized"], named(problem))}
     own = [row for line in found["model"].lines for row in line.formulas]
-    assert bool(own) == (problem == "elbow-3r")
-    rows = own or [found[f"tau{k}"].result[0] for k in (1, 2, 3)]
+    assert bool(own) == (problem in WITH_H)
+    rows = own or [found[f"tau{q.index}"].result[0] for q in solution.robot.coordinates]
     for q, row in zip(solution.robot.coordinates, rows, strict=True):
         assert isinstance(row, Relation)
         ours = evaluate(with_symbols(row.parts[1]), values)
@@ -97,7 +99,7 @@ def with_symbols(node: Node) -> Node:
     return Symbol(node.base + "".join(str(part.p) for part in node.sub.parts if isinstance(part, Number)))
 
 
-@pytest.mark.parametrize("problem", NAMED)
+@pytest.mark.parametrize("problem", [*NAMED, *WITH_H])
 def test_C_and_N_mean_the_same(problem: str) -> None:
     solution, values, found = solved(problem), known(problem), steps(problem)
     C, N = (last(found[name].result[0]) for name in ("C", "skew"))
@@ -143,15 +145,56 @@ def relations(table: Table | None) -> list[Any]:
 
 
 @pytest.mark.parametrize("detail", list(Detail))
-def test_names_are_defined_before_they_are_used(detail: Detail) -> None:
-    name = named("elbow-3r").definitions[0].name
-    shown = list(displayed(solution_document(solved("elbow-3r"), detail).blocks))
-    uses = [node for node in shown if name in set(walk(node))]
-    assert isinstance(uses[0], Relation) and uses[0].parts[0] == name
+@pytest.mark.parametrize("problem", ["elbow-3r", "planar-2r", "puma560-first3"])
+def test_names_are_defined_before_they_are_used(detail: Detail, problem: str) -> None:
+    shown = list(displayed(solution_document(solved(problem), detail).blocks))
+    for one in named(problem).definitions:
+        first = next(node for node in shown if one.name in set(walk(node)))
+        assert isinstance(first, Relation)
+        place = first.parts.index(one.name)
+        assert place == 0 or first.signs[place - 1] == "=:"
 
 
-def test_an_arm_with_a_short_C_needs_none() -> None:
-    assert solved("planar-2r").abbreviated("auto") is None
+@pytest.mark.parametrize(("problem", "symbols"), [
+    ("planar-2r", ["-m₂ l₁ l_c2 s₂ =: h", "h", "-h"]),  # section 7.4
+    ("crustcrawler-2r", ["-L₂² (m₂/3 + m_p) s₂ c₂ =: h", "-h"]),
+    ("five-bar", ["(m₄ l₁ l_c4 - m₃ l₂ l_c3) sin(q₂ - q₁) =: h", "-h"]),
+])  # fmt: skip
+def test_what_all_symbols_are_is_the_books_h(problem: str, symbols: list[str]) -> None:
+    style, result = solved(problem).style, steps(problem)["christoffel"].result
+    shown = [to_unicode(node, style) for node in result]
+    assert [text.endswith(f"= {end}") for text, end in zip(shown, symbols, strict=True)] == [True] * len(
+        symbols
+    )
+
+
+@pytest.mark.parametrize(("problem", "introduced"), [
+    ("elbow-3r", {"ddt1": ["σ₁", "σ₂"], "ddt2": ["σ₃"]}),
+    ("spherical-rrp", {"K": ["σ₁"]}),
+    ("puma560-first3", {"K": ["σ₁", "σ₂", "σ₃"], "ddt1": ["σ₄", "σ₅", "σ₆", "σ₇"], "ddt2": ["σ₈"]}),
+    ("planar-2r", {}),  # h stands beside the symbol that it is
+])  # fmt: skip
+def test_each_name_is_introduced_once_where_it_first_comes_up(
+    problem: str, introduced: dict[str, list[str]]
+) -> None:
+    style, names = solved(problem).style, {one.name for one in named(problem).definitions}
+    found: dict[str, list[str]] = {}
+    for step in solved(problem).explain(short=named(problem)):
+        for line in step.lines:
+            for node in line.formulas:
+                if isinstance(node, Relation) and node.parts[0] in names:
+                    found.setdefault(step.id, []).append(to_unicode(node.parts[0], style))
+    assert found == introduced
+
+
+@pytest.mark.parametrize("problem", ["elbow-3r", "puma560-first3"])
+@pytest.mark.parametrize("name", ["tau1", "tau2", "tau3", "ddt1", "ddt2", "ddt3", "dLdq2", "dLdq3", "Cqd"])
+def test_forces_in_names_mean_the_same(problem: str, name: str) -> None:
+    found = {step.id: step for step in solved(problem).explain(short=named(problem))}[name]
+    values, wanted = known(problem), solved(problem).forms(name)
+    ours, theirs = evaluate(last(found.result[0]), values), evaluate(wanted, values)
+    assert_same(ours, theirs) if isinstance(ours, list) else assert_same([ours], [theirs])
+    assert "- (-" not in to_unicode(found.result[0])
 
 
 def test_never_is_never() -> None:
