@@ -59,8 +59,18 @@ def summary_blocks(
     if short is not None and short.at_symbols:
         where: Prose = ("these",) if short.inertias and short.inertias.definitions else (letters.C,)
         defined = Reference(labels_of_names(steps, short), ", ")
-        yield Text(("In ", *where, " and in the rows below", defined, ":"))
-        yield Equations(tuple(equation(one.name, one.meaning) for one in short.sums))
+        below: Prose = (
+            "In ",
+            *where,
+            " and in the rows below",
+            Reference(labels_of_names(steps, short), ", "),
+        )
+        meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
+        if short.single is not None and len(meanings) == 1:
+            yield Text((*below, ", ", *meanings, "."))
+        else:
+            yield Text((*below, ":"))
+            yield Equations(meanings)
     for line in model.lines:
         yield Text(line.by)
         yield Equations(line.formulas)
