@@ -58,7 +58,6 @@ def summary_blocks(
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     if short is not None and short.at_symbols:
         where: Prose = ("these",) if short.inertias and short.inertias.definitions else (letters.C,)
-        defined = Reference(labels_of_names(steps, short), ", ")
         below: Prose = (
             "In ",
             *where,
