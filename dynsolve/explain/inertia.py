@@ -114,7 +114,7 @@ def _tensor(context: Context, body: Body) -> Step:
     elif body.shape is None or not body.shape.formulas:
         axes = f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes"
         why = (f"The tensor of {name_of(body)} is given, about {about}, along {axes}.",)
-        why += _left_out(context, body) or _principal(context, body)
+        why = _left_out(context, body) or (*why, *_principal(context, body))
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
@@ -129,7 +129,7 @@ def _tensor(context: Context, body: Body) -> Step:
 
 
 def _left_out(context: Context, body: Body) -> Prose:
-    """That a given tensor is 0 about axes of the body where Rᵀ J_ω has a row of zeros: it never turns so."""
+    """What is given of a tensor that is 0 where Rᵀ J_ω has a row of zeros: the body never turns so."""
     if not context.is_short or is_moved(body) or body.inertia is None:
         return ()
     turning = context.values[f"R{body.name}"].T @ context.values[f"Jw{body.name}"]
@@ -137,13 +137,16 @@ def _left_out(context: Context, body: Body) -> Prose:
     if not still or len(still) > 2 or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
         return ()
     axes = listed(
-        [_axis(context, body, name, f"its {name}") for i, name in enumerate("xyz") if i not in still]
+        [_axis(context, body, name, f"its axis {name}") for i, name in enumerate("xyz") if i not in still]
     )
-    what, along = ("that axis", "is along") if len(still) == 2 else ("these axes", "has components along")
+    entries, along = "what belongs to ", "has components along these axes"
+    if len(still) == 2:
+        entries, along = "the moment about ", "is along that axis"
     return (
-        f" The angular velocity of the body {along} ",
+        f"Of the tensor of {name_of(body)} about its mass centre {entries}",
         *axes,
-        f" alone, so only what belongs to {what} enters; the other entries are set to 0.",
+        f" is given. The angular velocity {along} alone, so nothing else enters, and the other entries are "
+        "set to 0.",
     )
 
 

@@ -222,8 +222,44 @@ def column_shown(
         values = [_multiplied_out(context, moved[0][1], point)] if len(moved) == 1 else []
     elif len(moved) == 1 and any(map(_adds_up, _products(context, moved[0][1], point))):
         values.insert(0, _multiplied_out(context, moved[0][1], point))
-    members = [in_letters, _total(parts), *values]
-    return (equation(*members),) if is_small(*small) else ()
+    if not is_small(*small):
+        return ()
+    difference = _difference(context, moved[0][1], point, in_letters) if len(moved) == 1 else ()
+    return (*difference, equation(in_letters, _total(parts), *values))
+
+
+def _difference(context: Context, joint: Joint, point: algebra.Matrix, in_letters: Node) -> tuple[Node, ...]:
+    """p - o with both put in, where it is more than leaving out the terms of o."""
+    start = frame_parts(context, joint_frame(context.robot, joint))[1]
+    end, lever = context.show(point), context.show(_lever(context, joint, point))
+    assert isinstance(end, Matrix) and isinstance(lever, Matrix)
+    rows = zip(end.rows, start.rows, lever.rows, strict=True)
+    if all(set(_terms(p)) == {*_terms(o), *_terms(rest)} for (p,), (o,), (rest,) in rows):
+        return ()
+    between = next(part.argument for part in walk(in_letters) if isinstance(part, Parenthesized))
+    assert isinstance(between, Sum)
+    if (before := _same_origin(context, joint)) is not None:
+        return (equation(between, Sum((between.terms[0], Negative(letters.o(before))))),)
+    both = (Sum((end, Negative(start))),) if is_small(end, start) else ()
+    return (equation(between, *both, lever),)
+
+
+def _same_origin(context: Context, joint: Joint) -> int | None:
+    """The frame of an earlier joint whose axis meets this one's in one origin, and whose p - o is shown."""
+    own = origin(context.values[f"H{joint_frame(context.robot, joint)}"])
+    for before in context.robot.path(joint.index - 1):
+        i = joint_frame(context.robot, before)
+        turns = before.type is JointType.REVOLUTE and not _is_fixed(context, before)
+        if turns and origin(context.values[f"H{i}"]) == own:
+            return i
+    return None
+
+
+def _terms(node: Node) -> tuple[Node, ...]:
+    """The terms of a sum; of 0 none."""
+    if node == number(0):
+        return ()
+    return node.terms if isinstance(node, Sum) else (node,)
 
 
 _Factors = list[tuple[Expr, Expr]]

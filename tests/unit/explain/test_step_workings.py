@@ -219,11 +219,6 @@ def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
 
 TENSORS = [
     (
-        "planar-2r",
-        "1",
-        "along the axes of frame 1. The angular velocity of the body is along 𝐳₁ alone, so only",
-    ),
-    (
         "elbow-3r",
         "3",
         "along the axes of frame 3. They are principal axes: there are no products of inertia.",

@@ -174,7 +174,7 @@ def test_no_parallel_axis_where_the_point_is_the_centre() -> None:
     body = "{mass: m1, link: 1, center: tip, inertia: {zz: I1}, about: origin}"
     text = f"dh: [{{theta: q1*, a: l1}}]\nmasses: [{body}]\n"
     assert "Parallel axis" not in everything_said(text)
-    assert "given, about the mass centre" in everything_said(text)
+    assert "Of the tensor of body 1 about its mass centre the moment" in everything_said(text)
 
 
 def test_a_tensor_is_not_called_like_its_entry() -> None:
@@ -213,8 +213,11 @@ def test_the_axis_that_points_up_is_named() -> None:
 
 
 def test_of_a_given_tensor_it_is_said_what_does_not_enter() -> None:
-    told = "The angular velocity of the body is along 𝐳₁ alone, so only what belongs to that axis enters"
-    assert told in said(step("planar-2r", "I_body1").why, "planar-2r")
+    why = said(step("planar-2r", "I_body1").why, "planar-2r")
+    assert why == (
+        "Of the tensor of body 1 about its mass centre the moment about 𝐳₁ is given. The angular velocity is "
+        "along that axis alone, so nothing else enters, and the other entries are set to 0."
+    )
     assert "angular velocity" not in said(
         step("elbow-3r", "I_body2").why, "elbow-3r"
     )  # about all of its axes

@@ -281,16 +281,19 @@ masses:
 
 
 def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -> None:
-    first, shown, by, second = lines(TILTED_BODIES, "Kw2")[:4]
+    first, shown, axes, seen, by, second = lines(TILTED_BODIES, "Kw2")[:6]
     assert first == "Along the axes of frame 0:"
     assert shown.startswith("(𝐑₀^w)ᵀ 𝛚₂ = [[1, 0, 0], [0, √3/2, -½], [0, ½, √3/2]]ᵀ [[")
     assert shown.endswith(" = [[s₁ q̇₂], [-c₁ q̇₂], [q̇₁]]")
+    assert axes == "The body's axes seen from frame 0, the rotation of 𝐀₁ 𝐀₂:"
+    assert seen.startswith("(𝐑₀^w)ᵀ 𝐑₂ = [[1, 0, 0], [0, √3/2, -½], [0, ½, √3/2]]ᵀ [[")
+    assert seen.endswith(" = [[c₁ c₂, -c₁ s₂, s₁], [s₁ c₂, -s₁ s₂, -c₁], [s₂, c₂, 0]]")
     assert by == (
-        "From there along the body's own axes, by (𝐑₀^w)ᵀ 𝐑₂, the rotation of 𝐀₁ 𝐀₂, with s₁² + c₁² = 1 "
+        "From there along the body's own axes, by (𝐑₀^w)ᵀ 𝐑₂, with s₁² + c₁² = 1 "
         "(the terms with s₁ c₁ cancel):"
     )
     assert second == (
-        "𝐑₂ᵀ 𝛚₂ = ((𝐑₀^w)ᵀ 𝐑₂)ᵀ (𝐑₀^w)ᵀ 𝛚₂ = [[c₁ c₂, -c₁ s₂, s₁], [s₁ c₂, -s₁ s₂, -c₁], [s₂, c₂, 0]]ᵀ"
+        "𝐑₂ᵀ 𝛚₂ = ((𝐑₀^w)ᵀ 𝐑₂)ᵀ ((𝐑₀^w)ᵀ 𝛚₂) = [[c₁ c₂, -c₁ s₂, s₁], [s₁ c₂, -s₁ s₂, -c₁], [s₂, c₂, 0]]ᵀ"
         " [[s₁ q̇₂], [-c₁ q̇₂], [q̇₁]] = [[s₂ q̇₁], [c₂ q̇₁], [q̇₂]]"
     )
     whole = lines(TILTED_BODIES, "Kw1")
@@ -301,13 +304,30 @@ def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -
 def test_the_numbers_that_add_up_in_a_cross_product_are_shown() -> None:
     """¼ + ¾, the squares of sin 30° and cos 30°, stand before their sum; rows without such terms do not."""
     style = solved(TILTED_BODIES).style
-    first, second = (to_unicode(node, style) for node in step(TILTED_BODIES, "Jv2").working)
+    _, first, _, second = (to_unicode(node, style) for node in step(TILTED_BODIES, "Jv2").working)
     *_, products, value = first.split(" = ")
     assert products == (
         "[[-√3 l_c2 (√3 s₁ c₂ - s₂)/4 - l_c2 (s₁ c₂ + √3 s₂)/4], [√3 l_c2 c₁ c₂/2], [l_c2 c₁ c₂/2]]"
     )
     assert value == "½ l_c2 [[-2s₁ c₂], [√3 c₁ c₂], [c₁ c₂]]"
     assert "[[l_c2 c₁ (√3 s₁ c₂ - s₂)/4 - √3 l_c2 c₁ (s₁ c₂ + √3 s₂)/4], [" in second
+
+
+def working(problem: str, name: str) -> list[str]:
+    """The formulas of a step with the robot's matrices put in."""
+    return [to_unicode(node, solved(problem).style) for node in step(problem, name).working]
+
+
+def test_a_difference_that_is_more_than_terms_left_out_stands_before_its_product() -> None:
+    """Where two axes meet in one origin it is worked out once."""
+    first, _, second, _ = (each.split(" = ")[:2] for each in working(TILTED_BODIES, "Jv2"))
+    assert first[0] == "𝐫_c2 - 𝐨₁" and "] - [" in first[1]
+    assert second == ["𝐫_c2 - 𝐨₂", "𝐫_c2 - 𝐨₁"]
+    assert [each.split(" = ")[0] for each in working("elbow-3r", "Jv3")] == [
+        "𝐳₁ × (𝐫_c3 - 𝐨₁)",  # L₁ is left out
+        "𝐫_c3 - 𝐨₂",
+        "𝐳₂ × (𝐫_c3 - 𝐨₂)",
+    ]
 
 
 @pytest.mark.parametrize("problem", [TILTED, TILTED_BODIES])
@@ -357,7 +377,8 @@ def test_the_product_of_two_rows_names_the_sums_of_angles() -> None:
 
 def test_the_identity_of_a_turned_tensor_and_of_a_lever_is_named() -> None:
     assert lines("crustcrawler-2r", "I1") == lines("elbow-3r", "J2") == ["With s₁² + c₁² = 1:"]
-    assert lines("elbow-3r", "J1") == lines("planar-2r", "I1") == []
+    assert lines("planar-2r", "I1") == []
+    assert lines("elbow-3r", "J1") == ["As 𝐳₀ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ for any vector:"]
     axis_and_lever = to_unicode(step("elbow-3r", "J2").working[0], solved("elbow-3r").style)
     assert axis_and_lever.endswith(
         " = [[-c₁ (L₂ s₂ + L₃ s₂₃)], [-s₁ (L₂ s₂ + L₃ s₂₃)], [(L₂ c₂ + L₃ c₂₃)(s₁² + c₁²)]]"
