@@ -91,7 +91,13 @@ class Typesetter:
         width = self.ruler.width(left)
         beside = width <= _LONGEST_LEFT * self.room
         if not beside:
-            yield from self._broken(self.splitter.pieces(left), self.room, self.room - INDENT)
+            before = self.splitter.pieces(left)
+            last = self.splitter.pieces(members[0], node.signs[0])
+            if len(members) == len(last) == 1:  # τ goes on from g, where it has room there
+                after = replace(last[0], depth=before[-1].depth)
+                yield from self._broken([*before, after], self.room, self.room - INDENT)
+                return
+            yield from self._broken(before, self.room, self.room - INDENT)
         room = self.room - (width if beside else INDENT)
         name = self.notation.text(left) if beside else ""
         waiting: list[list[Piece]] = []

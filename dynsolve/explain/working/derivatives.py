@@ -128,6 +128,10 @@ def gravity_rows(context: Context) -> tuple[Line, ...]:
 # -- the derivatives of D --------------------------------------------------------------------------
 
 
+SLOPES = "slopes-of-D"
+"""The label of the derivatives of D, where they have lines of their own."""
+
+
 def slopes(context: Context) -> Way:
     """The slopes ∂d_ij/∂q_k that are not zero, where one of them asks for more than a look."""
     if not context.is_short:
@@ -140,7 +144,8 @@ def slopes(context: Context) -> Way:
     by += (", multiplied out",) if any(each.is_multiplied_out for each in found) else ()
     by += (", and collected",) if any(len(each.members) > 2 for each in found) else ()
     by += (" with ", *said(used), ":") if used else (":",)
-    return Way((Line(by, tuple(equation(*each.members) for each in found)),), ("Put into the formula:",))
+    shown = tuple(equation(*each.members) for each in found)
+    return Way((Line(by, shown, label=SLOPES),), ("Put into the formula:",))
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,7 +204,8 @@ def inertia_rate(
     count = context.robot.n * (context.robot.n + 1) // 2
     by: Prose = ("The rate of ", letters.D, " by the chain rule, entry by entry")
     by += ("; the other entries are constant:",) if len(rates) < count else (":",)
-    return (Line(by, tuple(shown), used),)
+    told = (SLOPES,) if slopes(context).lines else ()
+    return (Line(by, tuple(shown), (*used, *told)),)
 
 
 def _rate_names(i: int, j: int) -> tuple[Node, ...]:
