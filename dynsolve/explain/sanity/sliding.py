@@ -18,7 +18,7 @@ from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, these_alone,
 from dynsolve.explain.sanity.cases import solved
 from dynsolve.explain.sanity.curvature import slope
 from dynsolve.explain.sanity.pose import Pose, at, degrees, turning_in, written
-from dynsolve.explain.sanity.sign import sign_of
+from dynsolve.explain.sanity.sign import is_positive, sign_of, with_lengths
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.notation.build import times, total
@@ -79,7 +79,9 @@ def at_one_length(context: Context) -> Step | None:
     why = (*at_rest(context), *assumed(context), "The rows of ", letters.G, Reference(("g",), " in "))
     why += ("; what ", equation(letters.entry("g", slid + 1), ZERO), " says is put into the other:")
     concluding = (these_alone(len(values)), *free(context, (angle, name)), ". ")
-    return told(why, lines, (*concluding, *_saddles(context, slid, turned)))
+    return told(
+        why, lines, (*concluding, *_saddles(context, slid, turned), *_not_extended(context, name, *lengths))
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,3 +135,11 @@ def _saddles(context: Context, slid: int, turned: int) -> Prose:
     why += (", the determinant of its second derivatives with respect to ", Symbol(names[1]), " and ")
     why += (Symbol(names[0]), " is ", Relation((det, ZERO), ("<",)), ". So they are unstable.")
     return why
+
+
+def _not_extended(context: Context, name: str, length: Node) -> Prose:
+    """That the length is on the other side of 0, where it is seen to be."""
+    positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
+    if not isinstance(length, Negative) or not is_positive(length.argument, positive, constant):
+        return ()
+    return (" With ", Relation((Symbol(name), ZERO), (">",)), " no pose is balanced.")

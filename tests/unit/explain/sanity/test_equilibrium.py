@@ -179,7 +179,15 @@ def test_an_arm_with_a_balanced_length_is_at_a_saddle_point(
         second = [[evaluate(ring.diff(g[i, 0], j), state) for j in places] for i in places]
         assert np.linalg.eigvalsh(np.array(second)).tolist()[0] < 0 < np.linalg.eigvalsh(np.array(second))[1]
     step = check(problem, "equilibrium")
-    assert step is not None and words(step.concluding).endswith("So they are unstable.")
+    assert step is not None and "So they are unstable." in words(step.concluding)
+
+
+def test_a_length_that_balances_on_the_other_side_of_zero_is_said_to() -> None:
+    """Where m₂ and m₃ decide on which side it is, nothing is said."""
+    found = {name: check(name, "equilibrium") for name in ("spherical-rrp", "box-cylinder-rod-sphere")}
+    said_of = {name: words(step.concluding) for name, step in found.items() if step is not None}
+    assert said_of["spherical-rrp"].endswith("So they are unstable. With d₃ > 0 no pose is balanced.")
+    assert said_of["box-cylinder-rod-sphere"].endswith("So they are unstable.")
 
 
 # -- what is said is true, of any robot ------------------------------------------------------------
