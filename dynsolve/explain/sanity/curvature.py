@@ -79,15 +79,15 @@ def kind_of(signs: Sequence[int]) -> Kind | None:
 
 
 def shown(context: Context, names: Sequence[str], known: Sequence[Zero] | None) -> Iterator[Node]:
-    """The second derivatives; where rows of g are 0 the determinant of two, too."""
+    """The second derivatives and the determinant of two, with its value where rows of g are 0."""
     second = _second(context, names, known or ())
     for value, slopes in _by_value(context, names, second):
         yield equation(*slopes, context.show(value))
-    if known is None or len(names) == 1:
+    if len(names) == 1:
         return
     letters_of = [[slope(context, i, j) for j in names] for i in names]
-    last = context.show(minors(context, names, known)[-1])
-    yield equation(DET, _determinant(letters_of), last)
+    last = () if known is None else (context.show(minors(context, names, known)[-1]),)
+    yield equation(DET, _determinant(letters_of), *last)
 
 
 def _by_value(

@@ -75,13 +75,12 @@ def at_one_length(context: Context) -> Step | None:
     zero = equation(letters.entry("g", slid + 1), context.show(g[slid, 0]), ZERO)
     rows = (Row((zero, Words(", so "), said, Words(", "), either)), *(pose.zero for pose in poses if pose))
     name = robot.coordinates[slid].name
-    lines = (Line((), rows), Line(("So in both:",), (equation(Symbol(name), *lengths),)))
     why = (*at_rest(context), *assumed(context), "The rows of ", letters.G, Reference(("g",), " in "))
     why += ("; what ", equation(letters.entry("g", slid + 1), ZERO), " says is put into the other:")
-    concluding = (these_alone(len(values)), *free(context, (angle, name)), ". ")
-    return told(
-        why, lines, (*concluding, *_saddles(context, slid, turned), *_not_extended(context, name, *lengths))
-    )
+    concluding: Prose = ("So ", equation(Symbol(name), *lengths), " in both. ", these_alone(len(values)))
+    concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned))
+    concluding += _not_extended(context, name, *lengths)
+    return told(why, (Line((), rows),), concluding)
 
 
 @dataclass(frozen=True, slots=True)

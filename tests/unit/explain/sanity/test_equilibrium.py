@@ -149,10 +149,14 @@ def test_where_an_axis_of_sliding_turns_one_length_balances_it() -> None:
         "g₃ = m₃ g s₂ = 0, so s₂ = 0, θ₂ = 0 or 180°",
         "θ₂ = 0: g₂ = g (m₂ l_c2 + m₃ d₃) = 0",
         "θ₂ = 180°: g₂ = -g (m₂ l_c2 + m₃ d₃) = 0",
-        "d₃ = -m₂ l_c2/m₃",
     ]
-    assert lines("box-cylinder-rod-sphere", "equilibrium")[-1] == "d₃ = (m₃ l₃ - m₂ l₂)/(2(m₃ + m₄))"
-    assert lines("rp-parameters", "equilibrium")[-1] == "q₂ = 0"
+    for problem, length in (
+        ("spherical-rrp", "d₃ = -m₂ l_c2/m₃"),
+        ("box-cylinder-rod-sphere", "d₃ = (m₃ l₃ - m₂ l₂)/(2(m₃ + m₄))"),
+        ("rp-parameters", "q₂ = 0"),
+    ):
+        step = check(problem, "equilibrium")
+        assert step is not None and words(step.concluding).startswith(f"So {length} in both. Gravity is ")
 
 
 @pytest.mark.parametrize(
@@ -188,6 +192,15 @@ def test_a_length_that_balances_on_the_other_side_of_zero_is_said_to() -> None:
     said_of = {name: words(step.concluding) for name, step in found.items() if step is not None}
     assert said_of["spherical-rrp"].endswith("So they are unstable. With d₃ > 0 no pose is balanced.")
     assert said_of["box-cylinder-rod-sphere"].endswith("So they are unstable.")
+
+
+def test_a_determinant_that_differs_from_case_to_case_is_said_in_derivatives() -> None:
+    assert lines(TILTED_BASE, "equilibrium")[-1] == "det = (∂g₁/∂q₁) ∂g₂/∂q₂ - (∂g₁/∂q₂)²"
+
+
+def test_one_row_is_put_into_no_other() -> None:
+    pendulum = "base: Rx(90deg)\ndh: [{theta: q1*, a: a1}]\nmasses: [{mass: m1, link: 1, center: tip}]\n"
+    assert said(pendulum, "equilibrium").endswith("The only row of g:")
 
 
 # -- what is said is true, of any robot ------------------------------------------------------------
