@@ -33,7 +33,7 @@ def summary_blocks(
 ) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
 
-    Of arms that are not short D, C, g and the forces are not written again.  The names in C, or in
+    Of arms that are not short D, C, g and the forces are not written again, but for one row.  The names in C, or in
     all of them, are repeated beside them, and the rows are in these.
     """
     by_id = {step.id: step for step in steps}
@@ -46,7 +46,10 @@ def summary_blocks(
     yield Formula(model.formula, source=model.source)
     if not is_short:
         number = list(stages_of(robot)).index(model.stage) + 1
-        yield Text(_where_they_are(f" are those of section {number}", by_id["christoffel"].detail <= detail))
+        with_symbols = by_id["christoffel"].detail <= detail
+        yield Text(_where_they_are(f" are those of section {number}", with_symbols))
+        if with_symbols:
+            yield from _lines(model)
         return
     found = Reference(_MATRICES, ", ")
     if model.result:
@@ -70,14 +73,19 @@ def summary_blocks(
         else:
             yield Text((*below, ":"))
             yield Equations(meanings)
-    for line in model.lines:
-        yield Text(line.by)
-        yield Equations(line.formulas)
+    yield from _lines(model)
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if not model.lines and all(name in by_id for name in forces):
         lead = "Row by row" if len(forces) > 1 else "Multiplied out"
         yield Text((lead, Reference(tuple(forces), ", "), ":"))
         yield Equations(tuple(by_id[name].result[0] for name in forces))
+
+
+def _lines(step: Step) -> Iterator[Block]:
+    """The lines of a step, each after what is said of it."""
+    for line in step.lines:
+        yield Text(line.by)
+        yield Equations(line.formulas)
 
 
 def _where_they_are(place: str, with_symbols: bool) -> Prose:

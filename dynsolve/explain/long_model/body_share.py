@@ -19,7 +19,9 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import column_letters
 from dynsolve.explain.step import Line
 from dynsolve.explain.widths import matrix_width
+from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.notation.build import total
 from dynsolve.notation.tree import (
     Cross,
     Matrix,
@@ -75,8 +77,12 @@ class BodyShare:
         return (left.T @ tensor @ right)[0, 0]
 
     @property
+    def _turning(self) -> tuple[Joint, ...]:
+        return tuple(joint for joint in self.joints if joint.type is JointType.REVOLUTE)
+
+    @property
     def _turns(self) -> bool:
-        return all(joint.type is JointType.REVOLUTE for joint in self.joints)
+        return len(self._turning) == len(self.joints)
 
     def _way(self, joint: Joint) -> tuple[Joint, ...]:
         """The rows from the joint's axis to the body's frame."""
@@ -124,9 +130,31 @@ class BodyShare:
     def lines(self) -> Iterator[Line]:
         """The vectors along the axes of the body, and their cross products."""
         yield Line(self._on_the_axes(), self._vectors())
-        crosses = tuple(map(self._cross, (j for j in self.joints if j.type is JointType.REVOLUTE)))
+        crosses = tuple(map(self._cross, self._turning))
         if crosses:
             yield Line(("The cross products of these:",), crosses)
+
+    @property
+    def has_both_parts(self) -> bool:
+        """Whether the body moves and turns with both joints."""
+        return not self.linear.is_zero and not self.angular.is_zero
+
+    def products(self) -> Line:
+        """m (J_v)_jᵀ (J_v)_k entry by entry, and (J_ω)_jᵀ 𝓘 (J_ω)_k."""
+        show, terms = self.context.show, self.in_letters
+        left, right = (self._shown(joint) for joint in self.joints)
+        each = [product_of(1, [(a, 1), (b, 1)]) for a, b in zip(left, right, strict=True)]
+        entries = Parenthesized(total(each))
+        linear = equation(terms[0], Product((self.context.mass(self.body), entries)), show(self.linear))
+        return Line(
+            (f"Multiplied, for body {self.body.name}:",), (linear, equation(terms[1], show(self.angular)))
+        )
+
+    def _shown(self, joint: Joint) -> tuple[Node, ...]:
+        """The entries of the column of J_v."""
+        column = self.context.show(self._column(joint))
+        assert isinstance(column, Matrix)
+        return tuple(entry for (entry,) in column.rows)
 
     def _on_the_axes(self) -> Prose:
         """Along which axes the vectors are written, and where those of the joints are read off."""

@@ -17,6 +17,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian_columns import ZERO
 from dynsolve.explain.long_model.body_jacobians import kinetic_step
+from dynsolve.explain.long_model.heights import heights
 from dynsolve.explain.potential import gravity_row
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, side_by_side, spong
@@ -199,6 +200,7 @@ def _off_the_diagonal(bodies: Sequence[Body]) -> Prose:
 
 
 def _potential(context: Context) -> Step:
+    rows = tuple(heights(context))
     center = Letter("r", Row((Words("c"), _I)), style="bold")
     down = Transpose(letters.GRAVITY)
     bodies = context.robot.bodies
@@ -210,6 +212,8 @@ def _potential(context: Context) -> Step:
         formula=equation(Letter("P", _I), Negative(Product((Letter("m", _I), down, center)))),
         source=spong("7.2.3"),
         further=(equation(letters.GRAVITY, gravity_row(context)),),
+        lines=rows,
+        concluding=("With these:",) if rows else (),
         result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),
         listed=True,
         detail=Detail.BRIEF,
@@ -244,14 +248,21 @@ def _forces(context: Context) -> Step:
             equation(letters.time_derivative(momentum), Sum((accelerated, moving))),
             equation(by_coordinate, Sum((Product((letters.HALF, squares)), Negative(height)))),
         ),
-        lines=(_rates_of_entries(n),),
-        concluding=(
-            "Put in, and collected in the Christoffel symbols ",
-            equation(Letter("c", Row((_I, _J, _K))), Product((letters.HALF, SLOPES))),
-            " and the gravity terms ",
-            equation(Letter("g", _K), height),
-            ":",
+        lines=(
+            _rates_of_entries(n),
+            Line(
+                ("In the Christoffel symbols and the gravity terms",),
+                (
+                    side_by_side(
+                        [
+                            equation(Letter("c", Row((_I, _J, _K))), Product((letters.HALF, SLOPES))),
+                            equation(Letter("g", _K), height),
+                        ]
+                    ),
+                ),
+            ),
         ),
+        concluding=("the forces are",),
         result=(equation(Letter("tau", _K), Sum((accelerated, coriolis, *resisted, Letter("g", _K)))),),
         detail=Detail.BRIEF,
         uses=("L",),

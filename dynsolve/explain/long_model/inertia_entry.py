@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain
 
 from dynsolve.algebra.expr import Expr
@@ -63,13 +64,26 @@ class InertiaEntry:
             formula=equation(name, Sum(tuple(chain(*(share.in_letters for share in self.shares))))),
             source=spong("7.2.2"),
             lines=tuple(self._lines()),
-            concluding=("Put in:" if len(members) == 1 else "Put in, and collected in the abbreviations:",),
+            concluding=(self._on_the_sum(collected=len(members) > 1),),
             result=(equation(name, *members),),
             notes=(
                 ("The other entries are made alike, with such terms of each body that both joints move.",),
             ),
             uses=(),
         )
+
+    @cached_property
+    def _multiplied(self) -> BodyShare | None:
+        """The body whose products are written out: of several the first that moves and turns."""
+        if len(self.shares) == 1:
+            return None
+        return next((share for share in self.shares if share.has_both_parts), None)
+
+    def _on_the_sum(self, *, collected: bool) -> str:
+        """How the entry comes from the products; those of the other bodies are made alike."""
+        others = [share.body.name for share in self.shares if share is not self._multiplied]
+        added = f"With the products of body {others[0]}, made alike" if self._multiplied else "Put in"
+        return f"{added}{', and collected in the abbreviations' if collected else ''}:"
 
     def _on_the_bodies(self, name: Node) -> Prose:
         """Why there are these terms only, and along which axes they are best worked out."""
@@ -86,9 +100,11 @@ class InertiaEntry:
         )
 
     def _lines(self) -> Iterator[Line]:
-        """The vectors of each body."""
+        """The vectors of each body, and of one also their products."""
         for share in self.shares:
             yield from share.lines()
+            if share is self._multiplied:
+                yield share.products()
 
 
 MOST_BODIES = 2

@@ -15,7 +15,19 @@ from dynsolve.explain.long_model.model import LongModel
 from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.explain.working.differentiation import by_symbol, differentiated
 from dynsolve.notation.build import negated, times, total
-from dynsolve.notation.tree import ZERO, Derivative, Negative, Node, Product, Relation, Sum, Symbol, equation
+from dynsolve.notation.tree import (
+    ZERO,
+    Derivative,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Product,
+    Relation,
+    Sum,
+    Symbol,
+    equation,
+)
 from dynsolve.notation.walk import names_in
 from dynsolve.quantities import letters
 
@@ -64,7 +76,7 @@ class NameSlopes:
                 return by(part)
             return ZERO if self._slope(part).is_zero else self.of(part)
 
-        return differentiated(node, rule).tree
+        return _of_single_angles(differentiated(node, rule).tree)
 
     def value(self, node: Node) -> Node:
         """The derivative of a tree term by term, what those of the names are put in."""
@@ -131,3 +143,17 @@ class NameSlopes:
         trees = expanded(self.model.short.definitions, names)
         ring = self.model.context.robot.ring
         return {name: value_of(ring, node) for name, node in zip(names, trees, strict=True)}
+
+
+def _of_single_angles(node: Node) -> Node:
+    """2 s c for sin(2θ), as the names are written."""
+    match node:
+        case Function("sin", Product((Number(2, 1), angle))):
+            return Product((Number(2), Function("sin", angle), Function("cos", angle)))
+        case Sum(terms):
+            return total([_of_single_angles(term) for term in terms])
+        case Negative(argument):
+            return negated(_of_single_angles(argument))
+        case Product(factors):
+            return times(1, [(_of_single_angles(factor), 1) for factor in factors])
+    return node

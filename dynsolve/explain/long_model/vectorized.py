@@ -8,9 +8,12 @@ from functools import partial
 from itertools import chain
 
 from dynsolve.document import Prose
+from dynsolve.explain import closing
 from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.long_model.model import QUADRATIC, Change, LongModel
+from dynsolve.explain.long_model.one_row import shortest_row
+from dynsolve.explain.long_model.parallel_axes import on_parallel_axes
 from dynsolve.explain.long_model.slopes import christoffel_example, gravity_example
 from dynsolve.explain.sanity.dependence import is_carried_along, on_last_entry
 from dynsolve.explain.step import Detail, Line, Step
@@ -41,6 +44,7 @@ def changes(model: LongModel) -> dict[str, Change]:
         "C": partial(coriolis, model),
         "g": partial(gravity, model),
         "dependence": partial(last_entry, model),
+        closing.ID: partial(shortest_row, model),
     }
 
 
@@ -127,6 +131,7 @@ def _on_symbols(model: LongModel) -> Prose:
     c = partial(_with_indices, "c")
     why: Prose = (equation(c("ijk"), c("jik")), ", for ", letters.D, " is symmetric. ")
     opposite = equation(c("ijk"), Negative(c("ikj")))
+    why += on_parallel_axes(model.context)
     if is_carried_along(model.context):
         entry, coordinate = _with_indices("d", "jk"), Letter("q", Symbol("i"))
         why += ("Joint i moves the links from ", Symbol("i"), " on like one body, so ", entry)

@@ -11,7 +11,18 @@ from dynsolve.derivation.kinematics import axis, origin, rotation
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.recurring import expanded
 from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Cross, Derivative, Letter, Matrix, Node, Relation, Row, Symbol
+from dynsolve.notation.tree import (
+    Cross,
+    Derivative,
+    Letter,
+    Matrix,
+    Node,
+    Product,
+    Relation,
+    Row,
+    Sum,
+    Symbol,
+)
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
@@ -56,9 +67,17 @@ def test_an_entry_of_D(problem: str, j: int) -> None:
     assert found and set(found) == {solution.values["D"][j - 1, 4]}
 
 
-@pytest.mark.parametrize(("problem", "j"), ENTRY)
-def test_its_vectors_are_those_of_the_base_turned_into_the_link(problem: str, j: int) -> None:
-    """z and r_c - o of the two joints, from H as the report derives it; and z × (r_c - o), of both bodies."""
+@pytest.mark.parametrize(
+    ("problem", "j", "multiplied"),
+    [("stanford-6", 2, 6), pytest.param("puma560", 4, 5, marks=pytest.mark.slow)],
+)
+def test_its_vectors_are_those_of_the_base_turned_into_the_link(
+    problem: str, j: int, multiplied: int
+) -> None:
+    """z and r_c - o of the two joints, from H as the report derives it; and z × (r_c - o), of both bodies.
+
+    Of the first body that moves and turns the products of these are written too.
+    """
     solution, step = solved(problem), told(problem, "D_entry")
     H, ring = solution.values, solution.robot.ring
     lines = iter(step.lines)
@@ -75,6 +94,14 @@ def test_its_vectors_are_those_of_the_base_turned_into_the_link(problem: str, j:
             put_in, value = formula.parts[1:]
             assert isinstance(put_in, Cross) and isinstance(value, Matrix)
             assert evaluated(ring, value) == cross(z, lever)
+        if body == multiplied:
+            moved, turned = (values(problem, each) for each in next(lines).formulas)
+            robot = solution.robot
+            left, right = (cross(z, lever) for z, lever in zip(axes, levers, strict=True))
+            mass = next(each.mass for each in robot.bodies if each.link == body)
+            assert len(moved) == 2 and set(moved) == {ring.dot(left.entries, right.entries) * mass}
+            tensor = solution.values[f"I_body{body}"]
+            assert turned == [(axes[0].T @ tensor @ axes[1])[0, 0]]
     assert not list(lines)
 
 
@@ -135,7 +162,7 @@ def test_the_names_that_a_christoffel_symbol_needs() -> None:
     shown = [to_unicode(formula, style) for line in (found, entries, last) for formula in line.formulas]
     assert shown == [
         "∂σ₈/∂θ₆ = κ₇ c₆ - κ₈ s₆ = σ₁₂",
-        "∂σ₉/∂θ₆ = κ₁₇ s₆² - 2κ₆ sin(2θ₆) - κ₁₇ c₆² = -2σ₂₇",
+        "∂σ₉/∂θ₆ = κ₁₇ s₆² - 4κ₆ s₆ c₆ - κ₁₇ c₆² = -2σ₂₇",
         "∂σ₁₆/∂θ₆ = s₅ ∂σ₉/∂θ₆ + c₅ ∂σ₈/∂θ₆ = c₅ σ₁₂ - 2s₅ σ₂₇",
         "∂d₄₅/∂θ₆ = -∂σ₁₆/∂θ₆ = -(c₅ σ₁₂ - 2s₅ σ₂₇)",
         "∂d₄₆/∂θ₅ = σ₁₂ c₅ - κ₁₆ s₅",
@@ -170,3 +197,40 @@ def test_the_names_that_a_gravity_term_needs() -> None:
         "∂σ₆/∂θ₅ = c₅ (κ₃ + σ₁) - κ₁₃ s₅ = -σ₂",
         "g₅ = ∂𝒫/∂θ₅ = g (s₂₃ ∂σ₅/∂θ₅ + c₂₃ ∂σ₆/∂θ₅) = -g (c₂₃ σ₂ + s₂₃ c₄ σ₆)",
     ]
+
+
+@pytest.mark.parametrize(
+    ("problem", "k"), [("stanford-6", 3), pytest.param("puma560", 6, marks=pytest.mark.slow)]
+)
+def test_a_row_of_the_forces(problem: str, k: int) -> None:
+    """In d_kj, c_ijk and g_k: with the values of these it is the force that the robot has, exactly."""
+    solution, step = solved(problem), told(problem, "model")
+    ((formula,),) = (line.formulas for line in step.lines)
+    assert isinstance(formula, Relation)
+    ring, D, symbols = solution.robot.ring, solution.values["D"], solution.values["christoffel"]
+    n, names = solution.robot.n, [q.name for q in solution.robot.coordinates]
+    row = {letters.entry("g", k): solution.values["g"][k - 1, 0]}
+    row |= {letters.entry("d", *sorted((k, j))): D[k - 1, j - 1] for j in range(1, n + 1)}
+    row |= {
+        letters.entry("c", i, j, k): symbols[i - 1, j - 1, k - 1]
+        for i in range(1, n + 1)
+        for j in range(i, n + 1)
+    }
+    total = ring.zero
+    for term in terms_of(formula.parts[1]):
+        value = ring.one
+        for factor in term.factors if isinstance(term, Product) else (term,):
+            value *= row[factor] if factor in row else value_of(ring, factor)
+        total += value
+    forces = [ring.symbol(q.name, dots=2) * D[k - 1, j] for j, q in enumerate(solution.robot.coordinates)]
+    forces += [
+        ring.symbol(names[i], dots=1) * ring.symbol(names[j], dots=1) * symbols[i, j, k - 1]
+        for i in range(n)
+        for j in range(n)
+    ]
+    assert total == sum(forces, start=solution.values["g"][k - 1, 0])
+
+
+def terms_of(node: Node) -> tuple[Node, ...]:
+    assert isinstance(node, Sum)
+    return node.terms

@@ -10,13 +10,15 @@ import pytest
 import dynsolve
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Reference
+from dynsolve.explain.long_model.parallel_axes import on_parallel_axes
 from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Letter, Matrix, Relation, Row, Symbol
+from dynsolve.notation.tree import Letter, Matrix, Number, Product, Relation, Row, Symbol
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.render.prose import with_formulas
 from tests.support import solved
+from tests.unit.explain.sanity.checks import context
 from tests.unit.explain.working.evaluated import evaluated
 
 LONG = ("stanford-6", pytest.param("puma560", marks=pytest.mark.slow))
@@ -48,11 +50,11 @@ def test_nothing_is_read_off_and_nothing_compared(problem: str) -> None:
 def test_the_products_of_rates_are_collected_before_the_symbols_are_used() -> None:
     """Spong, Hutchinson, Vidyasagar, section 7.3: the sum of d_kj,i q_i q_j is half that of both slopes."""
     step = steps("stanford-6")["forces"]
-    (line,) = step.lines
+    line, names = step.lines
     assert normalize("NFC", to_unicode(line.formulas[0])) == normalize(
         "NFC", "Σⱼ₌₁⁶ ḋₖⱼ q̇ⱼ = Σᵢ₌₁⁶ Σⱼ₌₁⁶ (∂dₖⱼ/∂qᵢ) q̇ᵢ q̇ⱼ = ½ Σᵢ₌₁⁶ Σⱼ₌₁⁶ (∂dₖⱼ/∂qᵢ + ∂dₖᵢ/∂qⱼ) q̇ᵢ q̇ⱼ"
     )
-    before = said(step, "stanford-6")
+    before = to_unicode(names.formulas[0], solved("stanford-6").style)
     assert "cᵢⱼₖ = ½ (∂dₖⱼ/∂qᵢ + ∂dₖᵢ/∂qⱼ - ∂dᵢⱼ/∂qₖ)" in before and "gₖ = ∂𝒫/∂qₖ" in before
 
 
@@ -193,6 +195,38 @@ def test_why_symbols_are_opposites(problem: str) -> None:
             for k in range(i, n):
                 assert ring.diff(D[j, k], i).is_zero
                 assert symbols[i, j, k] == -symbols[i, k, j]
+
+
+@pytest.mark.parametrize(
+    ("problem", "first"), [("scara-rrpr", 1), pytest.param("puma560", 2, marks=pytest.mark.slow)]
+)
+def test_symbols_of_parallel_axes(problem: str, first: int) -> None:
+    """∂²r/∂q_i ∂q_j = z_i × ∂r/∂q_j where i ≤ j: it is the same for equal z_i."""
+    solution = solved(problem)
+    told, n = on_parallel_axes(context(problem)), solution.robot.n
+    assert f"joints {first} and {first + 1} are parallel" in "".join(
+        part if isinstance(part, str) else to_unicode(part, solution.style) for part in told
+    )
+    symbols = solution.values["christoffel"]
+    for j in range(first, n):
+        for k in range(n):
+            assert symbols[first - 1, j, k] == symbols[first, j, k]
+
+
+def test_axes_that_are_not_parallel_make_no_symbols_equal() -> None:
+    assert on_parallel_axes(context("stanford-6")) == ()
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_the_third_rows_of_rotations_between_the_frames_that_are_shown(problem: str) -> None:
+    solution, step = solved(problem), steps(problem)["potentials"]
+    (line,) = step.lines
+    for formula in line.formulas:
+        assert isinstance(formula, Relation) and isinstance(formula.parts[0], Product)
+        frame = formula.parts[0].factors[1]
+        assert isinstance(frame, Letter) and isinstance(frame.sub, Number)
+        rows = evaluated(solution.robot.ring, formula.parts[1])
+        assert rows.rows[0] == solution.values[f"H{frame.sub.p}"].rows[2][:3]
 
 
 @pytest.mark.parametrize("problem", LONG)

@@ -1,0 +1,45 @@
+"""The rows of rotations that give the heights of the mass centres of far links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.kinematics import rotation
+from dynsolve.explain.context import Context
+from dynsolve.explain.long_model.halves import halves
+from dynsolve.explain.step import Line
+from dynsolve.notation.tree import Node, Product, Transpose, equation
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body
+
+
+def heights(context: Context) -> Iterator[Line]:
+    """z₀ᵀ R of the links between the two frames that are shown, where gravity is along z₀."""
+    robot = context.robot
+    if robot.is_tree or not robot.has_table or letters.has_base(robot) or not _is_along_z0(robot.gravity):
+        return
+    inner, outer = halves(robot)
+    between = [body for body in robot.bodies if inner[-1].index < body.link < outer[-1].index]
+    rows = tuple(_row(context, body) for body in between if _is_tilted(context, body))
+    if rows:
+        yield Line(("The third rows of rotations that were not shown, which give heights:",), rows)
+
+
+def _is_along_z0(gravity: Matrix) -> bool:
+    across = gravity.entries[0].is_zero and gravity.entries[1].is_zero
+    return across and not gravity.entries[2].is_zero
+
+
+def _is_tilted(context: Context, body: Body) -> bool:
+    """Whether the height of a body off the origin of its frame changes as the frame turns."""
+    ring, row = context.robot.ring, rotation(context.values[f"H{body.link}"]).rows[2]
+    turned = any(not ring.diff(entry, k).is_zero for entry in row for k in range(context.robot.n))
+    return turned and not body.center.is_zero
+
+
+def _row(context: Context, body: Body) -> Node:
+    """z₀ᵀ R = [...]"""
+    row = Matrix.of(context.robot.ring, [rotation(context.values[f"H{body.link}"]).rows[2]])
+    name = Product((Transpose(letters.z(0)), letters.R(context.robot, body.link)))
+    return equation(name, context.show(row))
