@@ -224,7 +224,7 @@ def test_a_row_of_the_forces(problem: str, k: int) -> None:
         total += value
     forces = [ring.symbol(q.name, dots=2) * D[k - 1, j] for j, q in enumerate(solution.robot.coordinates)]
     forces += [
-        ring.symbol(names[i], dots=1) * ring.symbol(names[j], dots=1) * symbols[i, j, k - 1]
+        ring.symbol(names[i], dots=1) * ring.symbol(names[j], dots=1) * symbols[min(i, j), max(i, j), k - 1]
         for i in range(n)
         for j in range(n)
     ]
