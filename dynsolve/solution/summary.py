@@ -33,8 +33,8 @@ def summary_blocks(
 ) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
 
-    Of arms that are not short D, C, g and the forces are not written again, but for one row.  The names in C, or in
-    all of them, are repeated beside them, and the rows are in these.
+    Of arms that are not short D, C, g and the forces are not written again, but for one row.  The
+    names in C, or in all of them, are repeated beside them, and the rows are in these.
     """
     by_id = {step.id: step for step in steps}
     model = by_id.get(closing.ID)
