@@ -147,7 +147,7 @@ def how_read_off(context: Context, joint: Joint) -> Prose:
 def _in_a_row(entries: Sequence[Node]) -> Node:
     """(a, b, c)ᵀ, a column within a sentence."""
     a, b, c = entries
-    comma = Words(", ")
+    comma = Words(",")
     return Transpose(Parenthesized(Row((a, comma, b, comma, c))))
 
 
