@@ -150,7 +150,7 @@ def skew_step(context: Context) -> Step:
             letters.C,
             " from the Christoffel symbols",
             Reference(("christoffel",)),
-            ", the matrix ",
+            ", ",
             name,
             " must be skew-symmetric",
             *_by_entries(robot.n),
