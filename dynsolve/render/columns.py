@@ -35,16 +35,25 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """Rows of cells in `count` columns of equal width; names stand right-aligned in `name` em."""
+    """Rows of cells in `count` columns of equal width; names stand right-aligned in `name` em.
+
+    `indent` is how far the rows are moved in, as a part of the room: they stand in its middle.
+    """
 
     count: int
     name: float
     rows: tuple[tuple[Cell, ...], ...]
+    indent: float = 0.0
 
     @property
     def begins(self) -> list[bool]:
         """With which rows an equation begins."""
         return [any(cell.line.left for cell in row) for row in self.rows]
+
+    def share(self, row: Sequence[Cell], place: int) -> float:
+        """The part of the room that a cell of a row takes: the last column makes good what is moved in."""
+        columns = sum(cell.span for cell in row[: place + 1])
+        return row[place].span / self.count - (self.indent if columns == self.count else 0.0)
 
 
 def in_columns(equations: Sequence[Sequence[Line]], room: float) -> Columns:
@@ -65,11 +74,25 @@ def _table(equations: Sequence[Sequence[Line]], count: int, name: float, room: f
     free = 0
     for lines in equations:
         for line in lines:
-            width = line.width + max(name - line.name, 0.0) + GAP
+            width = _width(line, name) + GAP
             span = count if len(lines) > 1 else min(ceil(width * count / room), count)
             if span > free:
                 rows.append([])
                 free = count
             rows[-1].append(Cell(line, span))
             free -= span
-    return Columns(count, name, tuple(map(tuple, rows)))
+    return Columns(count, name, tuple(map(tuple, rows)), _indent(rows, count, name, room))
+
+
+def _width(line: Line, name: float) -> float:
+    """The width of a line whose name takes at least `name` em."""
+    return line.width + max(name - line.name, 0.0)
+
+
+def _indent(rows: Sequence[Sequence[Cell]], count: int, name: float, room: float) -> float:
+    """Half of what the row that reaches furthest leaves free, as a part of the room."""
+    furthest = max(
+        (sum(cell.span for cell in row[:-1]) / count + _width(row[-1].line, name) / room for row in rows),
+        default=1.0,
+    )
+    return min(max(1.0 - furthest, 0.0), 1.0 / count) / 2

@@ -24,6 +24,7 @@ from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Row, Words
 from dynsolve.render.latex_displays import DisplayRow, aligned, gathered, in_columns
+from dynsolve.render.latex_macros import MACROS, NEEDS, PREAMBLE
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import SHORT, TypesetPage, prose_columns
@@ -52,52 +53,6 @@ _ROW_SPACES = ((r"\left", r"\\[9pt]"), (r"\dfrac", r"\\[6pt]"))
 """How a row of a matrix ends that holds high parentheses, or fractions; counted from the foot of a line."""
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
-_PREAMBLE = r"""\documentclass[a4paper]{article}
-\usepackage{amsmath}
-\setlength{\textwidth}{469pt}
-\setlength{\oddsidemargin}{-8pt}
-\setlength{\evensidemargin}{-8pt}
-\setlength{\topmargin}{-60pt}
-\setlength{\textheight}{757pt}
-\setlength{\parindent}{0pt}
-\setlength{\parskip}{3pt plus 1pt}
-\setlength{\emergencystretch}{6em}
-\setlength{\jot}{2pt}
-\setcounter{MaxMatrixCols}{30}
-\renewcommand{\arraystretch}{1.12}
-\clubpenalty=10000 \widowpenalty=10000
-\AtBeginDocument{\setlength{\abovedisplayskip}{4pt plus 2pt}\setlength{\belowdisplayskip}{4pt plus 2pt}%
-  \abovedisplayshortskip=\abovedisplayskip \belowdisplayshortskip=\belowdisplayskip}
-\makeatletter
-\renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}
-\renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-9pt plus -3pt}{2pt}{\normalsize\bfseries}}
-\newcommand\contentsrow[2]{\@dottedtocline{1}{0pt}{1.6em}{#1}{\pageref{#2}}}
-% A reference that the first run does not know is as wide as the last number: pages stay where they are.
-\def\@setref#1#2#3{\ifx#1\relax\G@refundefinedtrue\theequation\@latex@warning{Reference `#3' undefined}%
-  \else\expandafter#2#1\null\fi}
-\makeatother
-\pagestyle{myheadings}
-"""
-
-# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest;
-# what closes a document, on a page of its own where it fills enough of that and little is left of one.
-_MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
-\providecommand{\equationrow}[1]{\par\noindent\strut#1}
-\providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
-  \makebox[#2em][r]{$\displaystyle #3$}$\displaystyle {}#4$}}
-\providecommand{\equationnumber}[1]{\hfill\refstepcounter{equation}(\theequation)#1}
-\ifdefined\closingpage\else\newsavebox\closingpage\fi
-\providecommand{\putclosingpage}{\nobreak \ifdim\ht\closingpage>\textheight\else
-  \ifdim\ht\closingpage>.25\textheight
-  \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax
-  \ifdim\dimexpr\pagegoal-\pagetotal\relax<.35\textheight\newpage\fi\fi\fi\fi\unvbox\closingpage}
-"""
-
-
-_NEEDS = r"""% Needs \usepackage{amsmath}, and where a matrix has more than ten columns
-% \setcounter{MaxMatrixCols}{30}.
-"""
-
 
 def render(document: Document, style: Style = PLAIN) -> str:
     """A complete document."""
@@ -106,7 +61,7 @@ def render(document: Document, style: Style = PLAIN) -> str:
     body = "\n".join(page.all([block for block in document.blocks if not _is_title(block)]))
     words = page.words(title)
     return (
-        f"{_PREAMBLE}{_MACROS}\\begin{{document}}\n\\markright{{{page.words(running_title(title))}}}\\thispagestyle{{plain}}\n"
+        f"{PREAMBLE}{MACROS}\\begin{{document}}\n\\markright{{{page.words(running_title(title))}}}\\thispagestyle{{plain}}\n"
         f"{{\\LARGE\\bfseries\\raggedright {words}\\par}}\n\\medskip\n{body}\n\\end{{document}}\n"
     )
 
@@ -116,7 +71,7 @@ def render_fragment(document: Document, style: Style = PLAIN) -> str:
     page = _Page(style, FRAGMENT_PAGE, document)
     body = "\n".join(page.all(document.blocks))
     begin = "\\begingroup\\emergencystretch=6em\\renewcommand{\\arraystretch}{1.12}"
-    return f"{_NEEDS}{_MACROS}{begin}\n{body}\n\\par\\endgroup\n"
+    return f"{NEEDS}{MACROS}{begin}\n{body}\n\\par\\endgroup\n"
 
 
 def _is_title(block: Block) -> bool:
@@ -327,7 +282,7 @@ class _Page(TypesetPage):
         yield f"\\begin{{quote}}\\small\\textbf{{Note.}} {self.prose(parts)}\\end{{quote}}"
 
     def table(self, table: Table) -> Iterator[str]:
-        """A tabular, which stays on one page; a long one in several, the first with the header."""
+        """A tabular, which stays on one page; a long one in several, each page of it with the header."""
         head, *body = [self.row(row) for row in (table.header, *table.rows)]
         is_long = len(body) > _MOST_ROWS
         columns = self.column_kinds(table, is_long)
@@ -335,7 +290,10 @@ class _Page(TypesetPage):
         yield "\\par\\medskip"
         for start in range(0, len(body) or 1, size or 1):
             rows = "\n".join(body[start : start + size])
-            above = "" if start else f"{head} \\hline\\rule{{0pt}}{{2.6ex}}%\n"
+            above = f"{head} \\hline\\rule{{0pt}}{{2.6ex}}%\n"
+            if start:
+                yield f"\\tablepart{{{columns}}}{{{above}}}{{%\n{rows}}}"
+                continue
             tabular = f"\\begin{{tabular}}{{{columns}}}\n{above}{rows}\n\\end{{tabular}}"
             yield f"{{\\parskip=0pt\\lineskip=0pt\\centering{tabular}\\par}}"
         yield "\\nopagebreak\\medskip" if self.closes(table) else "\\medskip"

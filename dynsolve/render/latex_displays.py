@@ -31,18 +31,18 @@ def in_columns(columns: Columns, label: str = "", last: int = LAST_OF_DISPLAY) -
     """Rows of equations, the number at the end of the last."""
     yield "\\begingroup\\parskip=1pt\\lineskiplimit=2pt\\lineskip=3pt"
     for row, stays in zip(columns.rows, stay(columns.begins, last), strict=True):
-        cells = "".join(_cell(cell, columns) for cell in row)
+        cells = "".join(_cell(cell, columns, columns.share(row, k)) for k, cell in enumerate(row))
         at_end = row is columns.rows[-1]
         number = f"\\equationnumber{{{label}}}" if label and at_end else ""
         keep = "\\nopagebreak" if stays or (at_end and last == LAST_OF_DOCUMENT) else ""
-        yield f"\\equationrow{{{cells}{number}}}{keep}"
+        yield f"\\equationrow{{{columns.indent:.4f}}}{{{cells}{number}}}{keep}"
     yield "\\par\\endgroup"
 
 
-def _cell(cell: Cell, columns: Columns) -> str:
+def _cell(cell: Cell, columns: Columns, share: float) -> str:
     indent = _indent(cell.line)
-    share = f"{cell.span / columns.count:.4f}"
-    return f"\\equationcell{{{share}}}{{{columns.name:.2f}}}{{{cell.line.left}}}{{{indent}{cell.line.right}}}"
+    texts = f"{{{cell.line.left}}}{{{indent}{cell.line.right}}}"
+    return f"\\equationcell{{{share:.4f}}}{{{columns.name:.2f}}}{texts}"
 
 
 def level(line: Line) -> str:

@@ -84,8 +84,9 @@ _PREAMBLE = """#set document(title: {title}, date: none)
   in-runs(runs.pos(), sticky, (1fr, widest(1), widest(2), 1fr), column-gutter: (0pt, 0.28em, 0pt),
     align: (left, right + horizon, left + horizon, right + horizon))
 }
-#let columned(count, sticky: false, ..runs) = in-runs(runs.pos(), sticky, (1fr,) * count + (3em,),
-  align: (x, y) => if x == count { right + horizon } else { left + horizon })
+#let columned(count, indent, sticky: false, ..runs) = in-runs(runs.pos(), sticky,
+  (indent * 1fr, ..(1fr / count,) * (count - 1), (1 / count - indent) * 1fr, 3em),
+  align: (x, y) => if x > count { right + horizon } else { left + horizon })
 #let closing(body) = v(1.6em, weak: true) + layout(size => {
   let needed = measure(block(width: size.width, body)).height
   let begun = calc.min(needed, (if needed > size.height { 0.2 } else { 0.35 }) * size.height)
@@ -366,7 +367,7 @@ def _in_columns(columns: Columns, side: str, last: int, sticks: bool) -> str:
     """Equations in columns, `side` at the end of the last row."""
     rows: list[list[str]] = []
     for row in columns.rows:
-        cells: list[str] = []
+        cells = ["[]"]
         for cell in row:
             name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
             whole = f"strut + {name} + h(0.28em) + {_math(_right(cell.line))}"
@@ -376,7 +377,7 @@ def _in_columns(columns: Columns, side: str, last: int, sticks: bool) -> str:
         rows.append([*cells, "[]"])
     rows[-1][-1] = f"[{side}]"
     runs = _in_runs([f"({', '.join(row)})" for row in rows], columns.begins, last)
-    return f"#columned({columns.count}, {runs}{_STICKY * sticks})"
+    return f"#columned({columns.count}, {columns.indent:.4f}, {runs}{_STICKY * sticks})"
 
 
 def _right(line: Line) -> str:

@@ -7,7 +7,9 @@ import pytest
 from dynsolve.document import Document, Equations
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Symbol, equation
+from dynsolve.render.columns import in_columns
 from dynsolve.render.latex import render
+from dynsolve.render.typesetting import Line
 
 LONG = "m1*l1^2 + m2*l2^2 + m3*l3^2 + I1 + I2 + I3"
 
@@ -27,3 +29,23 @@ def test_equations_in_columns(count: int, right: str, allowed: bool, columns: bo
     source = render(Document((Equations(nodes, in_columns=allowed),)))
     _, body = source.split(r"\begin{document}")
     assert body.count(r"\equationcell") == (count if columns else 0)
+
+
+@pytest.mark.parametrize(
+    ("widths", "room", "indent"),
+    [
+        ((8,), 10, 0.1),
+        ((8, 6), 10, 0.1),
+        ((3, 3, 3), 15, 1 / 15),
+        ((10,), 10, 0.0),
+        ((12,), 10, 0.0),
+    ],
+)
+def test_the_row_that_reaches_furthest_stands_in_the_middle(
+    widths: tuple[float, ...], room: float, indent: float
+) -> None:
+    columns = in_columns([[Line("", "a", width=width)] for width in widths], room)
+    assert columns.indent == pytest.approx(indent)
+    for row in columns.rows:
+        shares = sum(columns.share(row, place) for place in range(len(row)))
+        assert columns.indent + shares <= 1 + 1e-12
