@@ -8,7 +8,7 @@ of sines, cosines and these.
 1. The inertial constants are the base parameters (`explain.base_parameters`), named
    κ₁, κ₂, ...: J, I and K, letters that books use for them, mean the Jacobian, a tensor
    and the energy here.
-2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`): h₁, h₂, ... are heights.
+2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`).
 
 A short model needs no constants; unless names are asked for, `explain.named_steps` says what has some.
 What recurs in it gets a name alone; if that is one term, it is the books' h:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import ChristoffelSymbols, collected_coriolis_force
@@ -66,23 +66,21 @@ def closing_step(context: Context) -> Step:
 
 
 def rows_in_names(context: Context, symbol: ChristoffelSymbols) -> Line:
-    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k = τ_k, for symbols that have names of their own."""
+    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k = τ_k with this robot's D and g, its symbols in names."""
     robot, (D, g) = context.robot, (context.matrix(name) for name in ("D", "g"))
     names = robot.ring.names
     friction = context.matrix("friction") if has_friction(context) else None
 
     def row(k: int) -> Node:
-        inertial = [
-            times(1, [(letters.entry("d", k + 1, j + 1), 1), (Symbol(name, 2), 1)])
-            for j, name in enumerate(names)
-            if D.rows[k][j] != ZERO
-        ]
+        entries = zip(D.rows[k], names, strict=True)
+        inertial = [times(1, [(d, 1), (Symbol(name, 2), 1)]) for d, name in entries if d != ZERO]
         rubbing = () if friction is None else (friction.rows[k][0],)
-        height = ZERO if g.rows[k][0] == ZERO else letters.entry("g", k + 1)
-        return total([*inertial, collected_coriolis_force(names, symbol, k), *rubbing, height])
+        heights = [part for part in (g.rows[k][0],) if part != ZERO]
+        return total([*inertial, collected_coriolis_force(names, symbol, k), *rubbing, *heights])
 
     rows = (equation(driving_row(context, q), row(k)) for k, q in enumerate(robot.coordinates))
-    return Line(("Row by row, in the entries of ", letters.D, " and ", letters.G, ":"), tuple(rows))
+    forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), ", ")
+    return Line(("Row by row", forces, ":"), tuple(rows))
 
 
 def has_friction(context: Context) -> bool:

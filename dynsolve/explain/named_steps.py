@@ -283,7 +283,7 @@ def _result_exchanged(step: Step, named: Mapping[Node, Node]) -> Step:
 
 
 def _model(step: Step, context: Context, short: Abbreviated) -> Step:
-    """The model; its rows in d_ij, h and g_k where the forces were derived before h."""
+    """The model; its rows with h where the forces were derived before h."""
     step = _result_exchanged(step, {context.form("C"): short.C})
     return step if short.single is None else replace(step, lines=(rows_in_names(context, short.symbol),))
 

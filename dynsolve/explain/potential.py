@@ -50,7 +50,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
             why += ("Minus the mass times ", pull, ".")
             working = _by_vectors(context, body)
         else:
-            h, g = letters.height(context.robot, letters.index_of(body.name)), _acceleration(context)
+            h, g = letters.height(letters.index_of(body.name)), _acceleration(context)
             why += _entry_of_height(context, body, h, tells)
             parts += (Product((context.mass(body), g, h)),)
             working = (*_numbers(context, body, g), equation(h, height))

@@ -218,7 +218,7 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     yield _line(letters.bold("E"), "identity matrix")
     yield _line(Symbol("g"), "acceleration of gravity", "m/s^2")
     yield _line(letters.GRAVITY, "acceleration of gravity, a vector that points down", "m/s^2")
-    yield _line(letters.height(robot, _I), "height of the mass centre of body i", "m")
+    yield _line(letters.height(_I), "height of the mass centre of body i", "m")
 
 
 def _own_tensors(robot: Robot) -> list[Node]:

@@ -198,10 +198,9 @@ def is_taken(robot: Robot, base: str, body: Body) -> bool:
     return not names.isdisjoint((f"{base}{body.name}", f"{base}_{body.name}"))
 
 
-def height(robot: Robot, index: Node) -> Letter:
-    """h_i, the height of a mass centre; η_i where h or h_1 is something else in the problem."""
-    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
-    return Letter("eta" if any(split(name)[0] == "h" for name in names) else "h", index)
+def height(index: Node) -> Letter:
+    """η_i, the height of a mass centre: h is a factor of C's entries, as in the textbook, or a length."""
+    return Letter("eta", index)
 
 
 def any_vector(robot: Robot, index: Node) -> Letter:

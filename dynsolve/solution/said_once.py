@@ -1,7 +1,7 @@
 """What holds for several bodies, coordinates or columns alike: said of the first, and referred to after that.
 
 Two steps say the same where their titles and their sentences differ in the number that the title names,
-and in the one before it, alone: with "body 2" h₂ and o₁ stand where h₁ and o₀ stood with "body 1".
+and in the one before it, alone: with "body 2" η₂ and o₁ stand where η₁ and o₀ stood with "body 1".
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ def test_a_letter_of_the_formula_is_not_another_thing_of_the_problem() -> None:
 
 
 def test_a_mass_without_a_symbol_is_called_after_its_body() -> None:
-    assert formula("numeric-2r", "P1") == "P₁ = -m₁ 𝐠₀ᵀ 𝐫_c1 = m₁ g h₁"
+    assert formula("numeric-2r", "P1") == "P₁ = -m₁ 𝐠₀ᵀ 𝐫_c1 = m₁ g η₁"
     assert formula("numeric-2r", "Kvp") == "K_vp = ½ m_p 𝐯_pᵀ 𝐯_p"
 
 
@@ -98,7 +98,7 @@ def test_a_cross_product_is_worked_out_before_an_identity_is_used() -> None:
 
 def test_numbers_that_go_in_are_named() -> None:
     assert shown_working("numeric-2r", "P2")[0] == "m₂ = 1.2 kg, g = 9.81 m/s²"
-    assert shown_working("planar-2r", "P2")[0].startswith("h₂ = ")
+    assert shown_working("planar-2r", "P2")[0].startswith("η₂ = ")
     assert "the bodies 1, 2 and p, counted in this order" in said(
         step("numeric-2r", "D_direct").why, "numeric-2r"
     )

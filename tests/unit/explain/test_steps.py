@@ -204,8 +204,8 @@ def test_axes_given_from_the_base_are_held_to_the_frame_of_the_link() -> None:
 
 def test_the_axis_that_points_up_is_named() -> None:
     told = {
-        "[0, -g, 0]": "𝐲₀ points up, so h₁, the height above the origin of the base, is the second entry",
-        "[g, 0, 0]": "𝐱₀ points down, so h₁, the height above the origin of the base, is minus the first",
+        "[0, -g, 0]": "𝐲₀ points up, so η₁, the height above the origin of the base, is the second entry",
+        "[g, 0, 0]": "𝐱₀ points down, so η₁, the height above the origin of the base, is minus the first",
     }
     for gravity, words in told.items():
         text = f"gravity: {gravity}\ndh: [{{theta: q1*, a: l1}}]\nmasses: [{{mass: m, link: 1}}]\n"
