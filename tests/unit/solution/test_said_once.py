@@ -28,7 +28,7 @@ def said(document: Document) -> dict[str, str]:
 # title -> how what it says begins
 ELBOW = [
     ("Potential energy of body 1", "g₀ is the acceleration of gravity"),
-    ("Potential energy of body 3", "h₃ is the third entry"),  # as short as a reference
+    ("Potential energy of body 3", "η₃ is the third entry"),  # as short as a reference
     ("Column 2 of the Jacobian", "As for column 1."),  # about z₁ and o₁ in place of z₀ and o₀
     ("Translational kinetic energy of body 2", "Half the mass"),  # the mass centre of body 1 does not move
     ("Translational kinetic energy of body 3", "As for body 2."),
