@@ -1,4 +1,4 @@
-"""The rows of rotations that give the heights of the mass centres of far links."""
+"""The rows of rotations that give the heights of the mass centres of far links, where each fits a line."""
 
 from __future__ import annotations
 
@@ -9,9 +9,14 @@ from dynsolve.derivation.kinematics import rotation
 from dynsolve.explain.context import Context
 from dynsolve.explain.long_model.halves import halves
 from dynsolve.explain.step import Line
+from dynsolve.explain.widths import matrix_width
+from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Product, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
+
+WIDEST = 80
+"""The characters of a row up to which the rows are shown; wider ones would be a page of entries."""
 
 
 def heights(context: Context) -> Iterator[Line]:
@@ -21,9 +26,10 @@ def heights(context: Context) -> Iterator[Line]:
         return
     inner, outer = halves(robot)
     between = [body for body in robot.bodies if inner[-1].index < body.link < outer[-1].index]
-    rows = tuple(_row(context, body) for body in between if _is_tilted(context, body))
-    if rows:
-        yield Line(("The third rows of rotations that were not shown, which give heights:",), rows)
+    rows = {body.link: _row(context, body) for body in between if _is_tilted(context, body)}
+    if rows and all(matrix_width(context, row) <= WIDEST for row in rows.values()):
+        named = tuple(equation(_name(context, link), row) for link, row in rows.items())
+        yield Line(("The third rows of rotations that were not shown, which give heights:",), named)
 
 
 def _is_along_z0(gravity: Matrix) -> bool:
@@ -38,8 +44,12 @@ def _is_tilted(context: Context, body: Body) -> bool:
     return turned and not body.center.is_zero
 
 
-def _row(context: Context, body: Body) -> Node:
-    """z₀ᵀ R = [...]"""
-    row = Matrix.of(context.robot.ring, [rotation(context.values[f"H{body.link}"]).rows[2]])
-    name = Product((Transpose(letters.z(0)), letters.R(context.robot, body.link)))
-    return equation(name, context.show(row))
+def _row(context: Context, body: Body) -> tree.Matrix:
+    shown = context.show(Matrix.of(context.robot.ring, [rotation(context.values[f"H{body.link}"]).rows[2]]))
+    assert isinstance(shown, tree.Matrix)
+    return shown
+
+
+def _name(context: Context, link: int) -> Node:
+    """z₀ᵀ R"""
+    return Product((Transpose(letters.z(0)), letters.R(context.robot, link)))

@@ -65,7 +65,7 @@ def test_the_summary_of_a_long_model_refers_to_its_matrices() -> None:
     number, text = numbered(document), markdown.render(document)
     for id in ("D", "christoffel", "g"):
         assert f"$ ({number[id]})" in text.split("Summary")[-1]
-    assert f"from the Christoffel symbols ({number['christoffel']}), the matrix" in text  # no entry of C
+    assert f"from the Christoffel symbols ({number['christoffel']}), $" in text  # no entry of C
 
 
 def test_in_brief_the_summary_of_a_long_model_speaks_of_no_symbols_for_there_are_none() -> None:
