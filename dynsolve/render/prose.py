@@ -41,8 +41,11 @@ _COUNTED = "[Bb]ody|[Cc]olumn|coordinate|force|[Ff]rame|[Jj]oint|[Ll]ink|matrix|
 _COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
 """What is counted by a letter: frame i-1."""
 
-_AXIS = r"(?<![^\s(-])(?P<axis>[xyz])(?![^\s,.;:)-]|\.\w)"
-"""An axis or a coordinate along it, which no word is: about its axis z, the x-axis."""
+_AXIS = (
+    r"(?<!\w)(?P<axis>[xyz])"
+    r"(?:(?<=ax[ei]s .)|(?<=axes [xy] and .)|(?<=about .)|(?<=along .)|(?=-axis))(?!\w|\.\w)"
+)
+"""An axis, where the words say that it is one: about its axis z, the x-axis; `z:` may be a key of a file."""
 
 _AMONG_WORDS = re.compile(rf"{_COUNT}|{_AXIS}|(?<![^\W_]){_FORMULA.pattern}(?![^\W_])")
 

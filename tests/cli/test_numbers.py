@@ -74,7 +74,7 @@ def test_digits_of_a_model_in_numbers(digits: tuple[str, ...], shown: str) -> No
 
 def test_stages_choose_numbers_too() -> None:
     out = solved(*SET, "--stage", "lagrangian")
-    assert "ℒ = (0.025 + 0.5 L₂²) θ̇₁² + 0.5 L̇₂² - 7.848 in J" in out and "τ₁" not in out
+    assert "ℒ = 0.5 ((0.05 + L₂²) θ̇₁² + L̇₂²) - 7.848 in J" in out and "τ₁" not in out
 
 
 def test_json_has_sections_of_its_own() -> None:

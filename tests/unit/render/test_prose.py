@@ -30,7 +30,8 @@ def shown(text: str) -> list[str]:
         ("axis zᵢ₋₁", ["axis ", "$z_{i - 1}$"]),
         ("column index, link joint", ["column index, link joint"]),
         ("its axes x and z", ["its axes ", "$x$", " and ", "$z$"]),
-        ("the x-axis (y).", ["the ", "$x$", "-axis (", "$y$", ")."]),
+        ("the x-axis (y).", ["the ", "$x$", "-axis (y)."]),
+        ("z: z is a letter of the derivation", ["z: z is a letter of the derivation"]),
         ("x.yaml, xs, x=1", ["x.yaml, xs, x=1"]),
         (
             "inertia in kg m², gravity in m/s²",
