@@ -147,9 +147,9 @@ def skew_step(context: Context) -> Step:
         title="Check: a matrix that must be skew-symmetric",
         why=(
             "With ",
-            letters.C,
+            *((letters.C, Reference(("C",))) if context.is_short else (letters.C,)),
             " from the Christoffel symbols",
-            Reference(("christoffel",)),
+            *(() if context.is_short else (Reference(("christoffel",)),)),
             ", ",
             name,
             " must be skew-symmetric",

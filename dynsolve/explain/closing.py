@@ -136,13 +136,13 @@ def equations_of_motion(context: Context) -> Relation:
 def _meanings(context: Context) -> Prose:
     """What the terms of the equation are."""
     asked = context.robot.questions
-    why: Prose = (Product((letters.D, letters.QDD)), " are the inertial forces, ")
+    why: Prose = (Product((letters.D, letters.QDD)), " are the inertial terms, ")
     why += (Product((letters.C, letters.QD)), " the Coriolis and centrifugal ones, ")
     why += (letters.FRICTION, " those of friction, ") if has_friction(context) else ()
     why += (letters.G, " those of gravity", " and springs." if context.robot.actions.springs else ".")
-    why += (" ", letters.Q_FORCES, " are those from outside.") if asked.loads else ()
+    why += (" ", letters.Q_FORCES, " are the forces from outside.") if asked.loads else ()
     if asked.constraints:
-        why += (" ", Product((Transpose(letters.A_C), letters.LAMBDA)), " are those of the constraints.")
+        why += (" ", Product((Transpose(letters.A_C), letters.LAMBDA)), " are the forces of the constraints.")
     if context.robot.actions.passive:
         from dynsolve.explain.actions import passive_prose
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from dynsolve.document import Prose
+from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
-from dynsolve.explain.jacobian import is_told_how_read_off
+from dynsolve.explain.jacobian import where_told_read_off
 from dynsolve.explain.jacobian_columns import (
     BESIDE,
     ZERO,
@@ -68,7 +69,7 @@ def steps(context: Context) -> Iterator[Step]:
     springs, rotors = acting_steps(context)
     yield from springs
     yield _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
-    told, read = False, is_told_how_read_off(context)
+    told, read = False, False
     for body in bodies:
         jacobians = _jacobians(context, body) if context.robot.has_table else jacobians_step(context, body)
         if not read and (way := _read_off(context, body)):
@@ -183,11 +184,18 @@ def _jacobians(context: Context, body: Body) -> Step:
 
 
 def _read_off(context: Context, body: Body) -> Prose:
-    """How the columns of which no product is shown are read off, where those of the end do not tell."""
+    """How the columns of which no product is shown are read off, or which column of the end tells it."""
     if not (context.is_short and context.robot.has_table) or _is_at_the_end(context, body):
         return ()
     joint = read_off(context, body.link, context.values[f"rc{body.name}"])
-    return () if joint is None else (" ", *how_read_off(context, joint), ".")
+    if joint is None:
+        return ()
+    column = where_told_read_off(context)
+    if column:
+        axis = letters.z(joint_frame(context.robot, joint))
+        first = Letter("J", Number(int(column[1:])), style="bold")
+        return (" Products with ", axis, " are read off as in ", first, Reference((column,)), ".")
+    return (" ", *how_read_off(context, joint), ".")
 
 
 def _zero_column(context: Context, body: Body) -> Prose:

@@ -130,7 +130,7 @@ def _tensor(forms: Forms, body: Body) -> Prose:
 
 
 def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
-    """Moments of inertia about axes through the mass centres: of body 1 I₁, parallel to 𝐳₁; ..."""
+    """Moments of inertia about axes through the mass centres: of body 1 I₁, about that parallel to 𝐳₁; ..."""
     found = [(body, value, axes) for body in bodies for value, axes in _by_value(forms, body)]
     if not found:
         return ()
@@ -144,7 +144,9 @@ def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
         if own:
             axes = listed([axis for _, several in own for axis in several])
             values = listed([value for value, _ in own])
-            told += ("; " if told else "", f"of {name_of(body)} ", *values, ", parallel to ", *axes)
+            that = "that" if sum(len(several) for _, several in own) == 1 else "those"
+            told += ("; " if told else "", f"of {name_of(body)} ", *values)
+            told += (f", about {that} parallel to ", *axes)
     several = any(len(own) > 1 for own in (_nonzero(body) for body in bodies))
     rest = "; the other entries of the tensors are 0" if several else ""
     return ("Moments of inertia about axes through the mass centres: ", *told, f"{rest}. ")

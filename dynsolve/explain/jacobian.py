@@ -82,6 +82,7 @@ def _axes(context: Context) -> Step:
             letters.bold("z", letters.BEFORE if context.standard else letters.COUNT),
             *_whose(context),
             *_wrist(context),
+            *_read_off(context),
         ),
         source=spong("4.6") if context.standard else craig("3.4"),
         result=tuple(pairs),
@@ -180,7 +181,7 @@ def _column(context: Context, q: Coordinate) -> Step:
         formula=equation(name, column(*in_letters)),
         source=spong("4.6.3"),
         working=column_shown(context, joints_moved(context, k, last), end_of(context), in_letters[0], linear),
-        concluding=_turning_named(context, joint) or _read_off(context, joint),
+        concluding=_turning_named(context, joint),
         result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
         uses=("axes",),
     )
@@ -223,11 +224,12 @@ def _turning_named(context: Context, joint: Joint | None) -> Prose:
     return ("With ", *said(used), ":") if used else ()
 
 
-def _read_off(context: Context, joint: Joint | None) -> Prose:
+def _read_off(context: Context) -> Prose:
     """How a product with an axis of the base is read off: told once, as the mass centres have such too."""
-    if joint is None or joint != _told_read_off(context):
+    joint = _told_read_off(context)
+    if joint is None:
         return ()
-    return ("As ", *how_read_off(context, joint), ":")
+    return (" ", *how_read_off(context, joint), ".")
 
 
 def _told_read_off(context: Context) -> Joint | None:
@@ -240,9 +242,10 @@ def _told_read_off(context: Context) -> Joint | None:
     return joint if joint in alone else None
 
 
-def is_told_how_read_off(context: Context) -> bool:
-    """Whether a column of the end tells how a product with an axis of the base is read off."""
-    return _told_read_off(context) is not None
+def where_told_read_off(context: Context) -> str:
+    """The column that tells how a product with an axis of the base is read off; "" where none does."""
+    joint = _told_read_off(context)
+    return "" if joint is None else next(f"J{i + 1}" for i, _ in joint.rates)
 
 
 def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:

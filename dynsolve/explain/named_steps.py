@@ -256,7 +256,7 @@ def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
     signs = (*first.signs, "=:")
     return replace(
         written,
-        why=(*step.why, " The first is named ", name, "."),
+        why=(*step.why, " The symbol ", before[0], " is named ", name, "."),
         result=(Relation((*before, short.single.meaning, name), signs), *others),
     )
 

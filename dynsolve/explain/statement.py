@@ -72,7 +72,7 @@ def statement(forms: Forms, problem: Problem) -> Iterator[Prose]:
 def _given(forms: Forms) -> Prose:
     """The table, and what has mass."""
     robot = forms.robot
-    what = f"the table of the {machine(robot)}{hypotheses.joints(robot)} (1.1)"
+    what = f"the table of the {machine(robot)}{hypotheses.joints(robot)} (section 1.1)"
     if len(robot.bodies) > MOST_BODIES:
         return (f"{what}, and mass, mass centre and inertia tensor of {len(robot.bodies)} rigid bodies",)
     told = [given_bodies.of_body(forms, body) for body in robot.bodies]

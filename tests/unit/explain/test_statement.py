@@ -16,8 +16,8 @@ from tests.support import solved
 CASES = [
     (
         "in3140-rp",
-        "Given: the table of the arm with a revolute and a prismatic joint (1.1) and two rigid bodies: "
-        "body 1 in link 1, of mass m₁, its mass centre half-way along the link; body 2 in link 2, a point of "
+        "Given: the table of the arm with a revolute and a prismatic joint (section 1.1) and two rigid "
+        "bodies: body 1 in link 1, of mass m₁, its mass centre half-way along the link; body 2 in link 2, a point of "
         "mass m₂ at 𝐨₂. The moment of inertia of body 1 about the axis through its mass centre parallel to "
         "𝐳₀ is I_1zz. Gravity g acts along -𝐳₀; there is no friction.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and centrifugal "
@@ -25,8 +25,8 @@ CASES = [
     ),
     (
         "puma560",
-        "Given: the table of the arm with revolute joints (1.1), and mass, mass centre and inertia tensor of "
-        "6 rigid bodies. Gravity g acts along -𝐳₀; there is no friction. In numbers: a₂ = 0.4318 m, "
+        "Given: the table of the arm with revolute joints (section 1.1), and mass, mass centre and inertia "
+        "tensor of 6 rigid bodies. Gravity g acts along -𝐳₀; there is no friction. In numbers: a₂ = 0.4318 m, "
         "a₃ = 0.0203 m, d₃ = 0.15005 m and d₄ = 0.4318 m.",
         "To be found: the inertia matrix 𝐃, the matrix of Coriolis and centrifugal terms 𝐂, the gravity "
         "terms 𝐠 and the generalized forces 𝛕.",
@@ -103,11 +103,11 @@ def test_the_statement_says_how_the_base_is_placed(base: str, told: str) -> None
 
 MOMENTS = [
     ("numeric-2r", "about the axis through its mass centre parallel to 𝐳₂ is 0.02 kg m². "),
-    ("planar-2r", "of body 1 I₁, parallel to 𝐳₁; of body 2 I₂, parallel to 𝐳₂. "),
+    ("planar-2r", "of body 1 I₁, about that parallel to 𝐳₁; of body 2 I₂, about that parallel to 𝐳₂. "),
     (
         "spherical-rrp",
-        "of body 1 I₁, parallel to 𝐳₀; of body 2 I₂, parallel to 𝐱₂ and 𝐲₂; the other entries of the tensors "
-        "are 0. ",
+        "of body 1 I₁, about that parallel to 𝐳₀; of body 2 I₂, about those parallel to 𝐱₂ and 𝐲₂; "
+        "the other entries of the tensors are 0. ",
     ),
 ]
 

@@ -284,15 +284,15 @@ masses: [{mass: m, link: 1, center: [lc, 0, 0]}]
 
 
 @pytest.mark.parametrize(("problem", "told"), [
-    ("box-cylinder-rod-sphere", {"J1": "𝐳₀ × (u₁,u₂,u₃)ᵀ = (-u₂,u₁,0)ᵀ"}),
-    ("rp-vertical", {"J1": "𝐳₁ × (u₁,u₂,u₃)ᵀ = (-u₂,u₁,0)ᵀ"}),
+    ("box-cylinder-rod-sphere", {"axes": "𝐳₀ × (u₁,u₂,u₃)ᵀ = (-u₂,u₁,0)ᵀ"}),
+    ("rp-vertical", {"axes": "𝐳₁ × (u₁,u₂,u₃)ᵀ = (-u₂,u₁,0)ᵀ"}),
     (ENDS_ON_ITS_AXIS, {"Jv1": "𝐳₀ × (u₁,u₂,u₃)ᵀ = (-u₂,u₁,0)ᵀ"}),
 ])  # fmt: skip
 def test_how_a_product_with_an_axis_of_the_base_is_read_off_is_said_once(
     problem: str, told: dict[str, str]
 ) -> None:
-    """At its first use: in a column of the end where there is one, else for a mass centre."""
-    steps = [each for each in solved(problem).steps if each.id.startswith("J")]
+    """Where the axes are told if a column of the end needs it, else for a mass centre."""
+    steps = [each for each in solved(problem).steps if each.id.startswith(("J", "axes"))]
     said_of = {each.id: said((*each.why, *each.concluding), problem) for each in steps}
     found = {name: text for name, text in said_of.items() if "for any vector" in text}
     assert found.keys() == told.keys()
