@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
@@ -22,6 +22,12 @@ def motion(axis: str, amount: Node, turns: bool) -> Node:
 def rotation(axis: str, angle: Node) -> Node:
     """R_{z,θ}: the 3×3 part of Rot_{z,θ}."""
     return Letter("R", _along(axis, angle), style="bold")
+
+
+def turned(turns: Sequence[tuple[str, Node]]) -> Node:
+    """R_{z,θ} R_{x,α}: elementary rotations one after the other."""
+    factors = tuple(rotation(axis, angle) for axis, angle in turns)
+    return Product(factors) if len(factors) > 1 else factors[0]
 
 
 def _along(axis: str, amount: Node) -> Row:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline, Prose
+from dynsolve.explain import base_frame
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
@@ -16,7 +17,7 @@ from dynsolve.explain.shapes import DIMENSIONS, SHAPES
 from dynsolve.explain.writing import listed, measured, name_of, side_by_side
 from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import AxesKind, Body
 from dynsolve.robot.shapes import Shape
 
 AXES = "xyz"
@@ -33,7 +34,14 @@ def of_body(forms: Forms, body: Body) -> Prose:
         told += (f" a uniform {SHAPES[body.shape.kind]}", *_sized(forms, body, body.shape))
     else:
         told += _mass(forms, body)
-    return (*told, ", its mass centre ", *_center(forms, body))
+    return (*told, ", its mass centre ", *_center(forms, body), *_from_the_base(body))
+
+
+def _from_the_base(body: Body) -> Prose:
+    """How the axes of a body lie, where the problem gives turns that take those of the base to them."""
+    if body.axes.kind is not AxesKind.BASE or not body.axes.turns:
+        return ()
+    return (", its axes those of the base turned by ", base_frame.turned(body.axes.turns))
 
 
 def _mass(forms: Forms, body: Body) -> Prose:
