@@ -41,7 +41,8 @@ MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\tablepart}[3]{{\parskip=0pt\lineskip=0pt
   \setbox\tablerows=\hbox{\begin{tabular}{#1}#3\end{tabular}}%
   \ifdim\dimexpr\ht\tablerows+\dp\tablerows>\dimexpr\pagegoal-\pagetotal\relax \ifinner\else
-  \newpage\setbox\tablerows=\hbox{\begin{tabular}{#1}#2#3\end{tabular}}\fi\fi
+  \ifdim\pagetotal>\pagegoal\else  % else what stands above goes to the next page by itself
+  \newpage\setbox\tablerows=\hbox{\begin{tabular}{#1}#2#3\end{tabular}}\fi\fi\fi
   {\centering\usebox\tablerows\par}}}
 \ifdefined\closingpage\else\newsavebox\closingpage\fi
 \providecommand{\putclosingpage}{\nobreak \ifdim\ht\closingpage>\textheight\else

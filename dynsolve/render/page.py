@@ -209,7 +209,7 @@ class MarkupPage(Page[str]):
         """Any text, so that nothing in it is markup."""
 
 
-SHORT = 15.0
+SHORT = 16.5
 """Formulas in a sentence that are no wider, in em, are not broken."""
 
 _SOURCE_LETTER = 0.46  # small letters, in em

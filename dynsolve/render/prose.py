@@ -37,7 +37,7 @@ _FORMULA = re.compile(
     rf"(?P<sub>[{''.join(_SUBSCRIPTS)}]*)"
     rf"(?P<sup>[{''.join(_SUPERSCRIPTS)}]*)"
 )
-_COUNTED = "[Bb]ody|[Cc]olumn|coordinate|force|[Ff]rame|[Jj]oint|[Ll]ink|matrix|motor|[Rr]ow|turn"
+_COUNTED = "[Bb]ody|[Cc]olumn|coordinate|entry|force|[Ff]rame|[Jj]oint|[Ll]ink|matrix|motor|[Rr]ow|turn"
 _COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
 """What is counted by a letter: frame i-1."""
 

@@ -11,7 +11,14 @@ from dynsolve.solution.reports import Format
 from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of, typeset
 from tests.support import ALL_PROBLEMS, LIBRARY, TEXTBOOKS
 
-MOST_PAGES = {"puma560": 15, "stanford-6": 15, "panda-7r": 25, "planar-2r": 15, "in3140-rp": 15}
+MOST_PAGES = {
+    "puma560": 15,
+    "stanford-6": 15,
+    "elbow-3r": 23,
+    "panda-7r": 25,
+    "planar-2r": 15,
+    "in3140-rp": 15,
+}
 """What somebody who wants the model still reads."""
 
 RP = next(path for path in LIBRARY if path.stem == "in3140-rp")

@@ -17,9 +17,10 @@ CASES = [
     (
         "in3140-rp",
         "Given: the table of the arm with a revolute and a prismatic joint (section 1.1) and two rigid "
-        "bodies: body 1 in link 1, of mass m₁, its mass centre half-way along the link; body 2 in link 2, "
-        "a point of mass m₂ at 𝐨₂. The moment of inertia of body 1 about the axis through its mass "
-        "centre parallel to 𝐳₀ is I_1zz. Gravity g acts along -𝐳₀; there is no friction.",
+        "bodies: body 1 in link 1, of mass m₁, its mass centre half-way along the link, its axes "
+        "those of the base turned by 𝐑_{z,θ1}; body 2 in link 2, a point of mass m₂ at 𝐨₂. The moment of "
+        "inertia of body 1 about the axis through its mass centre parallel to 𝐳₀ is I_1zz. Gravity g acts "
+        "along -𝐳₀; there is no friction.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and centrifugal "
         "terms 𝐂 and the gravity terms 𝐠.",
     ),
