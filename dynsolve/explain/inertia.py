@@ -139,13 +139,14 @@ def _left_out(context: Context, body: Body) -> Prose:
     axes = listed(
         [_axis(context, body, name, f"its axis {name}") for i, name in enumerate("xyz") if i not in still]
     )
-    entries, along = "what belongs to ", "has components along these axes"
+    entries, along = "what belongs to ", "has components along these axes alone"
     if len(still) == 2:
-        entries, along = "the moment about ", "is along that axis"
+        entries, along = "the moment about ", "is parallel to that axis"
+        entries += "the axis parallel to " if _in_frame(context, body) else ""
     return (
         f"Of the tensor of {name_of(body)} about its mass centre {entries}",
         *axes,
-        f" is given. The angular velocity {along} alone, so nothing else enters, and the other entries are "
+        f" is given. The angular velocity {along}, so nothing else enters, and the other entries are "
         "set to 0.",
     )
 

@@ -88,6 +88,8 @@ def _slope(context: Context, q: Coordinate) -> Step:
     why: Prose = _partial(context, Symbol(q.name), "rate", "coordinate")
     if form == Number(0):
         why = (Symbol(q.name), " itself does not occur in ℒ.")
+    elif context.robot.given is None and context.robot.ring.diff(context.values["K"], q.index - 1).is_zero:
+        why = _of_potential_energy(context, q)
     way = derivatives.coordinate_derivative(context, q)
     return Step(
         id=f"dLdq{q.index}",
@@ -103,6 +105,13 @@ def _slope(context: Context, q: Coordinate) -> Step:
             "in which the coordinate does not occur drops out.",
         ),
     )
+
+
+def _of_potential_energy(context: Context, q: Coordinate) -> Prose:
+    """That a coordinate is in P alone, and what is held fixed there."""
+    slope, fall = (letters.partial_derivative(of, Symbol(q.name)) for of in (letters.L, letters.P))
+    held = " The other coordinates are held fixed." if context.robot.n > 1 else ""
+    return (Symbol(q.name), " does not occur in 𝒦, so ", equation(slope, Negative(fall)), f".{held}")
 
 
 def _force(context: Context, q: Coordinate) -> Step:

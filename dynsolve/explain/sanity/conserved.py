@@ -87,7 +87,7 @@ def _of_energy(context: Context) -> Line | None:
         " is symmetric) and ",
         slope,
     )
-    by += ("; into it are put ", splitting, ", ")
+    by += (", with ", splitting, ", ")
     by += (equation(Sum((inertial, coriolis, letters.G)), acting), " and ")
     by += (
         equation(letters.transposed_product(letters.QD, N), Number(0)),
@@ -167,8 +167,10 @@ def _named(context: Context, q: Coordinate) -> Prose:
     joint = moved[0][0]
     kind, where = ("angular", "about") if turns(q) else ("linear", "along")
     is_first = not robot.is_tree and all(body.link >= joint.index for body in robot.bodies)
-    whose = f"the {context.machine}" if is_first else f"all that joint {joint.index} moves"
-    return (f", the {kind} momentum {where} ", letters.z(joint_frame(robot, joint)), f" of {whose},")
+    axis = letters.z(joint_frame(robot, joint))
+    if is_first:
+        return (f", the {kind} momentum of the {context.machine} {where} ", axis, ",")
+    return (f", the {kind} momentum {where} ", axis, f" of all that joint {joint.index} moves,")
 
 
 def _shifts_all(context: Context, q: Coordinate) -> bool:

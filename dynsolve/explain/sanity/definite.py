@@ -86,6 +86,7 @@ def definite_step(context: Context) -> Step | None:
 def _by_entries(context: Context) -> _Shown | None:
     """By the entries of the diagonal, and by minors where coordinates are coupled."""
     firsts: list[int] = []
+    first_rows: list[int] = []
     determinants: list[Determinant] = []
     D = context.values["D"]
     for block in blocks(D):
@@ -93,6 +94,7 @@ def _by_entries(context: Context) -> _Shown | None:
         if first is None:
             return None
         firsts.append(first)
+        first_rows.append(block[0])
         if len(block) > 1:
             minors = _minors(context, block if first == block[0] else block[::-1])
             if minors is None:
@@ -105,14 +107,24 @@ def _by_entries(context: Context) -> _Shown | None:
         parts = listed([_block(context, block) for block in blocks(D)])
         why += (" ", letters.D, " consists of ", *parts)
         why += (", not coupled with each other: each counts by itself.",)
-    why += (*_of_determinants(context, determinants), " So ", letters.D)
-    why += (" is positive definite (Sylvester's criterion)",)
-    result = tuple(each.line for each in determinants)
-    lines = tuple(each.differences for each in determinants if each.differences is not None)
-    by = said_of(determinants)
-    if lines:
-        return _Shown((*why, "."), lines, ("With these, ", *by, ":"), result)
-    return _Shown((*why, "; ", *by, ":"), result=result)
+    why += (*_remaining(determinants, from_the_end=any(k not in first_rows for k in firsts)),)
+    lines = [each.differences for each in determinants if each.differences is not None]
+    by = _begun(said_of(determinants)) if not lines else ("With these, ", *said_of(determinants))
+    lines.append(Line((*by, ":"), tuple(each.line for each in determinants)))
+    return _Shown(why, tuple(lines), _of_determinants(context, determinants))
+
+
+def _remaining(determinants: Sequence[Determinant], *, from_the_end: bool) -> Prose:
+    """What is left to show beside the entries of the diagonal."""
+    what = "the determinants below are" if len(determinants) > 1 else "the determinant below is"
+    where = ", which may start from either end of the diagonal," if from_the_end else ""
+    return (f" By Sylvester's criterion{where} it remains to show that {what} positive.",)
+
+
+def _begun(by: Prose) -> Prose:
+    """Words as the beginning of a sentence."""
+    first, *rest = by
+    return (f"{str(first)[0].upper()}{str(first)[1:]}", *rest)
 
 
 def _first(context: Context, block: Sequence[int]) -> int | None:
@@ -123,14 +135,10 @@ def _first(context: Context, block: Sequence[int]) -> int | None:
 
 
 def _of_determinants(context: Context, determinants: Sequence[Determinant]) -> Prose:
-    """Why determinants are positive: what no term takes away from, and the term that is never 0."""
-    several = len(determinants) > 1
-    said: Prose = (
-        f" The determinant{'s' if several else ''} below {'are' if several else 'is'} positive, too: ",
-    )
-    least = [_never_zero(context, each.form) for each in determinants]
-    said += (f"in {'their last lines' if several else 'its last line'} no term is negative, and ",)
-    return (*said, *listed(least), ".")
+    """Why determinants are positive: no term takes anything away, and one is never 0."""
+    lines = "their last lines" if len(determinants) > 1 else "the last line"
+    least = listed([_never_zero(context, each.form) for each in determinants])
+    return (f"In {lines} no term is negative, and ", *least, ". So ", letters.D, " is positive definite.")
 
 
 def _never_zero(context: Context, form: Node) -> Node:

@@ -19,11 +19,13 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.derivatives import are_alike
+from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.kinetic import without_signs
 from dynsolve.explain.working.proved import equals
-from dynsolve.notation.build import cost, negated, total
+from dynsolve.notation.build import cost, factors_of, negated, total
 from dynsolve.notation.tree import (
+    Function,
     Negative,
     Node,
     Number,
@@ -106,7 +108,7 @@ def determinant_of_two(context: Context, places: tuple[int, int], value: Expr, f
     if count <= MOST_TERMS and not are_alike(expanded, form) and equals(expanded, value):
         lines.append(expanded)
         operations.append(MULTIPLIED_OUT)
-        last = _COLLECTED
+        last, form = _COLLECTED, _in_terms(context, form, expanded)
     used = identities(context.robot.ring, lines[-1], form) or ()
     line = equation(*members, *lines, form)
     return Determinant(line, form, (*operations, last), used, best.differences)
@@ -131,9 +133,35 @@ def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
         values = (D[a, a] - D[a, b] * 2 + D[b, b], D[k, k], D[a, b] - D[k, k])
         shown = (equation(whole, context.show(values[0])), equation(difference, context.show(values[2])))
         by = f"Row {k + 1} is subtracted from row {changed + 1}, and then column {k + 1} from column "
-        by += f"{changed + 1}, which does not change the determinant. In the place of "
-        entries = (letters.entry("d", changed + 1, changed + 1), " and ", d_ab, " there are then:")
+        by += f"{changed + 1}, which does not change the determinant. This replaces "
+        entries = (letters.entry("d", changed + 1, changed + 1), " and ", d_ab, " by:")
         yield _Written(written, values, Line((by, *entries), shown))
+
+
+def _in_terms(context: Context, form: Node, before: Node) -> Node:
+    """A form as a plain sum, in the order of the line before; as it is where a term would be negative."""
+    plain, count = _multiplied_out(context, form)
+    if not isinstance(plain, Sum) or count > MOST_TERMS or any(isinstance(t, Negative) for t in plain.terms):
+        return form
+    known = before.terms if isinstance(before, Sum) else (before,)
+    order = {term: place for place, term in enumerate(known)}
+    return Sum(
+        tuple(sorted(plain.terms, key=lambda term: order.get(_without_squared_sines(term), len(order))))
+    )
+
+
+def _without_squared_sines(term: Node) -> Node:
+    """m l² s² as m l², in the place of which it stands where s² + c² = 1 was used."""
+    factors = factors_of(term)
+    return product_of(1, [(factor, 1) for factor in factors if not _is_squared_sine(factor)])
+
+
+def _is_squared_sine(node: Node) -> bool:
+    return isinstance(node, Power) and node.exponent == Number(2) and _is_sine(node.base)
+
+
+def _is_sine(node: Node) -> bool:
+    return isinstance(node, Function) and node.name == "sin"
 
 
 def _multiplied_out(context: Context, node: Node) -> tuple[Node, int]:

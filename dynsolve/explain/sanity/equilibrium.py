@@ -128,7 +128,7 @@ def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[b
         of_some = (
             " with respect to ",
             *listed([Symbol(name) for name in names]),
-            ", on which alone it depends",
+            " (it depends on no other coordinate)",
         )
     by = ("The entries of the Hessian matrix of ", letters.P, *of_some, "; det is its determinant:")
     return Line(by, tuple(curvature.shown(context, names, rows)))

@@ -14,7 +14,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, differentiated
-from dynsolve.explain.working.expansion import multiplied_out
+from dynsolve.explain.working.expansion import by_rates, multiplied_out, sums_of_rates
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import SILENT, Way, chain, equals
 from dynsolve.explain.writing import listed, sum_of
@@ -49,8 +49,17 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
     lines: list[tuple[Prose, Node]] = [((by,), found.tree)]
     expanded = multiplied_out(found.tree, decimal=is_numeric(context.robot))
     if expanded != found.tree:
-        lines.append((("Multiplied out:",), expanded))
+        lines.append(_expanded(context, expanded, form))
     return chain(value, lines, lambda tree: equation(left, tree), _collected(used or ()))
+
+
+def _expanded(context: Context, expanded: Node, form: Node) -> tuple[Prose, Node]:
+    """A derivative multiplied out; by the products of rates too, where the result is sorted by these."""
+    if not sums_of_rates(expanded) - sums_of_rates(form):
+        return ("Multiplied out:",), expanded
+    return ("Multiplied out by the products of the rates:",), by_rates(
+        expanded, decimal=is_numeric(context.robot)
+    )
 
 
 def cancelling(context: Context, q: Coordinate) -> Prose:
@@ -201,11 +210,24 @@ def inertia_rate(
         return ()
     written = written or (lambda i, j: context.show(ring.time_derivative(D[i, j])))
     shown = [equation(*_rate_names(i, j), sum_of(terms), written(i, j)) for (i, j), terms in rates.items()]
-    count = context.robot.n * (context.robot.n + 1) // 2
-    by: Prose = ("The rate of ", letters.D, " by the chain rule, entry by entry")
-    by += ("; the other entries are constant:",) if len(rates) < count else (":",)
+    by: Prose = (
+        "The rate of ",
+        letters.D,
+        " by the chain rule, entry by entry",
+        *_kept(context, set(rates)),
+        ":",
+    )
     told = (SLOPES,) if slopes(context).lines else ()
     return (Line(by, tuple(shown), (*used, *told)),)
+
+
+def _kept(context: Context, varying: set[tuple[int, int]]) -> Prose:
+    """Which entries of D have no rate: the one that is left, or the others."""
+    n = context.robot.n
+    left = [(i, j) for i in range(n) for j in range(i, n) if (i, j) not in varying]
+    if len(left) > 1:
+        return ("; the other entries are constant",)
+    return tuple(part for i, j in left for part in ("; ", letters.entry("d", i + 1, j + 1), " is constant"))
 
 
 def _rate_names(i: int, j: int) -> tuple[Node, ...]:

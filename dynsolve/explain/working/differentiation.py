@@ -125,7 +125,9 @@ class _Worker:
         return product_of(coefficient, factors, decimal=self.decimal)
 
 
-def product_of(coefficient: int, factors: Sequence[tuple[Node, int]], *, decimal: bool = False) -> Node:
+def product_of(
+    coefficient: Fraction | int, factors: Sequence[tuple[Node, int]], *, decimal: bool = False
+) -> Node:
     """The product of factors with exponents; powers of one base are put together."""
     merged: dict[Node, int] = {}
     for node, exponent in factors:

@@ -17,6 +17,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.working import squares
+from dynsolve.explain.working.expansion import sums_of_rates
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.other_axes import turning_line
 from dynsolve.explain.working.proved import SILENT, Way, chain
@@ -46,14 +47,8 @@ MOST_GROUPS = 8
 
 def collected(before: Node, after: Node) -> Prose:
     """What is done to a line that needs no identity: its sums of rates are multiplied out, if they go."""
-    opened = _sums_of_rates(before) - _sums_of_rates(after)
+    opened = sums_of_rates(before) - sums_of_rates(after)
     return ("The sums of rates multiplied out, and collected:",) if opened else ("Collected:",)
-
-
-def _sums_of_rates(node: Node) -> set[Node]:
-    """The sums q̇₁ + q̇₂ that stand in a tree."""
-    sums = (part for part in walk(node) if isinstance(part, Sum))
-    return {each for each in sums if all(part.dots for part in walk(each) if isinstance(part, Symbol))}
 
 
 def velocity(context: Context, body: Body) -> tree.Matrix:

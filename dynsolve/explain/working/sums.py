@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working.derivatives import are_alike
+from dynsolve.explain.working.expansion import has_rates
 from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.tree import ZERO, Node, Number, Power, Sum, equation
+from dynsolve.notation.tree import ZERO, Node, Number, Power, Product, Sum, equation
 from dynsolve.notation.walk import walk
 
 
@@ -20,7 +21,8 @@ def summed(
     """The plain sum of scalar quantities, and what it takes to collect it.
 
     Silent of longer arms, and where the terms are only sorted.  Of terms that `stand_above`, just
-    before, the plain sum is shown where a square is opened, an identity used, or numbers are added.
+    before, the plain sum is shown where a square is opened, an identity used, numbers are added, or
+    coefficients come together in a bracket.
     """
     if not context.is_short:
         return SILENT
@@ -28,7 +30,8 @@ def summed(
     before, after = sum_of([form for form in forms if form != ZERO]), context.form(result)
     used = identities(context.robot.ring, before, after)
     opened = _squares_of_sums(before) - _squares_of_sums(after)
-    is_seen = are_alike(before, after) or (stand_above and _numbers(after) <= _numbers(before))
+    is_sorted = _numbers(after) <= _numbers(before) and not _brackets_change(before, after)
+    is_seen = are_alike(before, after) or (stand_above and is_sorted)
     if is_seen and not (used or opened):
         return SILENT
     by: Prose = ("The square multiplied out, and collected",) if opened else ("Collected",)
@@ -39,6 +42,19 @@ def summed(
 def _numbers(node: Node) -> set[Node]:
     """The numbers that stand in a tree."""
     return {part for part in walk(node) if isinstance(part, Number)}
+
+
+def _brackets_change(before: Node, after: Node) -> bool:
+    """Whether brackets of the terms are opened, and coefficients come together in new ones."""
+    first, last = _brackets(before), _brackets(after)
+    new = {each for each in last - first if not has_rates(each)}
+    return bool(first - last and new)
+
+
+def _brackets(node: Node) -> set[Node]:
+    """The sums that are a factor of some term, such as m l² + I beside θ̇²."""
+    factors = (factor for part in walk(node) if isinstance(part, Product) for factor in part.factors)
+    return {factor for factor in factors if isinstance(factor, Sum)}
 
 
 def _squares_of_sums(node: Node) -> set[Node]:

@@ -110,6 +110,8 @@ def test_the_energies_of_the_bodies_are_added_before_they_are_collected() -> Non
     assert lines("spherical-rrp", "K2") == [], "its terms stand just above"
     crust = "K₂ = ⅛ m₂ L₂² (c₂² θ̇₁² + θ̇₂²) + (1/24) m₂ L₂² (c₂² θ̇₁² + θ̇₂²)"
     assert lines("crustcrawler-2r", "K2") == ["", crust, "Collected:"], "numbers are added"
+    elbow = "K₂ = ½ m₂ l_c2² (c₂² θ̇₁² + θ̇₂²) + ½ ((I_2xx s₂² + I_2yy c₂²) θ̇₁² + I_2zz θ̇₂²)"
+    assert lines("elbow-3r", "K2") == ["", elbow, "Collected:"], "its brackets are others"
     assert lines("planar-2r", "P") == [], "it is the plain sum"
 
 
@@ -216,7 +218,7 @@ def test_the_root_of_a_number_stands_before_the_lengths_of_a_derivative() -> Non
 def test_the_addition_theorem_of_a_derivative_is_named() -> None:
     sine = "the sine of a sum, s₂ c₂₃ + c₂ s₂₃ = sin(2θ₂ + θ₃)"
     assert lines("elbow-3r", "ddt1")[-1] == lines("elbow-3r", "dLdq2")[-1] == f"Collected, with {sine}:"
-    assert lines("elbow-3r", "ddt1")[2] == "Multiplied out:"
+    assert lines("elbow-3r", "ddt1")[2] == "Multiplied out by the products of the rates:"
     derived, *slopes = lines("elbow-3r", "christoffel")[:5]
     assert derived == (
         f"The derivatives of 𝐃 that are not zero, term by term, multiplied out, and collected with {sine}:"
