@@ -185,7 +185,8 @@ def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...],
     if shape is None or not shape.formulas:
         return None, (), ()
     formula = side_by_side([
-        equation(Letter("I", Words(axes)), moment) for axes, moment in shape.formulas
+        equation(Letter("I", Row((letters.index_of(body.name), Words(axes)))), moment)
+        for axes, moment in shape.formulas
     ])  # fmt: skip
     named = [("m", body.mass, "kg"), *((letter, value, "m") for letter, value in shape.letters)]
     given = [equation(Symbol(letter), measured(context.show(value), unit)) for letter, value, unit in named]

@@ -214,7 +214,8 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     yield _line(letters.base_tensor(_I), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
     yield _line(Letter("R", Row((_I, Words(","), _J)), None, "bold"), "turn j of body i")
-    yield _line([Letter("I", Words(a)) for a in ("xx", "yy", "zz")], "moments of a uniform shape", "kg m^2")
+    moments = [Letter("I", Row((_I, Words(axes)))) for axes in ("xx", "yy", "zz")]
+    yield _line(moments, "principal moments of body i, a uniform shape", "kg m^2")
     yield _line(letters.bold("E"), "identity matrix")
     yield _line(Symbol("g"), "acceleration of gravity", "m/s^2")
     yield _line(letters.GRAVITY, "acceleration of gravity, a vector that points down", "m/s^2")

@@ -17,6 +17,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
 from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
 from dynsolve.explain.step import Step
+from dynsolve.explain.working.sums import numbers_in
 from dynsolve.explain.writing import and_joined, listed, measured, side_by_side, spong, sum_of
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import Node, Number, Power, Product, Sum, equation
@@ -99,15 +100,17 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
         if there.is_number and not context.robot.parameters:
             entry = equation(name, _summed(context, q, pose), measured(form, "kg m²"))
         else:
-            entry = equation(name, _body_by_body(context, q, pose, form))
+            entry = equation(name, *_body_by_body(context, q, pose, form))
         yield side_by_side(written(pose)), _shape(context, pose), entry
 
 
-def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> Node:
-    """An entry in letters as what each body adds to it; collected where that has these terms already."""
+def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> tuple[Node, ...]:
+    """An entry in letters as what each body adds to it, and collected where that adds numbers up."""
     terms = _summed(context, q, pose)
     alike = [Counter(form.terms if isinstance(form, Sum) else (form,)) for form in (terms, collected)]
-    return collected if alike[0] == alike[1] or cost(terms) > LONGEST else terms
+    if alike[0] == alike[1] or cost(terms) > LONGEST:
+        return (collected,)
+    return (terms,) if numbers_in(collected) <= numbers_in(terms) else (terms, collected)
 
 
 def _summed(context: Context, q: Coordinate, pose: Pose) -> Node:

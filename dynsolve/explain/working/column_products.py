@@ -160,7 +160,8 @@ def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> 
     if used is None or not equals(products, value):
         return None
     if not used or not _has_sums(products):
-        return _Entry((i, j), products, products, used)
+        shown = _in_brackets(products) if i == j else products
+        return _Entry((i, j), shown, shown, used)
     groups = squares.groups(context.forms, sum((a.poly * b.poly for a, b in pairs), start=ring.zero.poly))
     if groups is None or len(groups) > MOST_GROUPS:
         return None
@@ -181,6 +182,23 @@ def _products(context: Context, pairs: Sequence[tuple[Expr, Expr]], is_square: b
         opposite = (first != bare[0]) != (second != bare[1])
         terms.append(negated(found) if opposite and not is_square else found)
     return sum_of(terms) if is_square else total(terms)
+
+
+def _in_brackets(squares_shown: Node) -> Node:
+    """l² s² + l² c² as l² (s² + c²): the squares of one length stand in one bracket."""
+    terms = squares_shown.terms if isinstance(squares_shown, Sum) else (squares_shown,)
+    angular: dict[tuple[Node, ...], list[Node]] = {}
+    for term in terms:
+        factors = factors_of(term)
+        lengths = tuple(factor for factor in factors if not is_trigonometric(factor))
+        others = [(factor, 1) for factor in factors if is_trigonometric(factor)]
+        angular.setdefault(lengths, []).append(times(1, others))
+    if len(angular) == len(terms) or any(Number(1) in each for each in angular.values()):
+        return squares_shown
+    return total([
+        times(1, [*((length, 1) for length in lengths), (sum_of(each), 1)])
+        for lengths, each in angular.items()
+    ])  # fmt: skip
 
 
 def _has_sums(products: Node) -> bool:

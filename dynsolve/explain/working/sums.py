@@ -30,7 +30,7 @@ def summed(
     before, after = sum_of([form for form in forms if form != ZERO]), context.form(result)
     used = identities(context.robot.ring, before, after)
     opened = _squares_of_sums(before) - _squares_of_sums(after)
-    is_sorted = _numbers(after) <= _numbers(before) and not _brackets_change(before, after)
+    is_sorted = numbers_in(after) <= numbers_in(before) and not _brackets_change(before, after)
     is_seen = are_alike(before, after) or (stand_above and is_sorted)
     if is_seen and not (used or opened):
         return SILENT
@@ -39,7 +39,7 @@ def summed(
     return chain(context.values[result], [((), before)], lambda tree: equation(name, tree), by)
 
 
-def _numbers(node: Node) -> set[Node]:
+def numbers_in(node: Node) -> set[Node]:
     """The numbers that stand in a tree."""
     return {part for part in walk(node) if isinstance(part, Number)}
 

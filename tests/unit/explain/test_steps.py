@@ -185,7 +185,7 @@ def test_a_tensor_is_not_called_like_its_entry() -> None:
 def test_a_shape_with_its_formula_and_its_letters() -> None:
     each = step("box-cylinder-rod-sphere", "I_body1")
     assert each.formula is not None
-    assert to_unicode(each.formula) == "I_xx = m (3r² + l²)/12, I_yy = m r²/2, I_zz = m (3r² + l²)/12"
+    assert to_unicode(each.formula) == "I_1xx = m (3r² + l²)/12, I_1yy = m r²/2, I_1zz = m (3r² + l²)/12"
     assert [to_unicode(node) for node in each.working] == ["m = m₁, r = r₁, l = h"]
     assert "uniform solid cylinder" in said(each.why, "box-cylinder-rod-sphere")
 

@@ -415,7 +415,7 @@ def test_the_columns_of_a_jacobian_are_multiplied_by_one_identity_after_the_othe
         "+ l_c3² (s₂₃² + c₂₃²) + 2L₂ l_c3 (s₂ s₂₃ + c₂ c₂₃)",
         "(𝐉_v3ᵀ 𝐉_v3)₂₃ = l_c3 s₂₃ (L₂ s₂ + l_c3 s₂₃) + l_c3 c₂₃ (L₂ c₂ + l_c3 c₂₃) "
         "= l_c3² (s₂₃² + c₂₃²) + L₂ l_c3 (s₂ s₂₃ + c₂ c₂₃)",
-        "(𝐉_v3ᵀ 𝐉_v3)₃₃ = l_c3² s₂₃² + l_c3² c₂₃²",
+        "(𝐉_v3ᵀ 𝐉_v3)₃₃ = l_c3² (s₂₃² + c₂₃²)",
     ]
     assert lines("elbow-3r", "D_direct3")[-1] == (
         "By s₂² + c₂² = 1, s₂₃² + c₂₃² = 1 and the cosine of a difference, c₂ c₂₃ + s₂ s₂₃ = c₃:"
@@ -425,7 +425,7 @@ def test_the_columns_of_a_jacobian_are_multiplied_by_one_identity_after_the_othe
 def test_narrow_products_of_columns_stand_in_a_matrix_and_trivial_ones_take_no_line() -> None:
     by, matrix, concluding = lines("spherical-rrp", "D_direct3")
     assert (by, concluding) == ("With s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):", "By s₂² + c₂² = 1:")
-    assert "d₃² s₂² + d₃² c₂², d₃ s₂ c₂ - d₃ s₂ c₂" in matrix
+    assert "d₃² (s₂² + c₂²), d₃ s₂ c₂ - d₃ s₂ c₂" in matrix
     assert lines("planar-2r", "D_direct1")[-1] == "Multiplied out, with s₁² + c₁² = 1:"
     assert "𝐉_v1" not in "".join(lines("planar-2r", "D_direct1"))
 
