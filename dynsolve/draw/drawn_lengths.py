@@ -158,6 +158,7 @@ def _all_values(robot: Robot, given: Mapping[str, float], factor: float, spread:
     for joint in robot.joints:
         for atom, _ in (*joint.theta.terms, *joint.alpha.terms):
             values.update({name: _ANGLE for name, _ in atom if len(atom) == 1})
+    values.update(dict.fromkeys(names_in(*(turn for _, turn in robot.base_turns)), _ANGLE))
     values.update(given)
     values["pi"] = math.pi
     for q in robot.coordinates:

@@ -18,7 +18,7 @@ class Orientation:
     """Which way is up, and what the robot moves in.
 
     `gravity` is a unit vector, None without gravity; `ahead` a level direction of the
-    base; `normal` that of the plane of motion, where there is one.
+    base; `normal` that of the plane of motion, where there is one, upright or level.
     """
 
     up: Vector
@@ -32,11 +32,16 @@ def orientation(robot: Robot, numbers: RobotNumbers) -> Orientation:
     base = base_frame(numbers)
     gravity = _gravity(robot, numbers)
     normal = _normal(robot, numbers, base)
-    if normal is not None:
+    if normal is not None and not _leans(normal, gravity):
         return Orientation(_up_in_plane(normal, base, gravity), base.x, gravity, normal)
     up = scale(gravity, -1.0) if gravity else base.z
     ahead = base.x if abs(dot(base.x, up)) < 0.9 else base.z
     return Orientation(up, ahead, gravity, None)
+
+
+def _leans(normal: Vector, gravity: Vector | None) -> bool:
+    """Whether a plane is neither upright nor level: seen from its front, it would hide how far it leans."""
+    return gravity is not None and _FLAT < abs(dot(normal, gravity)) < 1 - _FLAT
 
 
 def _gravity(robot: Robot, numbers: RobotNumbers) -> Vector | None:

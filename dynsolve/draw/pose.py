@@ -50,6 +50,9 @@ class Pose:
     bodies: tuple[DrawnBody, ...] = ()
 
 
+_SQUARE_TO_PAPER = 1.0
+"""The cost of a link that stands upright or level in a plane, a special case that may mislead."""
+
 Choice = tuple[float, ...]
 """Values of the coordinates, then azimuth and elevation where the view is free."""
 
@@ -164,6 +167,7 @@ def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
         for leg in pose.skeleton.legs:
             if leg.type is JointType.REVOLUTE:
                 total += 12.0 * _shortfall(leg.turn, 0.7) + 1.2 * abs(leg.turn - 0.8)
+        total += sum(_SQUARE_TO_PAPER for link in pairwise(pose.skeleton.path) if _is_square(pose, *link))
     else:
         total += 0.5 * abs(choice[-2] - math.radians(35))
         if len(pose.skeleton.legs) <= MANY:
@@ -171,6 +175,12 @@ def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
     first, last = pose.skeleton.frames[0].origin, pose.skeleton.frames[-1].origin
     reach = pose.view.direction(subtract(last, first))[0]
     return total + 1.5 * max(0.0, 1.0 - reach)
+
+
+def _is_square(pose: Pose, a: Vector, b: Vector) -> bool:
+    """Whether a link that a joint may turn stands upright or level on paper, as few poses have it."""
+    across, up = pose.view.direction(subtract(b, a))
+    return min(abs(across), abs(up)) < NEAR and distance(a, b) > NEAR
 
 
 def _hidden_angle(leg: Leg, view: View) -> float:

@@ -35,7 +35,7 @@ _FINEST = 10**6
 SLIDE = 0.9
 """How far out a slide is drawn whose letter stands in a drawing."""
 
-CAPTION = "The manipulator with its frames; not to scale."
+CAPTION = "The manipulator with its frames; not to scale. 𝐱ᵢ and 𝐳ᵢ begin at the origin 𝐨ᵢ, and 𝐲ᵢ = 𝐳ᵢ × 𝐱ᵢ."
 PARALLELS = "Dashed grey lines at a joint are parallel to the directions between which its angle is measured."
 """Said where one of them is parallel to no x axis, since degrees are added to its angle."""
 

@@ -23,7 +23,7 @@ _SUPERSCRIPTS = dict(zip(SUPERSCRIPT_DIGITS + "ⁱⁿᵀ", "0123456789inT", stri
 _DOTS = {"\u0307": 1, "\u0308": 2}
 _SCRIPTS = {"ℒ": ("L", "script"), "𝒦": ("K", "script"), "𝒫": ("P", "script"), "𝓘": ("I", "bold script")}
 """Letters of a script alphabet: the letter, and its style."""
-_BOLD_LETTERS = {"𝐂": "C", "𝐃": "D", "𝐨": "o", "𝐱": "x", "𝐳": "z"}
+_BOLD_LETTERS = {"𝐂": "C", "𝐃": "D", "𝐨": "o", "𝐱": "x", "𝐲": "y", "𝐳": "z"}
 """Letters that are bold wherever they stand: matrices, the origin and the axes of a frame."""
 _DOTTED = {"Ḋ": "D", "ẋ": "x", "ẏ": "y", "ż": "z"}
 _BOLD = {True: frozenset("AH"), False: frozenset({"q", "D", "tau", "omega"})}

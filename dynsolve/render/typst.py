@@ -36,6 +36,9 @@ from dynsolve.render.typesetting import Line
 PAGE = 45.0
 """The width of the page, in em."""
 
+_FACE = "New Computer Modern"
+"""The face of words and of what stands in drawings."""
+
 _NUMBER = 3.0
 _STICKY = ", sticky: true"
 _MOST_ROWS = 12
@@ -51,7 +54,7 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #set page(paper: "a4", margin: (x: 2.2cm, top: 2cm, bottom: 1.7cm), header-ascent: 40%, header: context {
   if here().page() > 1 { text(8.5pt, fill: luma(90), [#emph({header}) #h(1fr) #counter(page).display()]) }
 })
-#set text(font: ("New Computer Modern", "Libertinus Serif", "DejaVu Sans Mono"), size: 10pt, lang: "en")
+#set text(font: ({face}, "Libertinus Serif", "DejaVu Sans Mono"), size: 10pt, lang: "en")
 #set par(leading: 0.6em, spacing: 0.7em)
 #set math.mat(delim: "[", row-gap: 0.45em, column-gap: 0.9em)
 #set math.equation(numbering: none)
@@ -123,7 +126,8 @@ def to_typst_document(document: Document, style: Style = PLAIN) -> str:
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
     page = _Page(style, document)
     texts = {"{title}": quoted(title), "{header}": quoted(_known(running_title(title)))}
-    preamble = re.sub("{title}|{header}", lambda found: texts[found[0]], _PREAMBLE)
+    texts["{face}"] = quoted(_FACE)
+    preamble = re.sub("|".join(texts), lambda found: texts[found[0]], _PREAMBLE)
     return preamble + "\n".join(page.all(document)) + "\n"
 
 
@@ -310,7 +314,8 @@ class _Page(TypesetPage):
         return f"[{self.part(cell)}]"
 
     def picture(self, picture: Picture) -> Iterator[str]:
-        image = f'image(bytes({quoted(picture.svg)}), format: "svg")'
+        svg = re.sub('font-family="[^"]*"', f'font-family="{_FACE}"', picture.svg, count=1)
+        image = f'image(bytes({quoted(svg)}), format: "svg")'
         yield f"#align(center)[#{image} #text(size: 9pt)[{self.words(picture.caption)}]]"
 
     def escaped(self, text: str) -> str:
