@@ -107,7 +107,7 @@ def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None
     view, at = pose.view, pose.view.point(ORIGIN)
     for direction in (first, second):
         end = view.point(along(ORIGIN, direction, view.space(_LEAN + _BEYOND)))
-        notes.draw(Path(paths.line(at, end), paths.GREY, 0.9, dashed=True), behind=True)
+        notes.draw(Path(paths.line(at, end), paths.GREY, 0.9), behind=True)
     p, q = scaled(view.direction(first), _LEAN), scaled(view.direction(side), _LEAN)
     arc = paths.arc(at, p, q, 0.0, size)
     notes.draw(Path(arc, paths.WHITE, 3.6), Path(arc, paths.BLACK, 1.1))

@@ -70,6 +70,6 @@ def _matters_to(robot: Robot) -> Iterator[Prose]:
     """Where frame 0 is turned against gravity: which of the results depend on how."""
     if robot.bodies and robot.base_rotation @ robot.gravity != robot.gravity:
         yield (
-            "How the base is turned matters to the potential energy and the gravity terms alone: a constant "
-            "rotation leaves lengths unchanged, so speeds may be taken along the axes of frame 0.",
+            "In the results, how the base is turned matters to the potential energy and the gravity terms "
+            "alone: a constant rotation leaves lengths unchanged, so it cancels in the kinetic energy.",
         )

@@ -107,7 +107,11 @@ def _symbol(context: Context, i: int, j: int, k: int) -> Node:
     names: list[Node] = [letters.entry("c", i + 1, j + 1, k + 1)]
     if i != j:
         names.append(letters.entry("c", j + 1, i + 1, k + 1))
-    return equation(*names, in_slopes(context, i, j, k), value)
+    weights = [weight for weight in _weights(context, i, j, k).values() if weight]
+    slopes = in_slopes(context, i, j, k)
+    if weights == [2]:  # two equal slopes, which their half is one of
+        names.append(Product((letters.HALF, Parenthesized(Sum((slopes, slopes))))))
+    return equation(*names, slopes, value)
 
 
 def in_slopes(context: Context, i: int, j: int, k: int) -> Node:

@@ -11,7 +11,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline, Prose
 from dynsolve.explain import base_frame
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.inertia import has_link_axes, is_moved
+from dynsolve.explain.inertia import has_link_axes, is_moved, stays_with_base
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.shapes import DIMENSIONS, SHAPES
 from dynsolve.explain.writing import listed, measured, name_of, side_by_side
@@ -70,9 +70,7 @@ def axis_of(forms: Forms, body: Body, name: str) -> Prose:
     """𝐳₁ of a body with the axes of frame 1; 𝐳₀ where it always is this; else its z-axis."""
     if has_link_axes(body):
         return (Letter(name, Number(body.link), style="bold"),)
-    place, seen = AXES.index(name), forms.values[f"R{body.name}"]
-    base = seen.identity(forms.robot.ring, 3)
-    if not letters.has_base(forms.robot) and all(seen[i, place] == base[i, place] for i in range(3)):
+    if stays_with_base(forms, body, AXES.index(name)):
         return (Letter(name, Number(0), style="bold"),)
     return (f"its {name}-axis",)
 
@@ -146,6 +144,8 @@ def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
         ((body, value, (axis,)),) = found
         what = f"The moment of inertia of {name_of(body)} about the axis through its mass centre parallel to "
         return (what, *axis, " is ", value, ". ")
+    if len(found) == len(bodies) and all(len(axes) == 1 for _, _, axes in found):
+        return _one_each([(body, value, axis) for body, value, (axis,) in found])
     told: Prose = ()
     for body in bodies:
         own = [(value, axes) for one, value, axes in found if one is body]
@@ -156,8 +156,18 @@ def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
             told += ("; " if told else "", f"of {name_of(body)} ", *values)
             told += (f", about {that} parallel to ", *axes)
     several = any(len(own) > 1 for own in (_nonzero(body) for body in bodies))
-    rest = "; the other entries of the tensors are 0" if several else ""
+    rest = "; the other entries of the tensors are taken as 0" if several else ""
     return ("Moments of inertia about axes through the mass centres: ", *told, f"{rest}. ")
+
+
+def _one_each(found: Sequence[tuple[Body, Node, Prose]]) -> Prose:
+    """The moment of inertia of body 1 about the axis ... is I₁; that of body 2, ..."""
+    (body, value, axis), *others = found
+    what = f"The moment of inertia of {name_of(body)} about the axis through its mass centre parallel to "
+    told: Prose = (what, *axis, " is ", value)
+    for body, value, axis in others:
+        told += (f"; that of {name_of(body)}, about the axis parallel to ", *axis, ", is ", value)
+    return (*told, ". ")
 
 
 def _by_value(forms: Forms, body: Body) -> list[tuple[Node, list[Prose]]]:

@@ -35,17 +35,17 @@ def joints(robot: Robot) -> str:
 
 
 def of_base(forms: Forms) -> Prose:
-    """Frame 0 is moved by h₀ along z and turned by 30° about x; nothing where it is the world."""
+    """Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w; nothing where it is the world."""
     robot = forms.robot
     if not letters.has_base(robot):
         return ()
     moves = zip("xyz", robot.base_position.entries, strict=True)
     told: list[tuple[str, Prose]] = [
-        ("moved ", ("by ", measured(forms.of(far), "m"), f" along {axis}"))
+        ("moved ", ("by ", measured(forms.of(far), "m"), " along ", _of_world(axis)))
         for axis, far in moves
         if not far.is_zero
     ]
-    told += [("turned ", ("by ", angle, f" about {axis}")) for axis, angle in robot.base_turns]
+    told += [("turned ", ("by ", angle, " about ", _of_world(axis))) for axis, angle in robot.base_turns]
     turned = robot.base_rotation != robot.base_rotation.identity(robot.ring, 3)
     if len(told) > 2 or (turned and not robot.base_turns):
         return ("How frame 0 is placed in the world is given (1.2). ",)
@@ -53,7 +53,12 @@ def of_base(forms: Forms) -> Prose:
     rest: Prose = ()
     for verb, by in others:
         rest += (" and ", *((verb,) if verb != first else ()), *by)
-    return ("Frame 0 is ", first, *how, *rest, " of the world. ")
+    return ("Frame 0 is ", first, *how, *rest, " in the world w. ")
+
+
+def _of_world(axis: str) -> Node:
+    """𝐳_w"""
+    return letters.bold(axis, Words("w"))
 
 
 # -- what acts -------------------------------------------------------------------------------------
@@ -86,10 +91,9 @@ def _gravity(forms: Forms) -> Prose:
     ((axis, entry),) = along
     opposite = leads_with_minus(entry)
     size = -entry if opposite else entry
-    unit: Node = Words(axis) if letters.has_base(robot) else Letter(axis, Number(0), style="bold")
+    unit = _of_world(axis) if letters.has_base(robot) else Letter(axis, Number(0), style="bold")
     named: Prose = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
-    told: Prose = ("Gravity", *named, " acts along ", Negative(unit) if opposite else unit)
-    return (*told, " of the world") if letters.has_base(robot) else told
+    return ("Gravity", *named, " acts along ", Negative(unit) if opposite else unit)
 
 
 def _ground(robot: Robot) -> str:

@@ -9,11 +9,12 @@ from collections.abc import Iterator
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain import given_axes
 from dynsolve.explain.citations import GIVEN, LYNCH_PARK
 from dynsolve.explain.context import Context
 from dynsolve.explain.density import density_step
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.mass_centers import mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.shapes import SHAPES
@@ -25,6 +26,7 @@ from dynsolve.notation.tree import (
     Letter,
     Negative,
     Node,
+    Number,
     Parenthesized,
     Product,
     Row,
@@ -142,12 +144,12 @@ def _left_out(context: Context, body: Body) -> Prose:
     entries, along = "what belongs to ", "has components along these axes alone"
     if len(still) == 2:
         entries, along = "the moment about ", "is parallel to that axis"
-        entries += "the axis parallel to " if _in_frame(context, body) else ""
+        entries += "the axis parallel to " if isinstance(axes[0], Letter) else ""
     return (
         f"Of the tensor of {name_of(body)} about its mass centre {entries}",
         *axes,
         f" is given. The angular velocity {along}, so nothing else enters, and the other entries are "
-        "set to 0.",
+        "taken as 0.",
     )
 
 
@@ -173,10 +175,20 @@ def _in_frame(context: Context, body: Body) -> bool:
 
 
 def _axis(context: Context, body: Body, name: str, otherwise: str) -> Prose:
-    """An axis of a body: 𝐳₁ where it is that of its link's frame, else what it is called otherwise."""
+    """An axis of a body: 𝐳₁ of its link's frame, 𝐳₀ where it stays with this, else what it is called."""
     if _in_frame(context, body):
         return (Letter(name, letters.index_of(str(body.link)), style="bold"),)
+    if stays_with_base(context.forms, body, "xyz".index(name)):
+        return (Letter(name, Number(0), style="bold"),)
     return (otherwise,)
+
+
+def stays_with_base(forms: Forms, body: Body, place: int) -> bool:
+    """Whether an axis of a body is always parallel to that of frame 0 with its name."""
+    seen = forms.values[f"R{body.name}"]
+    base = seen.identity(seen.ring, 3)
+    known = forms.robot.has_table and not letters.has_base(forms.robot)
+    return known and all(seen[i, place] == base[i, place] for i in range(3))
 
 
 def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...], Prose]:
@@ -274,8 +286,8 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
     frame, turned = letters.R(robot, link), context.show(body.axes.rotation)
     match body.axes.kind:
         case AxesKind.LINK if has_link_axes(body):
-            why = f"The body's axes are those of frame {link}, which is fixed in link {link}."
-            return (why,), frame, ()
+            why = f"The body's axes are those of frame {link}"
+            return (why, Reference((f"H{link}",)), f", which is fixed in link {link}."), frame, ()
         case AxesKind.LINK:
             why = f"The body's axes are turned in frame {link}, as the problem gives them."
             return (why,), Product((frame, turned)), ()
@@ -328,13 +340,15 @@ def _base_tensor(context: Context, body: Body) -> Step:
     turning, base = turning_of(context, body, R), context.form(f"I{body.name}")
     detail = _detail(context, body, base)
     leads: Prose = (R, f" leads from the body's axes to those of the {context.ground}.")
-    if detail is Detail.FULL:
+    if _is_kept(context, body):
+        leads = ()
+    if detail is Detail.FULL and leads:
         leads += (
             " Below the energy is worked out along the body's own axes, where the tensor is ",
             letters.tensor(context.robot, body),
             ".",
         )
-    else:
+    elif leads:
         told = f" will be written in {context.ground} coordinates, so the tensor must be, too: "
         leads = (letters.of_body("omega", body, "bold"), told, *leads)
     return Step(

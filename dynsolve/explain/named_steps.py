@@ -67,7 +67,7 @@ _DIFFERENTIATED = re.compile(r"ddt\d+|christoffel")
 _WITH_RATES = re.compile(r"ddt\d+|dLdq\d+|tau\d+|Cqd")
 """The steps in whose results Christoffel symbols stand beside products of rates."""
 
-_BY_SYMBOLS = re.compile(r"ddt\d+|dLdq\d+|christoffel|C|agreement|skew")
+_BY_SYMBOLS = re.compile(r"ddt\d+|dLdq\d+|christoffel")
 """The steps that bring the names of symbols in, and so refer to them."""
 
 
@@ -119,6 +119,9 @@ def _used(step: Step, written: Step, short: Abbreviated, labels: Mapping[Symbol,
         yield DERIVATIVES
     elif step.id in _COLLECTED:
         yield from (labels[name] for name in of_sums)
+    if step.id.startswith("dLdq") and written.lines:
+        before = set(walk(*written.lines[-1].formulas))
+        yield from (labels[name] for name in of_sums if name not in before)
     if _BY_SYMBOLS.fullmatch(step.id):
         of_symbols = {one.name for one in short.of_symbols if one != short.single}
         yield from (labels[name] for name in names if name in of_symbols)
@@ -301,10 +304,8 @@ def _skew(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symb
         )
 
     rows = tuple(tuple(entry((-1, 1), k, j) for j in range(n)) for k in range(n))
-    used = (labels[one.name] for one in short.of_symbols)
-    lines = inertia_rate(
-        context, lambda i, j: entry((1, 1), i, j), tuple(dict.fromkeys((*used, "christoffel")))
-    )
+    used = (*(labels[one.name] for one in short.of_symbols), "christoffel")
+    lines = inertia_rate(context, lambda i, j: entry((1, 1), i, j), tuple(dict.fromkeys(used)))
     return replace(step, lines=lines, result=(equation(letters.bold("N"), Matrix(rows)), *step.result[-1:]))
 
 

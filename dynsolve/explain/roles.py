@@ -7,6 +7,7 @@ from enum import Enum
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
+from dynsolve.notation.walk import names_in as names_in_trees
 from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
@@ -20,6 +21,7 @@ class Role(Enum):
     LENGTH = "lengths in the table", "length in the table"
     ANGLE = "constant angles in the table", "constant angle in the table"
     BASE = "place of frame 0 in the world", "place of frame 0 in the world"
+    TURN = "angles by which frame 0 is turned in the world", "angle by which frame 0 is turned in the world"
     MASS = "masses of the bodies", "mass of a body"
     INERTIA = "given moments of inertia", "given moment of inertia"
     PRODUCT = "given products of inertia", "given product of inertia"
@@ -54,7 +56,10 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
             if name in robot.parameters:
                 found.setdefault(name, role)
     dimensions = _dimensions(robot)
-    return {name: (found.get(name, Role.OTHER), dimensions.get(name, "")) for name in robot.parameters}
+    return {
+        name: (role := found.get(name, Role.OTHER), "rad" if role is Role.TURN else dimensions.get(name, ""))
+        for name in robot.parameters
+    }
 
 
 def _dimensions(robot: Robot) -> dict[str, str]:
@@ -76,6 +81,7 @@ def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
         yield Role.ANGLE, (*names_of(joint.theta), *names_of(joint.alpha))
     for entry in robot.base_position.entries:
         yield Role.BASE, names_in(entry)
+    yield Role.TURN, names_in_trees(*(angle for _, angle in robot.base_turns))
     for body in robot.bodies:
         yield Role.MASS, names_in(body.mass)
     for body in robot.bodies:

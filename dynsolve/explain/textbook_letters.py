@@ -81,7 +81,10 @@ SHAPES = {
 """The letters of the formulas of uniform shapes."""
 
 
-ENTRIES_IN_PRODUCTS = (letters.D, letters.C, letters.bold("N"), Letter("c", Row((_I, _J, _K))))
+ENTRIES_IN_PRODUCTS = (
+    *(letters.D, letters.D_POINTS, letters.C, letters.bold("N")),
+    Letter("c", Row((_I, _J, _K))),
+)
 """What a rate multiplies for each of its indices: the unit of an entry depends on all of them."""
 
 
@@ -128,6 +131,7 @@ def _kinematics(robot: Robot, ground: str) -> Iterator[Line]:
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
     yield _each([(frame, "frame i"), (turned, "orientation of frame i")], f", seen from {ground}")
     yield _each([(_numbered(axis), f"{axis}-axis") for axis in "xyz"], " of frame i")
+    yield _line([letters.bold(axis, Words("w")) for axis in "xyz"], "axes of the world w")
     yield _line(_numbered("o"), "origin of frame i", "m")
     yield _line(letters.bold("0"), "zero vector or matrix")
     coordinates = [(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")]
@@ -274,7 +278,7 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     )
     yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")], "", inertia)
     yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points", inertia)
-    yield _line(_entry("c", _I, _J, _K), "Christoffel symbol", inertia)
+    yield _line(_entry("c", _I, _J, _K), "Christoffel symbol: always with three indices", inertia)
     coriolis = letters.C, "matrix of the Coriolis and centrifugal terms"
     yield _each([coriolis, (_entry("c", _K, _J), "its entries")], "", rate)
     gravity = letters.G, "column of the gravity terms"

@@ -36,7 +36,8 @@ def turning_of(context: Context, body: Body, R: Letter) -> Turning:
     factor, axis = factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
     if factor is not None:
         line = Product((number_in_front(context.show(factor)), R, Transpose(R)))
-        why: Prose = (" The tensor is a multiple of the identity matrix, so every rotation keeps it.",)
+        why: Prose = ("The tensor is a multiple of the identity matrix: whatever ", R, " is, ")
+        why += (Product((R, Transpose(R))), " is the identity matrix, and the rotation keeps the tensor.")
         return Turning((line,), why, same=letters.tensor(context.robot, body))
     if axis is not None:
         tensor = context.values[f"I_body{body.name}"]

@@ -233,7 +233,7 @@ class _Page(MarkupPage):
     def cells(self, cells: Sequence[Inline], prose: Collection[int], tag: str = "td") -> Iterator[str]:
         """A row of a table; a formula is broken in a column of sentences alone."""
         for k, cell in enumerate(cells):
-            text = self.whole(cell) if isinstance(cell, Node) and k not in prose else self.part(cell)
+            text = self.whole(cell) if isinstance(cell, Node) and k not in prose else self.prose((cell,))
             yield f'<{tag} class="words">{text}</{tag}>' if k in prose else f"<{tag}>{text}</{tag}>"
 
     def picture(self, picture: Picture) -> Iterator[str]:

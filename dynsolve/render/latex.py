@@ -26,8 +26,8 @@ from dynsolve.notation.tree import Node, Row, Words
 from dynsolve.render.latex_displays import DisplayRow, aligned, gathered, in_columns
 from dynsolve.render.latex_macros import MACROS, NEEDS, PREAMBLE
 from dynsolve.render.latex_text import latex_text
-from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import SHORT, TypesetPage, prose_columns
+from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
+from dynsolve.render.page import PART, SHORT, TypesetPage, prose_columns
 from dynsolve.render.page_ends import before_closing, introduces
 from dynsolve.render.parentheses import HEIGHTS, height_around
 from dynsolve.render.references import is_long, numbered, running_title, sections, slug
@@ -259,13 +259,14 @@ class _Page(TypesetPage):
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a short one is not broken."""
-        short = min(SHORT, self.width / 4)
-        return ", ".join(
-            f"${{{self.printer.text(one)}}}$"
-            if self.ruler.width(one) <= short
-            else f"${self.printer.text(one)}$"
-            for one in self.side_by_side(node)
-        )
+        return ", ".join(map(self.whole_or_pieces, self.side_by_side(node)))
+
+    def whole_or_pieces(self, node: Node) -> str:
+        """A formula that is not broken, or pieces between which it may be, outside its parentheses."""
+        if self.ruler.width(node) <= min(SHORT, self.width / 4):
+            return f"${{{self.printer.text(node)}}}$"
+        pieces = together(FormulaSplitter(self.notation, self.ruler).pieces(node), PART, " ".join)
+        return r"\allowbreak{}".join(f"${{{piece.text}}}$" for piece in pieces)
 
     def reference(self, label: str, number: int) -> str:
         return f"\\eqref{{{self.prefix}:{label}}}"

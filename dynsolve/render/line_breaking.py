@@ -303,7 +303,7 @@ def lines(pieces: Sequence[Piece], first: float, rest: float, step: float = 0.0)
                 outermost = min(outermost, pieces[j - 1].depth)
             cost = best[j] + 1.0 + _MIXED_COST * (outermost < began)
             if width > room:
-                cost += _OVERFULL * (width - room)
+                cost += _OVERFULL * (1.0 + width - room)
             elif j < n:
                 cost += ((room - width) / room) ** 2
             elif width < _SHORT * room:

@@ -212,6 +212,9 @@ class MarkupPage(Page[str]):
 SHORT = 16.5
 """Formulas in a sentence that are no wider, in em, are not broken."""
 
+PART = 22.0
+"""Nor are the parts between the relations of others; wider parts are broken between their terms."""
+
 _SOURCE_LETTER = 0.46  # small letters, in em
 _SOURCE_SPACE = 1.5
 

@@ -14,7 +14,19 @@ from dataclasses import replace
 from functools import lru_cache
 
 from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
-from dynsolve.notation.tree import ONE, Letter, Negative, Node, Number, Row, Sum, Symbol, Words
+from dynsolve.notation.tree import (
+    ONE,
+    Function,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Product,
+    Row,
+    Sum,
+    Symbol,
+    Words,
+)
 
 _LESS = Words("-")
 _SPELLED = {letter: name for name, letter in GREEK.items()}
@@ -37,17 +49,30 @@ _FORMULA = re.compile(
     rf"(?P<sub>[{''.join(_SUBSCRIPTS)}]*)"
     rf"(?P<sup>[{''.join(_SUPERSCRIPTS)}]*)"
 )
+_FACTOR = re.sub(r"\?P<\w+>", "?:", _FORMULA.pattern)
+_MARKED = rf"(?:{_FACTOR})*[{''.join((*_DOTS, *_SUBSCRIPTS))}][{''.join(_SUPERSCRIPTS)}]*(?:{_FACTOR})*"
+_PRODUCT = rf"(?:(?P<function>sin|cos)\()?(?P<product>\d+{_MARKED})(?(function)\))"
+"""A number and letters close beside it, one with an index or a dot: 2m₂L₂θ̇₁, sin(2θ₁); 2D is none."""
+
 _COUNTED = "[Bb]ody|[Cc]olumn|coordinate|entry|force|[Ff]rame|[Jj]oint|[Ll]ink|matrix|motor|[Rr]ow|turn"
 _COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
 """What is counted by a letter: frame i-1."""
 
 _AXIS = (
     r"(?<!\w)(?P<axis>[xyz])"
-    r"(?:(?<=ax[ei]s .)|(?<=axes [xy] and .)|(?<=about .)|(?<=along .)|(?=-axis))(?!\w|\.\w)"
+    r"(?:(?<=ax[ei]s .)|(?<=axes [xy] and .)|(?<=axes x, .)|(?<=axes x, y and .)|(?<=about .)|(?<=along .)"
+    r"|(?<=along -.)|(?<=along the body's .)|(?<=along its .)|(?<=along its -.)|(?<=coordinate .)"
+    r"|(?<=coordinates .)|(?<=coordinates [xy] and .)|(?<=coordinates x, .)|(?<=coordinates x, y and .)"
+    r"|(?=-axis))(?!\w|\.\w)"
 )
 """An axis, where the words say that it is one: about its axis z, the x-axis; `z:` may be a key of a file."""
 
-_AMONG_WORDS = re.compile(rf"{_COUNT}|{_AXIS}|(?<![^\W_]){_FORMULA.pattern}(?![^\W_])")
+_LETTER = r"(?:(?<=Spong writes )|(?<=superscript ))(?P<letter>[A-Za-z])(?!\w)"
+"""A letter, where the words say that it is one."""
+
+_AMONG_WORDS = re.compile(
+    rf"{_COUNT}|{_AXIS}|{_LETTER}|(?<![^\W_])(?:{_PRODUCT}|{_FORMULA.pattern})(?![^\W_])"
+)
 
 _AFTER_UNIT = re.compile(r"(?:\b(?:kg|N|J|rad|m)[ ·]|/)$")
 """What stands before m² or s² where that is a unit: kg m², m/s²."""
@@ -99,8 +124,12 @@ def with_formulas(text: str) -> Iterator[str | Node]:
             yield _counting(found["count"], bool(found["less"]))
             place = found.end()
             continue
-        if found["axis"]:
-            yield from (text[place : found.start()], Symbol(found["axis"]))
+        if letter := found["axis"] or found["letter"]:
+            yield from (text[place : found.start()], Symbol(letter))
+            place = found.end()
+            continue
+        if found["product"]:
+            yield from (text[place : found.start()], _product(found["product"], found["function"]))
             place = found.end()
             continue
         if found["base"].isascii() and not (found["dots"] or found["sub"] or found["sup"]):
@@ -111,6 +140,18 @@ def with_formulas(text: str) -> Iterator[str | Node]:
         place = found.end()
     if place < len(text):
         yield text[place:]
+
+
+def _product(text: str, function: str | None) -> Node:
+    """2m₂L₂ as a product, the argument of a function where one is named."""
+    number = re.match(r"\d+", text)
+    assert number is not None
+    letters = (
+        _formula(*found.group("base", "dots", "sub", "sup"))
+        for found in _FORMULA.finditer(text, number.end())
+    )
+    product = Product((Number(int(number[0])), *letters))
+    return Function(function, product) if function else product
 
 
 def _unit_or_formula(found: re.Match[str]) -> Node:

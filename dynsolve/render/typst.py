@@ -25,8 +25,8 @@ from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.columns import Columns
-from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import SHORT, TypesetPage, prose_columns
+from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
+from dynsolve.render.page import PART, SHORT, TypesetPage, prose_columns
 from dynsolve.render.page_ends import before_closing, introduces, runs_of_equations
 from dynsolve.render.parentheses import HEIGHTS, height_around
 from dynsolve.render.prose import typographic, visible
@@ -44,7 +44,7 @@ _STICKY = ", sticky: true"
 _MOST_ROWS = 12
 """The rows up to which a table stays on one page."""
 
-_HELD = 6
+_HELD = 3
 """The rows at both ends of a longer one that stay on one page each."""
 
 _LAST_KNOWN = 0x2C00
@@ -136,6 +136,15 @@ def _fence(sign: str, height: float) -> str:
     return f"lr(size: #{height:.2f}em, \\{sign})" if height > FLAT else f"\\{sign}"
 
 
+def _joined(texts: Sequence[str]) -> str:
+    """Parts of a formula beside each other; blanks of the source would widen those between words."""
+    whole = ""
+    for text in texts:
+        between_words = whole.endswith('"') or text.startswith('"')
+        whole += ("" if between_words or not whole else " ") + text
+    return whole
+
+
 def _around(text: str) -> float:
     return height_around(text, [_fence("(", height) for height in HEIGHTS])
 
@@ -157,7 +166,7 @@ def typst_notation(printer: TypstPrinter) -> Notation:
         opened=lambda height: _fence("(", height),
         closed=closed,
         around=_around,
-        joined=" ".join,
+        joined=_joined,
     )
 
 
@@ -271,12 +280,14 @@ class _Page(TypesetPage):
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a short one is not broken."""
-        return ", ".join(
-            f"#box(${self.printer.text(one)}$)"
-            if self.ruler.width(one) <= SHORT
-            else f"${self.printer.text(one)}$"
-            for one in self.side_by_side(node)
-        )
+        return ", ".join(map(self.whole_or_pieces, self.side_by_side(node)))
+
+    def whole_or_pieces(self, node: Node) -> str:
+        """A formula in boxes between which a line may end: one, or several outside its parentheses."""
+        if self.ruler.width(node) <= SHORT:
+            return f"#box(${self.printer.text(node)}$)"
+        pieces = together(FormulaSplitter(self.notation, self.ruler).pieces(node), PART, " ".join)
+        return " ".join(f"#box(${piece.text}$)" for piece in pieces)
 
     def reference(self, label: str, number: int) -> str:
         return f"#link(<eq-{label}>)[{super().reference(label, number)}]"
@@ -348,16 +359,22 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     """
     if len(lines) == 1:
         return f"#formula({_math(lines[0].alone)}, [{sides[0]}]{_STICKY * sticks})"
+    above = [False, *("mat(" in _right(line) for line in lines)]
     rows = [
-        f"([], {_strutted(line.left)}, {_strutted(_right(line))}, [{side}])"
-        for line, side in zip(lines, sides, strict=True)
+        f"([], {_strutted(line.left)}, {_strutted(_right(line), apart=tall)}, [{side}])"
+        for line, side, tall in zip(lines, sides, above, strict=False)
     ]
     runs = _in_runs(rows, [bool(line.left) for line in lines], last)
     return f"#formula-lines({runs}{_STICKY * sticks})"
 
 
-def _strutted(text: str) -> str:
-    """A formula as high about the axis as its neighbour, so that both stand on one line of writing."""
+def _strutted(text: str, *, apart: bool = False) -> str:
+    """A formula as high about the axis as its neighbour, so that both stand on one line of writing.
+
+    A matrix stands `apart` from that of the line above, or both would look like one.
+    """
+    if apart and "mat(" in text:
+        return f"pad(y: 0.25em, strut + {_math(text)})"
     return f"strut + {_math(text)}" if text else "[]"
 
 

@@ -210,11 +210,12 @@ def _constant_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
     own: Prose = (", and ", *listed(short.kept)) if short.kept else ()
     yield Text((
         f"The {what} has {count} base parameter{'s' if count > 1 else ''}: the fewest combinations of "
-        "masses, mass centres, moments of inertia and lengths of which ",
+        "masses, mass centres, moments and products of inertia, and lengths, in which ",
         *listed([letters.D, letters.G]),
-        f" are made ({KHALIL_DOMBRE.section('9.4')}; {GAUTIER_KHALIL}). Only these can be determined from "
-        "the motions and forces of the joints. Their number is fixed, their choice is not: as many "
-        "independent linear combinations of them serve as well. Chosen here are the constants below",
+        f" are linear, the lengths of the table being known ({KHALIL_DOMBRE.section('9.4')}; "
+        f"{GAUTIER_KHALIL}). Only these can be determined from the motions and forces of the joints. Their "
+        "number is fixed, their choice is not: as many independent linear combinations of them serve as "
+        "well. Chosen here are the constants below",
         *own,
         ".",
     ))  # fmt: skip

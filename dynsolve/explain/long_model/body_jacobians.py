@@ -97,9 +97,9 @@ def _example(context: Context) -> Iterator[Line]:
         shown.append(equation(*(name for name, _ in equal), ZERO if is_zero else value))
     yield Line(
         (
-            "For example, the first columns of ",
+            "For example, the columns of ",
             letters.jv(body),
-            f", with the mass centre of body {body.name}:",
+            f" that are not zero, with the mass centre of body {body.name}:",
         ),
         (center, *shown),
     )

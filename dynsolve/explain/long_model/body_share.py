@@ -165,7 +165,9 @@ class BodyShare:
             return (*why, ":")
         be = "are the third rows of the rotations" if len(rows) > 1 else "is the third row of the rotation"
         axes = listed([self._turned_axis(joint) for joint, _ in rows])
-        return (*why, "; ", *axes, f" {be} in ", *listed([each for _, each in rows]), ":")
+        why += ("; ", *axes, f" {be} in ", *listed([each for _, each in rows]))
+        told = f". A lever is the mass centre in frame {self.body.link} plus the fourth column of the same "
+        return (*why, f"{told}product, turned to these axes:")
 
     def _product(self, joint: Joint) -> Node | None:
         """The matrices of the rows from the joint's axis to the body's frame."""

@@ -8,6 +8,7 @@ from functools import partial
 from itertools import groupby
 from operator import itemgetter
 
+from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
 from dynsolve.explain.kinematics import OUTWARDS
@@ -85,7 +86,8 @@ def axes(model: LongModel, step: Step) -> Step:
     i = Symbol("i")
     frame = replace(letters.H(robot, 1), sub=i)
     product = Product((letters.A(1), Words("…"), Letter("A", i, style="bold")))
-    return replace(step, why=(*step.why, " Frame i is ", equation(frame, product), "."))
+    before: Prose = ("Frame i is ", equation(frame, product), ". ")
+    return replace(step, why=(*before, *step.why))
 
 
 def jacobian(model: LongModel, step: Step) -> Step:

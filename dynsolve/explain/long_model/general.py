@@ -213,7 +213,7 @@ def _potential(context: Context) -> Step:
         source=spong("7.2.3"),
         further=(equation(letters.GRAVITY, gravity_row(context)),),
         lines=rows,
-        concluding=("With these:",) if rows else (),
+        concluding=("So, each weight times the height of its mass centre:",) if rows else (),
         result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),
         listed=True,
         detail=Detail.BRIEF,

@@ -25,11 +25,12 @@ def heights(context: Context) -> Iterator[Line]:
     if robot.is_tree or not robot.has_table or letters.has_base(robot) or not _is_along_z0(robot.gravity):
         return
     inner, outer = halves(robot)
-    between = [body for body in robot.bodies if inner[-1].index < body.link < outer[-1].index]
+    shown = (1, inner[-1].index, outer[-1].index)  # the first row is its own frame
+    between = [body for body in robot.bodies if body.link not in shown]
     rows = {body.link: _row(context, body) for body in between if _is_tilted(context, body)}
     if rows and all(matrix_width(context, row) <= WIDEST for row in rows.values()):
         named = tuple(equation(_name(context, link), row) for link, row in rows.items())
-        yield Line(("The third rows of rotations that were not shown, which give heights:",), named)
+        yield Line(("The third rows of the rotations that give heights, where they were not shown:",), named)
 
 
 def _is_along_z0(gravity: Matrix) -> bool:

@@ -159,7 +159,7 @@ def coriolis(model: LongModel, step: Step) -> Step:
 
 
 def _zeros_follow(zero: Sequence[Node]) -> str:
-    return "one that is zero follows it" if len(zero) == 1 else "those that are zero follow it"
+    return "the only one that is zero follows it" if len(zero) == 1 else "those that are zero follow it"
 
 
 def coriolis_entries(model: LongModel, step: Step) -> Step:
@@ -187,7 +187,8 @@ def gravity(model: LongModel, step: Step) -> Step:
     result = (equation(letters.G, model.short.g),)
     if model.short.P is None or model.direct is None or model.context.values["g"].is_zero:
         return replace(step, result=result)
-    potential = Line(("In the abbreviations:",), (equation(letters.P, model.short.P),))
+    by = ("The sum of the potential energies, in the abbreviations:",)
+    potential = Line(by, (equation(letters.P, model.short.P),), ("potentials", *model.short.lists))
     why: Prose = ("The partial derivatives of the potential energy.",)
     example = gravity_example(model)
     after: Prose = ("All entries:",) if example else ("Differentiated:",)

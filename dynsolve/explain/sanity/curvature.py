@@ -11,12 +11,16 @@ from collections.abc import Iterator, Sequence
 from enum import StrEnum
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.balance import Zero, at_zeros
 from dynsolve.explain.sanity.definite import determinant
 from dynsolve.explain.sanity.pose import Pose, at
 from dynsolve.explain.sanity.sign import sign_of
+from dynsolve.explain.working.kinetic import without_signs
+from dynsolve.notation.build import times
 from dynsolve.notation.tree import (
+    ZERO,
     Negative,
     Node,
     Number,
@@ -86,8 +90,28 @@ def shown(context: Context, names: Sequence[str], known: Sequence[Zero] | None) 
     if len(names) == 1:
         return
     letters_of = [[slope(context, i, j) for j in names] for i in names]
-    last = () if known is None else (context.show(minors(context, names, known)[-1]),)
-    yield equation(DET, _determinant(letters_of), *last)
+    values = [] if known is None else [_put_in(context, second), context.show(determinant(second))]
+    yield equation(DET, _determinant(letters_of), *dict.fromkeys(values))
+
+
+def how_multiplied(context: Context, names: Sequence[str], known: Sequence[Zero] | None) -> Prose:
+    """That the determinant of two is multiplied out, and whether the square in it cancels."""
+    if len(names) != 2 or known is None:
+        return ()
+    second = _second(context, names, known)
+    form = _put_in(context, second)
+    if not isinstance(form, Sum) or form == context.show(determinant(second)):
+        return ()
+    square = (second[0][1] * second[0][1]).poly.to_dict()
+    left = determinant(second).poly.to_dict()
+    return (", multiplied out (the square cancels)",) if not square.keys() & left else (", multiplied out",)
+
+
+def _put_in(context: Context, second: Sequence[Sequence[Expr]]) -> Node:
+    """a c - b² with the entries of the matrix."""
+    (a, b), (_, c) = ([context.show(entry) for entry in row] for row in second)
+    product = times(1, [(a, 1), (c, 1)])
+    return product if b == ZERO else Sum((product, Negative(Power(without_signs(b), Number(2)))))
 
 
 def _by_value(

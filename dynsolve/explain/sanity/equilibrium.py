@@ -108,14 +108,14 @@ def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:
 def _by_minors(context: Context, names: Sequence[str]) -> Prose:
     """How what P has in a pose is found, by the number of angles."""
     if len(names) == 1:
-        where: Prose = ("a minimum where the second derivative is positive, a maximum where it is negative:",)
+        where: Prose = ("a minimum where the second derivative is positive, a maximum where it is negative",)
     elif len(names) == 2:
         where = ("a minimum where ", curvature.slope_of_last(context, names), " and det are positive, ")
         where += ("a maximum where det alone is (Sylvester's criterion), ",)
-        where += ("a saddle point where det is negative:",)
+        where += ("a saddle point where det is negative",)
     else:
-        where = ("there what the minors of its second derivatives tell (Sylvester's criterion):",)
-    return (letters.P, " has ", *where)
+        where = ("there what the minors of its second derivatives tell (Sylvester's criterion)",)
+    return (letters.P, " has ", *where, "; at a minimum the equilibrium is stable, elsewhere it is not:")
 
 
 def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero] | None) -> Line:
@@ -130,7 +130,8 @@ def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[b
             *listed([Symbol(name) for name in names]),
             " (it depends on no other coordinate)",
         )
-    by = ("The entries of the Hessian matrix of ", letters.P, *of_some, "; det is its determinant:")
+    by = ("The entries of the Hessian matrix of ", letters.P, *of_some, "; det is its determinant")
+    by += (*curvature.how_multiplied(context, names, rows), ":")
     return Line(by, tuple(curvature.shown(context, names, rows)))
 
 

@@ -12,7 +12,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
-from dynsolve.document import Inline, Prose, Table
+from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
 from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
@@ -42,13 +42,14 @@ def inertia_poses_step(context: Context) -> Step | None:
     one = len(shown) == 1
     why: Prose = (*listed(names), f" {'is the moment' if one else 'are the moments'} of inertia about ")
     numbers = [str(_joint(context, q).index) for q in shown]
-    moved = f"joint {numbers[0]} moves, the joints after it held: "
+    moved = f"joint {numbers[0]} moves, {_after(context, next(iter(shown)))} held: "
     if not one:
         moved = f"joints {and_joined(numbers)} move, respectively, the joints after them held: "
     why += (*listed(joints), f" of all that {moved}")
     why += ("each mass times the square of its distance from the axis, and each body's moment of inertia ",)
     why += ("about the parallel axis through its mass centre",)
-    why += (", and those of the rotors. " if context.robot.actions.motors else ". ", "In simple poses:")
+    why += (", and those of the rotors. " if context.robot.actions.motors else ". ",)
+    why += ("In simple poses this gives what ", letters.D, Reference(("D",), " in "), " has there:")
     return Step(
         id="inertia_poses",
         stage=Stage.VECTORIZED,
@@ -58,6 +59,13 @@ def inertia_poses_step(context: Context) -> Step | None:
         table=_table(list(chain(*shown.values()))),
         is_task=False,
     )
+
+
+def _after(context: Context, q: Coordinate) -> str:
+    """joint 2, or the joints after it"""
+    first = _joint(context, q).index
+    others = [joint.index for joint in context.robot.joints if joint.type and joint.index > first]
+    return f"joint {others[0]}" if len(others) == 1 else "the joints after it"
 
 
 def _table(rows: Sequence[tuple[Inline, ...]]) -> Table:

@@ -8,11 +8,11 @@ from dynsolve.explain.body_parts import linear_name
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import is_small, listed, spong, sum_of
+from dynsolve.explain.writing import and_joined, is_small, listed, spong, sum_of
 from dynsolve.notation.tree import Negative, Sum, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import JointType
+from dynsolve.robot.model import Body, JointType
 
 
 def point_masses_step(context: Context) -> Step | None:
@@ -33,20 +33,36 @@ def point_masses_step(context: Context) -> Step | None:
     mass, rest = context.show(points), context.show(left_over)
     if not is_small(rest) or (not varies and inertia_poses_step(context) is not None):
         return None
-    linear = [linear_name(context, body) for body in robot.bodies if not values[f"Dv{body.name}"].is_zero]
+    linear = [linear_name(context, body) for body in _with_linear_part(context)]
     return Step(
         id="point_masses",
         stage=Stage.VECTORIZED,
         title="Check: point masses",
         why=_why(context),
         formula=equation(letters.D_POINTS, sum_of(linear)),
-        source=spong("7.2"),
+        source=spong("7.2.2"),
         result=(
             equation(letters.D_POINTS, mass),
             equation(Sum((letters.D, Negative(letters.D_POINTS))), rest),
         ),
+        uses=(*(f"D_direct{body.name}" for body in _with_linear_part(context)), "D"),
         is_task=False,
     )
+
+
+def _with_linear_part(context: Context) -> list[Body]:
+    """The bodies whose mass centres move."""
+    return [body for body in context.robot.bodies if not context.values[f"Dv{body.name}"].is_zero]
+
+
+def _left_out(context: Context) -> Prose:
+    """That the linear part of body 1 is zero, where the mass centre of some body does not move."""
+    moving = _with_linear_part(context)
+    still = [body.name for body in context.robot.bodies if body not in moving]
+    if not still:
+        return ()
+    bodies, are = ("bodies", "are") if len(still) > 1 else ("body", "is")
+    return (f" (of {bodies} {and_joined(still)} it {are} zero)".replace("it are", "they are"),)
 
 
 def _why(context: Context) -> Prose:
@@ -58,7 +74,9 @@ def _why(context: Context) -> Prose:
         letters.D,
         " is ",
         letters.D_POINTS,
-        ", the sum of the linear parts. What is left over of ",
+        ", the sum of the linear parts",
+        *_left_out(context),
+        ". What is left over of ",
         letters.D,
         Reference(("D",), " in "),
         f" is what the turning of the bodies{rotors} adds",

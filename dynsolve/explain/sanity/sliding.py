@@ -21,6 +21,7 @@ from dynsolve.explain.sanity.pose import Pose, at, degrees, turning_in, written
 from dynsolve.explain.sanity.sign import is_positive, sign_of, with_lengths
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
+from dynsolve.explain.working.kinetic import without_signs
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
     ZERO,
@@ -78,7 +79,7 @@ def at_one_length(context: Context) -> Step | None:
     why = (*at_rest(context), *assumed(context), "The rows of ", letters.G, Reference(("g",), " in "))
     why += ("; what ", equation(letters.entry("g", slid + 1), ZERO), " says is put into the other:")
     concluding: Prose = ("So ", equation(Symbol(name), *lengths), " in both. ", these_alone(len(values)))
-    concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned))
+    concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned, {angle: values[0]}))
     concluding += _not_extended(context, name, *lengths)
     return told(why, (Line((), rows),), concluding)
 
@@ -125,14 +126,16 @@ def _length(context: Context, a: Expr, b: Expr) -> Node:
     return Quotient(context.show(-b), context.show(a))
 
 
-def _saddles(context: Context, slid: int, turned: int) -> Prose:
+def _saddles(context: Context, slid: int, turned: int, pose: Pose) -> Prose:
     """Why P has a saddle point there: g_d does not depend on d, but on the angle it does."""
     names = [context.robot.coordinates[k].name for k in (slid, turned)]
     by_d, by_angle = (slope(context, names[0], name) for name in names)
-    det = Negative(Power(Parenthesized(by_angle), Number(2)))
+    ring, place = context.robot.ring, context.robot.ring.names.index(names[1])
+    there = context.show(at(ring, ring.diff(context.values["g"][slid, 0], place), pose))
+    det, value = (Negative(Power(x, Number(2))) for x in (Parenthesized(by_angle), without_signs(there)))
     why: Prose = ("In both ", letters.P, " has a saddle point: as ", equation(by_d, ZERO))
     why += (", the determinant of its second derivatives with respect to ", Symbol(names[1]), " and ")
-    why += (Symbol(names[0]), " is ", Relation((det, ZERO), ("<",)), ". So they are unstable.")
+    why += (Symbol(names[0]), " is ", Relation((det, value, ZERO), ("=", "<")), ". So they are unstable.")
     return why
 
 

@@ -236,6 +236,10 @@ def _lines(
     yield Line(by, tuple(_listed(context, body, entries, factor, with_products=bool(first))))
 
 
+def _is_product(member: Node) -> bool:
+    return isinstance(member, Product)
+
+
 def _in_front(context: Context, scalars: Sequence[Expr]) -> Node:
     """The product of scalars as it stands before a matrix: ¼ m₂ l₂²."""
     return number_in_front(times(1, [(context.show(x), 1) for x in scalars if x != x.ring.one]))
@@ -262,7 +266,10 @@ def _listed(
         named: Node = columns
         if scalars:
             front = factors_of(_in_front(context, scalars))
-            members = [Product((*front, Parenthesized(member))) for member in members]
+            members = [
+                Product((*front, *(factors_of(member) if _is_product(member) else (Parenthesized(member),))))
+                for member in members
+            ]
         if body.mass.is_number:
             named = Product((context.mass(body), columns))
         name = Entry(named, Row((Number(i + 1), Number(j + 1))))

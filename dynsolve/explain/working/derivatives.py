@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import prod
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
@@ -19,7 +20,17 @@ from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import SILENT, Way, chain, equals
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import Entry, Node, Number, Product, Sum, Symbol, equation
+from dynsolve.notation.tree import (
+    Entry,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Product,
+    Sum,
+    Symbol,
+    equation,
+)
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, Robot
@@ -57,7 +68,7 @@ def _expanded(context: Context, expanded: Node, form: Node) -> tuple[Prose, Node
     """A derivative multiplied out; by the products of rates too, where the result is sorted by these."""
     if not sums_of_rates(expanded) - sums_of_rates(form):
         return ("Multiplied out:",), expanded
-    return ("Multiplied out by the products of the rates:",), by_rates(
+    return ("Multiplied out, and sorted by the products of the rates:",), by_rates(
         expanded, decimal=is_numeric(context.robot)
     )
 
@@ -115,7 +126,7 @@ def gravity_rows(context: Context) -> tuple[Line, ...]:
     if not context.is_short:
         return ()
     P, g, decimal = context.form("P"), context.matrix("g"), is_numeric(context.robot)
-    has_few_terms = not isinstance(P, Sum) or len(P.terms) <= MOST_AT_A_LOOK
+    has_few_terms = _count_of_terms(P) <= MOST_AT_A_LOOK
     rows: list[Node] = []
     used: dict[Identity, None] = {}
     for q, (form,) in zip(context.robot.coordinates, g.rows, strict=True):
@@ -132,6 +143,18 @@ def gravity_rows(context: Context) -> tuple[Line, ...]:
         return ()
     by: Prose = ("Term by term, and collected", *((" with ", *said(list(used))) if used else ()), ":")
     return (Line(by, tuple(rows)),)
+
+
+def _count_of_terms(node: Node) -> int:
+    """How many terms a formula has with its brackets opened."""
+    match node:
+        case Sum(terms):
+            return sum(map(_count_of_terms, terms))
+        case Product(factors):
+            return prod(map(_count_of_terms, factors))
+        case Negative(argument) | Parenthesized(argument):
+            return _count_of_terms(argument)
+    return 1
 
 
 # -- the derivatives of D --------------------------------------------------------------------------
@@ -217,8 +240,8 @@ def inertia_rate(
         *_kept(context, set(rates)),
         ":",
     )
-    told = (SLOPES,) if slopes(context).lines else ()
-    return (Line(by, tuple(shown), (*used, *told)),)
+    told = (SLOPES,) if slopes(context).lines else used
+    return (Line(by, tuple(shown), told),)
 
 
 def _kept(context: Context, varying: set[tuple[int, int]]) -> Prose:

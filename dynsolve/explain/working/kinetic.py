@@ -150,7 +150,7 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     by_name = sorted(used, key=lambda identity: bool(identity.name))
     sorted_out = total([bracket.product for bracket in brackets])
     if sorted_out != lines[0][1]:
-        lines.append((("Multiplied out by the products of the rates:",), sorted_out))
+        lines.append((("Multiplied out, and sorted by the products of the rates:",), sorted_out))
     named: Prose = ("With ", *said(by_name), ", and collected:")
     if not used:
         named = collected(lines[-1][1], context.form(f"Kv{body.name}"))

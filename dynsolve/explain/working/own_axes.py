@@ -73,8 +73,10 @@ def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter, wri
     first = Product((Transpose(block_of(context.matrix("H0"), 3, 0, 3)), written))
     by: Prose = ("Along the axes of frame 0", *_with(context, base, value))
     if seen.T @ along == along:
-        by += (", and so along the body's own, as ", axes, " turns about the same axis:")
-        yield Line(by, (equation(whole, in_frame, first, own),))
+        by += (", and so along the body's own: ", axes, *_made_of(context, body, seen))
+        by += (", turns about the axis of this vector and leaves it as it is:",)
+        rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
+        yield Line(by, (equation(whole, in_frame, first, own),), ("H0", f"R{body.name}", *rows))
         return
     yield Line((*by, ":"), (equation(in_frame, first, context.show(along)),))
     if quantity == "w":

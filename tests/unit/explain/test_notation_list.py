@@ -315,7 +315,7 @@ def test_what_a_dot_means_is_told_wherever_there_is_one(problem: str) -> None:
 
 @pytest.mark.parametrize(
     ("problem", "told"),
-    [("in3140-rp", "𝐃, 𝐂, 𝐍 and cᵢⱼₖ"), ("planar-2r", ""), ("cartesian-pp", "")],
+    [("in3140-rp", "𝐃, 𝐃_points, 𝐂, 𝐍 and cᵢⱼₖ"), ("planar-2r", ""), ("cartesian-pp", "")],
 )
 def test_units_of_entries_are_those_for_angles_where_there_are_lengths_too(problem: str, told: str) -> None:
     """d₂₂ = m₂ of the RP arm is in kg m²/m² = kg, c₁₂₁ = m₂ L₂ in kg m²/m."""

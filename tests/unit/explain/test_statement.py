@@ -89,9 +89,9 @@ def test_the_statement_says_where_a_mass_centre_is(center: str, told: str) -> No
 PLACED = [
     (
         "base: {rotate: Rx(30deg), move: [0, 0, h0]}",
-        "Frame 0 is moved by h₀ along z and turned by 30° about x of ",
+        "Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w in the world w. ",
     ),
-    ("base: Rz(90deg) Rx(30deg)", "Frame 0 is turned by 90° about z and by 30° about x of the world."),
+    ("base: Rz(90deg) Rx(30deg)", "Frame 0 is turned by 90° about 𝐳_w and by 30° about 𝐱_w in the world w."),
     ("base: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]", "How frame 0 is placed in the world is given (1.2)."),
 ]
 
@@ -104,11 +104,11 @@ def test_the_statement_says_how_the_base_is_placed(base: str, told: str) -> None
 
 MOMENTS = [
     ("numeric-2r", "about the axis through its mass centre parallel to 𝐳₂ is 0.02 kg m². "),
-    ("planar-2r", "of body 1 I₁, about that parallel to 𝐳₁; of body 2 I₂, about that parallel to 𝐳₂. "),
+    ("planar-2r", "parallel to 𝐳₁ is I₁; that of body 2, about the axis parallel to 𝐳₂, is I₂. "),
     (
         "spherical-rrp",
         "of body 1 I₁, about that parallel to 𝐳₀; of body 2 I₂, about those parallel to 𝐱₂ and 𝐲₂; "
-        "the other entries of the tensors are 0. ",
+        "the other entries of the tensors are taken as 0. ",
     ),
 ]
 
@@ -140,7 +140,7 @@ ACTING = [
     ("gravity: [0, -9.81, 0]", "Gravity, 9.81 m/s², acts along -𝐲₀; there is no friction."),
     (
         "gravity: [0, 0, -g]\nbase: {rotate: Rx(30deg)}",
-        "Gravity g acts along -z of the world; there is no friction.",
+        "Gravity g acts along -𝐳_w; there is no friction.",
     ),
     (
         "gravity: [g1, 0, -g2]",

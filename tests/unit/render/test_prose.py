@@ -6,6 +6,7 @@ import pytest
 
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.tree import Node
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.markdown import escaped
 from dynsolve.render.prose import visible, with_formulas
@@ -80,3 +81,16 @@ def test_any_text_as_latex(text: str, latex: str) -> None:
 )
 def test_any_text_as_markdown(text: str, markdown: str) -> None:
     assert escaped(text) == markdown
+
+
+@pytest.mark.parametrize(
+    ("words", "formulas"),
+    [
+        ("has cos(2θ₁) where 1 belongs", ["cos(2θ₁)"]),
+        ("it is 2L₂L̇₂, not 2L̇₂²", ["2L₂ L̇₂", "2L̇₂²"]),
+        ("0 and 2m₂L₂θ̇₁ in a 2D plot of 3 kg", ["2m₂ L₂ θ̇₁"]),
+        ("along its axes x, y and z; Spong writes c", ["x", "y", "z", "c"]),
+    ],
+)
+def test_products_and_named_letters_in_words_are_formulas(words: str, formulas: list[str]) -> None:
+    assert [to_unicode(part) for part in with_formulas(words) if not isinstance(part, str)] == formulas

@@ -30,7 +30,8 @@ def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
         "g₁ = g (m₁ l_c1 + m₂ l₁) c₁ = 0, so c₁ = 0, q₁ = 90° or -90°",
         "∂g₁/∂q₁ = -g ((m₁ l_c1 + m₂ l₁) s₁ + m₂ l_c2 s₁₂)",
         "∂g₁/∂q₂ = ∂g₂/∂q₁ = ∂g₂/∂q₂ = -m₂ g l_c2 s₁₂",
-        "det = (∂g₁/∂q₁) ∂g₂/∂q₂ - (∂g₁/∂q₂)² = m₂ g² l_c2 (m₁ l_c1 + m₂ l₁) s₁ s₁₂",
+        "det = (∂g₁/∂q₁) ∂g₂/∂q₂ - (∂g₁/∂q₂)² = g ((m₁ l_c1 + m₂ l₁) s₁ + m₂ l_c2 s₁₂) m₂ g l_c2 s₁₂ "
+        "- (m₂ g l_c2 s₁₂)² = m₂ g² l_c2 (m₁ l_c1 + m₂ l₁) s₁ s₁₂",
     ]
     assert rows("planar-2r", "equilibrium") == [
         ["q₁ = 90°, q₂ = 0", "< 0", "> 0", "maximum: the arm stands upright", "unstable"],

@@ -218,7 +218,7 @@ def test_the_root_of_a_number_stands_before_the_lengths_of_a_derivative() -> Non
 def test_the_addition_theorem_of_a_derivative_is_named() -> None:
     sine = "the sine of a sum, s₂ c₂₃ + c₂ s₂₃ = sin(2θ₂ + θ₃)"
     assert lines("elbow-3r", "ddt1")[-1] == lines("elbow-3r", "dLdq2")[-1] == f"Collected, with {sine}:"
-    assert lines("elbow-3r", "ddt1")[2] == "Multiplied out by the products of the rates:"
+    assert lines("elbow-3r", "ddt1")[2] == "Multiplied out, and sorted by the products of the rates:"
     derived, *slopes = lines("elbow-3r", "christoffel")[:5]
     assert derived == (
         f"The derivatives of 𝐃 that are not zero, term by term, multiplied out, and collected with {sine}:"
@@ -299,7 +299,10 @@ def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -
         " [[s₁ q̇₂], [-c₁ q̇₂], [q̇₁]] = [[s₂ q̇₁], [c₂ q̇₁], [q̇₂]]"
     )
     whole = lines(TILTED_BODIES, "Kw1")
-    assert whole[0].endswith("so along the body's own, as (𝐑₀^w)ᵀ 𝐑₁ turns about the same axis:")
+    assert whole[0].endswith(
+        "so along the body's own: (𝐑₀^w)ᵀ 𝐑₁, the rotation of 𝐀₁, turns about the axis of this vector and "
+        "leaves it as it is:"
+    )
     assert whole[1].startswith("𝐑₁ᵀ 𝛚₁ = (𝐑₀^w)ᵀ 𝛚₁ = [[") and whole[1].endswith(" = [[0], [0], [q̇₁]]")
 
 
@@ -348,7 +351,10 @@ def test_what_a_turned_base_changes_is_told_where_it_is_turned_against_gravity(
     leaning = TILTED.replace("Rx(30deg)", base)
     told = [said(note, leaning) for note in step(leaning, "H0").notes]
     assert (
-        any(note.startswith("How the base is turned matters to the potential energy") for note in told)
+        any(
+            note.startswith("In the results, how the base is turned matters to the potential energy")
+            for note in told
+        )
         is is_told
     )
     upright = TILTED.replace("base: Rx(30deg)", "base: {move: [0, 0, 0]}")
@@ -359,7 +365,7 @@ def test_what_a_turned_base_changes_is_told_where_it_is_turned_against_gravity(
 def test_squares_of_sums_of_lengths_are_multiplied_out_by_the_rates() -> None:
     """One operation a line: squares, products of rates, and then the brackets one by one."""
     assert lines("puma560-first3", "Kv2")[-3:] == [
-        "Multiplied out by the products of the rates:",
+        "Multiplied out, and sorted by the products of the rates:",
         "K_v2 = ½ m₂ (((z₂ c₂)² + (z₂ s₂)² + (y₂ s₂ - (a₂ + x₂) c₂)²) θ̇₁² "
         "- 2(z₂ c₂ y₂ + z₂ s₂ (a₂ + x₂)) θ̇₁ θ̇₂ + (y₂² + (a₂ + x₂)²) θ̇₂²)",
         "With s₂² + c₂² = 1, and collected:",
