@@ -40,6 +40,7 @@ PARALLELS = "Dashed grey lines at a joint are parallel to the directions between
 """Said where one of them is parallel to no x axis, since degrees are added to its angle."""
 
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey."
+IN_METRES = "Lengths are in m."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
 _SUBSCRIPTS = str.maketrans("0123456789", SUBSCRIPT_DIGITS)
@@ -87,7 +88,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        _caption(robot, values, pose),
+        _caption(robot, values, pose, labels),
         _description(problem),
         paths,
         labels,
@@ -96,7 +97,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     )
 
 
-def _caption(robot: Robot, values: RobotNumbers, pose: Pose) -> str:
+def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[Label]) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
     dashed = parallels(robot, pose)
     said = (
@@ -105,8 +106,13 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose) -> str:
         (OFFSETS, has_offsets(pose)),
         (OFF_LINKS, annotate.has_masses_off_links(pose)),
         (SPRINGS, bool(joint_springs(robot, values, pose))),
+        (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
     return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])
+
+
+def _is_number(label: Label) -> bool:
+    return not set("".join(run.text for run in label.line.runs)) - set("0123456789.")
 
 
 def _parallel(frames: Sequence[int | None]) -> str:

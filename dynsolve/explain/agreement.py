@@ -38,9 +38,12 @@ ROWS = "Cqd-rows"
 """The label of the rows of C q̇ that are compared."""
 
 
-def compared_rows(context: Context, named: Callable[[int, int, int], Node] | None = None) -> tuple[Line, ...]:
+def compared_rows(
+    context: Context, named: Callable[[int, int, int], Node] | None = None, *, written_out: bool = False
+) -> tuple[Line, ...]:
     """The rows of C q̇ by the Christoffel symbols, with a number; what they are, the step's text says."""
-    return tuple(replace(line, by=(), label=ROWS) for line in coriolis_rows(context, named))
+    rows = coriolis_rows(context, named, written_out=written_out)
+    return tuple(replace(line, by=(), label=ROWS) for line in rows)
 
 
 def agreement_step(context: Context) -> Step:

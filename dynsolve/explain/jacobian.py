@@ -25,13 +25,14 @@ from dynsolve.explain.jacobian_columns import (
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.identities import said
-from dynsolve.explain.writing import column_of, craig, listed, side_by_side, spong, turns
+from dynsolve.explain.writing import and_joined, column_of, craig, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
     Letter,
     Matrix,
     Node,
     Number,
     Product,
+    Relation,
     Symbol,
     Transpose,
     column,
@@ -81,6 +82,7 @@ def _axes(context: Context) -> Step:
             f". In the {robot.convention.value} convention joint i {_motions(robot)} ",
             letters.bold("z", letters.BEFORE if context.standard else letters.COUNT),
             *_whose(context),
+            *_same_origins(context, moving),
             *_wrist(context),
             *_read_off(context),
         ),
@@ -109,7 +111,7 @@ def told_frames(robot: Robot) -> tuple[int, ...]:
     return (*moving, *(() if last in moving else (last,)))
 
 
-def _origin(context: Context, i: int, moving: Sequence[int]) -> Node:
+def _origin(context: Context, i: int, moving: Sequence[int]) -> Relation:
     """o_i with its value, or the earlier origin in the same moving point."""
     point = frame_parts(context, i)[1]
     ring, entries = context.robot.ring, origin(context.values[f"H{i}"]).entries
@@ -118,6 +120,20 @@ def _origin(context: Context, i: int, moving: Sequence[int]) -> Node:
             if j < i and frame_parts(context, j)[1] == point:
                 return equation(letters.o(i), letters.o(j))
     return equation(letters.o(i), point)
+
+
+def _same_origins(context: Context, moving: Sequence[int]) -> Prose:
+    """Why origins are equal: a row whose d and a are 0 leaves the origin where it is."""
+    robot = context.robot
+    told = told_frames(robot)
+    origins = {i: _origin(context, i, moving) for i in told if i}
+    rows = [robot.joints[i - 1] for i, named in origins.items() if isinstance(named.parts[1], Letter)]
+    if not rows or robot.is_tree or any(not (row.a.is_zero and row.d.is_zero) for row in rows):
+        return ()
+    _, d, a, _ = letters.columns(robot, letters.COUNT)
+    where = f"row {rows[0].index}" if len(rows) == 1 else f"rows {and_joined([str(r.index) for r in rows])}"
+    equal = listed([origins[row.index] for row in rows])
+    return (f" In {where} of the table ", d, " and ", a, " are 0, so ", *equal, ".")
 
 
 def _motions(robot: Robot) -> str:

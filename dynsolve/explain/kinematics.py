@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dynsolve.document import Prose, Reference, Table
 from dynsolve.explain.base_frame import base_step, motion
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.writing import craig, is_small, listed, side_by_side, spong, turns
@@ -59,6 +60,8 @@ def _table(context: Context) -> Step:
     robot, why = context.robot, _four_motions(context)
     if any(joint.type for joint in robot.joints):
         why += ("The star only marks a joint variable, and may be left out. Here ", *_kinds(context))
+    if is_numeric(context.robot):
+        why += (" Lengths are in m.",)
     return Step(
         id="dh",
         stage=STAGE,

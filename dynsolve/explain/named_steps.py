@@ -158,7 +158,7 @@ def _in_sums(step: Step, context: Context, short: Abbreviated, labels: Mapping[S
         "christoffel": lambda: _christoffel(step, context, short),
         "C": lambda: _result_exchanged(step, {context.form("C"): short.C}),
         "model": lambda: _model(step, context, short),
-        "agreement": lambda: replace(step, lines=compared_rows(context, short.symbol)),
+        "agreement": lambda: replace(step, lines=_compared(context, short)),
         "skew": lambda: _skew(step, context, short, labels),
         "terms": lambda: _terms(step, context, short),
     }
@@ -289,6 +289,11 @@ def _model(step: Step, context: Context, short: Abbreviated) -> Step:
     """The model; its rows with h where the forces were derived before h."""
     step = _result_exchanged(step, {context.form("C"): short.C})
     return step if short.single is None else replace(step, lines=(rows_in_names(context, short.symbol),))
+
+
+def _compared(context: Context, short: Abbreviated) -> tuple[Line, ...]:
+    """The rows of C q̇ in the names, and without h, which the forces came before."""
+    return compared_rows(context, short.symbol, written_out=short.single is not None)
 
 
 def _skew(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symbol, str]) -> Step:

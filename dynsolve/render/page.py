@@ -180,7 +180,7 @@ class Page(ABC, Generic[_Piece]):
         """A formula in a sentence."""
 
 
-_PROSE = 30
+_PROSE = 36
 """Cells with more letters than this are sentences, which are broken."""
 
 

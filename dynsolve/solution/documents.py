@@ -73,7 +73,9 @@ def solution_document(
     derivation = (
         *_stages(solution, detail, steps, short, drawn),
         *_numbers(solution, detail, stages),
-        *summary_blocks(solution.robot, steps, detail, short, is_short=solution.is_short),
+        *summary_blocks(
+            solution.robot, steps, detail, short, asked=solution.problem.find, is_short=solution.is_short
+        ),
     )
     stated = tuple(_statement(solution, stages))
     return Document((

@@ -29,6 +29,7 @@ def summary_blocks(
     detail: Detail,
     short: Abbreviated | None = None,
     *,
+    asked: Sequence[str] = (),
     is_short: bool = True,
 ) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
@@ -79,6 +80,16 @@ def summary_blocks(
         lead = "Row by row" if len(forces) > 1 else "Multiplied out"
         yield Text((lead, Reference(tuple(forces), ", "), ":"))
         yield Equations(tuple(by_id[name].result[0] for name in forces))
+    yield from _asked_for(asked, by_id)
+
+
+def _asked_for(asked: Sequence[str], by_id: Mapping[str, Step]) -> Iterator[Block]:
+    """Where the energies and the Lagrangian are, where the exercise asks for them."""
+    found = [name for name in ("P", "K", "L") if name in asked and name in by_id]
+    if found:
+        stand = " stands above" if len(found) == 1 else " stand above"
+        where = Reference(tuple(found), ", ")
+        yield Text((*listed([getattr(letters, name) for name in found]), stand, where, "."))
 
 
 def _lines(step: Step) -> Iterator[Block]:

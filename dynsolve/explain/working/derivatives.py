@@ -280,8 +280,13 @@ def coriolis_sums(context: Context) -> tuple[Line, ...]:
     return (Line(("The sums, without what is zero:",), tuple(shown)),)
 
 
-def coriolis_rows(context: Context, named: Callable[[int, int, int], Node] | None = None) -> tuple[Line, ...]:
-    """(C q̇)_k = Σ c_ijk q̇_i q̇_j, row by row, those that are not zero; `named` has other names for c_ijk."""
+def coriolis_rows(
+    context: Context, named: Callable[[int, int, int], Node] | None = None, *, written_out: bool = False
+) -> tuple[Line, ...]:
+    """(C q̇)_k = Σ c_ijk q̇_i q̇_j, row by row, those that are not zero.
+
+    `named` has other names for c_ijk; behind these what they mean is `written_out`.
+    """
     n, robot = context.robot.n, context.robot
     if not context.is_short or context.values["C"].is_zero:
         return ()
@@ -300,7 +305,7 @@ def coriolis_rows(context: Context, named: Callable[[int, int, int], Node] | Non
             by_symbols = total(
                 [_quadratic(robot, letters.entry("c", i + 1, j + 1, k + 1), i, j) for i, j in pairs]
             )
-            shown.append(equation(whole, by_symbols, value))
+            shown.append(equation(whole, by_symbols, value, *([rows[k][0]] if written_out else [])))
     by = f"{'The rows of ' if n > 1 else ''}"
     return (Line((by, product, ", multiplied out:"), tuple(shown)),)
 
