@@ -263,9 +263,11 @@ class _Page(TypesetPage):
 
     def whole_or_pieces(self, node: Node) -> str:
         """A formula that is not broken, or pieces between which it may be, outside its parentheses."""
-        if self.ruler.width(node) <= min(SHORT, self.width / 4):
+        narrow = self.width / 4
+        if self.ruler.width(node) <= min(SHORT, narrow):
             return f"${{{self.printer.text(node)}}}$"
-        pieces = together(FormulaSplitter(self.notation, self.ruler).pieces(node), PART, " ".join)
+        parts = FormulaSplitter(self.notation, self.ruler).pieces(node)
+        pieces = together(parts, min(PART, narrow), " ".join)
         return r"\allowbreak{}".join(f"${{{piece.text}}}$" for piece in pieces)
 
     def reference(self, label: str, number: int) -> str:
