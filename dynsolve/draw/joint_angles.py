@@ -50,6 +50,9 @@ _SMALL = 0.3
 _BEYOND = 12.0
 """How far the lines of an angle reach beyond its arc."""
 
+_PAST = 24.0
+"""How much farther they reach in space where the table adds degrees to the angle, past their mark."""
+
 _SQUARE, _INNER = 19.0, 24.0
 """The side of a right angle's mark, and the radius of the arc of another angle that the table adds."""
 
@@ -203,8 +206,9 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
     view, middle = pose.view, _center(pose, part, leg)
     center = view.point(middle)
     side = cross(leg.axis, leg.before)
+    reach = ARC + _BEYOND + (_PAST * bool(leg.offset))
     for direction in _unseen(leg, middle, pose):
-        tip = view.point(along(middle, direction, view.space(ARC + _BEYOND)))
+        tip = view.point(along(middle, direction, view.space(reach)))
         line = Path(paths.line(center, tip), paths.GREY, 0.9, dashed=True)
         notes.draw(line, behind=dot(direction, view.toward) < 0)
     _offset(middle, leg, pose, notes)

@@ -27,8 +27,8 @@ _TAIL, _HEAD = 15.0, 7.0
 _LABEL = 26.0
 """The side of the square beyond an arrow in which its label is to have room."""
 
-_PLACES = tuple(k / 10 for k in range(-9, 10, 2))
-"""Where along a body its arrows may stand, as parts of half its length."""
+_PLACES = (-0.5, 0.5, -0.3, 0.3, -0.7, 0.7, -0.1, 0.1, -0.9, 0.9)
+"""Where along a body its arrows may stand, as parts of half its length: off its ends and its middle first."""
 
 _TURNS = tuple(math.pi * k / 8 for k in range(8))
 """The ways through a ball in which its diameter may be shown."""
@@ -81,13 +81,14 @@ def _outward(p: Point, q: Point) -> Point:
     return (p[0] - q[0]) / reach, (p[1] - q[1]) / reach
 
 
-def _crowded(p: Point, q: Point, notes: Notes) -> int:
-    """How much is in the way of the arrows, and of a label at the freer one."""
+def _crowded(p: Point, q: Point, notes: Notes) -> tuple[int, int]:
+    """How much is in the way of the arrows, and of a label at the freer one; and of one at the other."""
     out = _outward(p, q)
     tips = (p, out), (q, scaled(out, -1.0))
     tails = sum(notes.taken.cells_on(moved(tip, way, 4.0), moved(tip, way, _TAIL)) for tip, way in tips)
     rooms = (Box.around(moved(tip, way, _TAIL + _LABEL / 2), _LABEL, _LABEL) for tip, way in tips)
-    return 4 * tails + min(map(notes.taken.inside, rooms))
+    taken = sorted(map(notes.taken.inside, rooms))
+    return 4 * tails + taken[0], taken[1]
 
 
 def _arrows(p: Point, q: Point, name: Node, notes: Notes) -> None:
