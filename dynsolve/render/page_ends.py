@@ -17,6 +17,8 @@ from dynsolve.render.matrices import holds_matrix
 
 LAST_OF_DISPLAY = 3
 LAST_OF_DOCUMENT = 8
+_ENOUGH = 5
+"""The rows of a last page to which no matrices are added, which would leave a gap on the page before."""
 
 _FIRST = 2
 _LONG = 350
@@ -103,7 +105,8 @@ def closing(blocks: Iterable[Block], rows: Callable[[Block], int]) -> tuple[Bloc
     found: list[Block] = []
     total = 0
     for block in reversed(list(blocks)):
-        if total >= LAST_OF_DOCUMENT:
+        matrices = isinstance(block, Formula) and holds_matrix(block.node)
+        if total >= (_ENOUGH if matrices else LAST_OF_DOCUMENT):
             break
         found.append(block)
         total += rows(block)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dynsolve.document import Block, Formula, Heading, Note, Table, Text
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Number, Symbol, equation
-from dynsolve.render.page_ends import before_closing, introduces
+from dynsolve.render.page_ends import before_closing, closing, introduces
 
 MATRIX = Formula(equation(Letter("A"), Matrix(((Number(1),), (Number(0),)))))
 SHORT = Formula(equation(Symbol("h1"), read("l1").tree))
@@ -36,3 +36,10 @@ def test_what_closes_a_document_begins_with_its_heading() -> None:
     blocks = [Heading("Model"), RESULT, Heading("Summary", closing=True), MATRIX, Heading("Verification")]
     assert before_closing(blocks) == (blocks[:2], blocks[2:])
     assert before_closing(blocks[:2]) == (blocks[:2], [])
+
+
+def test_matrices_are_not_drawn_onto_a_last_page_that_has_rows_enough() -> None:
+    words: list[Block] = [Text((f"Row {k}.",)) for k in range(6)]
+    assert closing([MATRIX, *words], lambda block: 1) == tuple(words)
+    assert closing([MATRIX, *words[:4]], lambda block: 1) == (MATRIX, *words[:4])
+    assert closing([SHORT, *words], lambda block: 1) == (SHORT, *words)
