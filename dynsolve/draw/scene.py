@@ -39,7 +39,7 @@ CAPTION = "The manipulator with its frames; not to scale. 𝐱ᵢ and 𝐳ᵢ be
 PARALLELS = "Dashed grey lines at a joint are parallel to the directions between which its angle is measured."
 """Said where one of them is parallel to no x axis, since degrees are added to its angle."""
 
-OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey."
+OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey; a square corner is 90°."
 IN_METRES = "Lengths are in m."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 

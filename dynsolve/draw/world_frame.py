@@ -33,6 +33,9 @@ from dynsolve.robot.model import Robot
 _LEAN, _BEYOND = 62.0, 12.0
 """The radius of the arc of the angle by which the base leans, and how far its lines reach beyond it."""
 
+_HEAD = 6.0
+"""The head of that arc, which shows the sense."""
+
 _PARTS = (0.5, 0.35, 0.65)
 """Where along that arc its name may stand."""
 
@@ -110,7 +113,9 @@ def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None
         notes.draw(Path(paths.line(at, end), paths.GREY, 0.9), behind=True)
     p, q = scaled(view.direction(first), _LEAN), scaled(view.direction(side), _LEAN)
     arc = paths.arc(at, p, q, 0.0, size)
-    notes.draw(Path(arc, paths.WHITE, 3.6), Path(arc, paths.BLACK, 1.1))
+    tip, before = (paths.on_ellipse(at, p, q, size * part) for part in (1.0, 0.8))
+    head = paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), _HEAD)
+    notes.draw(Path(arc, paths.WHITE, 3.6), Path(arc, paths.BLACK, 1.1), Path(head, None, fill=paths.BLACK))
     anchors = [paths.on_ellipse(at, p, q, size * part) for part in _PARTS]
     toward = anchors[0][0] - at[0], anchors[0][1] - at[1]
     notes.label(_size_of(node), anchors, toward, paths.BLACK, "angle")

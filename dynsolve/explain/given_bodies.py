@@ -166,7 +166,7 @@ def _one_each(found: Sequence[tuple[Body, Node, Prose]]) -> Prose:
     what = f"The moment of inertia of {name_of(body)} about the axis through its mass centre parallel to "
     told: Prose = (what, *axis, " is ", value)
     for body, value, axis in others:
-        told += (f"; that of {name_of(body)}, about the axis parallel to ", *axis, ", is ", value)
+        told += (f"; that of {name_of(body)}, about such an axis parallel to ", *axis, ", is ", value)
     return (*told, ". ")
 
 

@@ -164,7 +164,7 @@ def _principal(context: Context, body: Body) -> Prose:
         told += (
             " The moment about ",
             *_axis(context, body, slender[0], f"its {slender[0]}"),
-            " is given as 0: the body is slender.",
+            " is taken as 0: the body is slender.",
         )
     return told
 
@@ -287,7 +287,7 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
     match body.axes.kind:
         case AxesKind.LINK if has_link_axes(body):
             why = f"The body's axes are those of frame {link}"
-            return (why, Reference((f"H{link}",)), f", which is fixed in link {link}."), frame, ()
+            return (why, Reference((f"H{link}",), " in "), f", which is fixed in link {link}."), frame, ()
         case AxesKind.LINK:
             why = f"The body's axes are turned in frame {link}, as the problem gives them."
             return (why,), Product((frame, turned)), ()

@@ -79,6 +79,7 @@ def _axes(context: Context) -> Step:
             Letter("z", style="bold"),
             ", and the fourth is ",
             Letter("o", style="bold"),
+            *_of_frame_0(context, moving),
             f". In the {robot.convention.value} convention joint i {_motions(robot)} ",
             letters.bold("z", letters.BEFORE if context.standard else letters.COUNT),
             *_whose(context),
@@ -120,6 +121,13 @@ def _origin(context: Context, i: int, moving: Sequence[int]) -> Relation:
             if j < i and frame_parts(context, j)[1] == point:
                 return equation(letters.o(i), letters.o(j))
     return equation(letters.o(i), point)
+
+
+def _of_frame_0(context: Context, moving: Sequence[int]) -> Prose:
+    """Whose z_0 and o_0 are: no product of matrices leads to frame 0 where it is the world."""
+    if 0 not in moving or letters.has_base(context.robot):
+        return ()
+    return ("; ", letters.z(0), " and ", letters.o(0), " are those of frame 0 itself")
 
 
 def _same_origins(context: Context, moving: Sequence[int]) -> Prose:

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import gcd
 
-from dynsolve.document import Inline, Prose
+from dynsolve.document import Inline, Prose, Reference
 from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.agreement import compared_rows
 from dynsolve.explain.closing import rows_in_names
@@ -58,6 +58,9 @@ _AFTER = (Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED)
 _BODY_BY_BODY = frozenset({"inertia_poses", "point_masses"})
 """The checks that ask what each body adds, and so show it."""
 
+_ON_D = frozenset({"definite", "inertia_poses", "point_masses"})
+"""The checks in which D is looked at."""
+
 _COLLECTED = frozenset({"D_sum", "g"})
 """The steps that are worked out anew from what stands before the names, and end in these."""
 
@@ -81,7 +84,7 @@ def steps_in_names(steps: Iterable[Step], context: Context, short: Abbreviated) 
         written = _in_symbols(in_sums, short)
         met = _first_met(short, written, labels)
         referring = tuple(dict.fromkeys((*written.names, *_used(step, written, short, labels))))
-        written = replace(written, names=referring)
+        written = replace(written, names=referring, why=_with_names_of_d(written, context, short, labels))
         if met:
             plain = in_sums if met[0] in short.of_symbols else step
             written = _introducing(plain, written, met, short)
@@ -127,6 +130,21 @@ def _used(step: Step, written: Step, short: Abbreviated, labels: Mapping[Symbol,
         yield from (labels[name] for name in names if name in of_symbols)
 
 
+def _with_names_of_d(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symbol, str]) -> Prose:
+    """What is said of a check on D, where D has names: with the equations that say what these mean."""
+    if short.inertias is None or step.id not in _ON_D:
+        return step.why
+    found = {node for node in walk(short.inertias.put(context.matrix("D"))) if isinstance(node, Symbol)}
+    defined = tuple(dict.fromkeys(labels[name] for name in short.inertias.symbols if name in found))
+
+    def extended(part: Inline) -> Inline:
+        if isinstance(part, Reference) and part.labels == ("D",):
+            return replace(part, labels=("D", *defined))
+        return part
+
+    return tuple(map(extended, step.why))
+
+
 def _introducing(plain: Step, written: Step, met: Sequence[Definition], short: Abbreviated) -> Step:
     """The step that introduces names: its plain result stands before them, if it was collected."""
     names = {one.name for one in met}
@@ -139,7 +157,7 @@ def _introducing(plain: Step, written: Step, met: Sequence[Definition], short: A
         return replace(written, lines=(*written.lines, *lines), concluding=("Put into the formula:",))
     if plain.concluding or (not plain.lines and not _is_matrix(plain.result[0])):
         lines.insert(0, Line(plain.concluding, plain.result))
-        after = "With these:" if len(met) > 1 else "With this:"
+        after = "With the abbreviations:" if len(met) > 1 else "With the abbreviation:"
         return replace(written, lines=(*written.lines, *lines), concluding=(after,))
     return replace(written, lines=(*written.lines, *lines))
 

@@ -133,6 +133,7 @@ def _kinematics(robot: Robot, ground: str) -> Iterator[Line]:
     yield _each([(_numbered(axis), f"{axis}-axis") for axis in "xyz"], " of frame i")
     yield _line([letters.bold(axis, Words("w")) for axis in "xyz"], "axes of the world w")
     yield _line(_numbered("o"), "origin of frame i", "m")
+    yield _line(letters.ANY_POINT, "any point of a body", "m")
     yield _line(letters.bold("0"), "zero vector or matrix")
     coordinates = [(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")]
     yield _each(coordinates, "", of_entries(robot, "rad", "m"))

@@ -50,7 +50,7 @@ class MathMLPrinter(FormulaPrinter):
     star = "<mo>\u22c6</mo>"
     dot = "<mo>\u22c5</mo>"
     cross = "<mo>×</mo>"
-    transposition = '<mi mathvariant="normal">T</mi>'
+    transposition = "<mi>T</mi>"
     differentials = ("<mo>∂</mo>", "<mi>d</mi>")
 
     def parenthesized(self, text: str) -> str:

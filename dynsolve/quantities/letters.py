@@ -240,6 +240,10 @@ def velocity(q: Coordinate) -> Symbol:
     return Symbol(q.name, 1)
 
 
+ANY_POINT = Letter("p", style="bold")
+"""Any point of a body."""
+
+
 def partial_derivative(of: Node, by: Node) -> Derivative:
     """∂of/∂by"""
     return Derivative(of, by)

@@ -33,7 +33,7 @@ from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
-from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
+from dynsolve.render.line_breaking import FormulaSplitter, Notation, Piece, together
 from dynsolve.render.matrices import entry_equations, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.parentheses import HEIGHTS, height_around
@@ -142,6 +142,15 @@ class _Entry:
     anchor: str
     text: str
     steps: list[tuple[str, str, int]] = field(default_factory=list)
+
+
+def _with_left_sides(parts: Sequence[Piece]) -> Iterator[str]:
+    """The pieces of a formula; its left side stays with what a phone has to scroll in any case."""
+    first, *rest = parts
+    if rest and rest[0].width > PHONE:
+        first, *rest = Piece(first.text + rest[0].text, first.width + rest[0].width), *rest[1:]
+    for part in (first, *rest):
+        yield part.text
 
 
 class _Page(MarkupPage):
@@ -259,7 +268,7 @@ class _Page(MarkupPage):
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a long one may be broken."""
-        if self.ruler.width(node) <= PHONE / 2:
+        if self.ruler.width(node) <= 0.8 * PHONE:
             return self.whole(node)
         return "<wbr>".join(math(piece.text) for piece in self.splitter.pieces(node))
 
@@ -314,7 +323,7 @@ class _Page(MarkupPage):
             return f'<div class="line">{self.in_pieces(node)}</div>'
         comma = math(self.printer.text(Words(",")))
         *before, last = map(self.in_pieces, beside)
-        parts = [*(f"{part}{comma}" for part in before), last]
+        parts = [*(f'<span class="one">{part}{comma}</span>' for part in before), last]
         return "".join(
             ('<div class="line">', *(f'<span class="part">{part}</span>' for part in parts), "</div>")
         )
@@ -322,7 +331,7 @@ class _Page(MarkupPage):
     def in_pieces(self, node: Node) -> str:
         """A formula between whose pieces a line may end."""
         parts = together(self.splitter.pieces(node), _WHOLE, "".join)
-        return "<wbr>".join(math(part.text, display=True) for part in parts)
+        return "<wbr>".join(math(text, display=True) for text in _with_left_sides(parts))
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None

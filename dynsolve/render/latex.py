@@ -49,7 +49,7 @@ _STAYS = r"\begingroup\postdisplaypenalty=10000"
 _STRUT = r"\rule[-1.7ex]{0pt}{4.7ex}"
 _FENCES = ((FLAT, ""), (HEIGHTS[1], "big"), (1.8, "Big"), (2.4, "bigg"))
 """The sizes of parentheses, each up to a height in em."""
-_ROW_SPACES = ((r"\left", r"\\[9pt]"), (r"\dfrac", r"\\[6pt]"))
+_ROW_SPACES = ((r"\left", r"\\[12pt]"), (r"\dfrac", r"\\[9pt]"))
 """How a row of a matrix ends that holds high parentheses, or fractions; counted from the foot of a line."""
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
@@ -264,7 +264,7 @@ class _Page(TypesetPage):
     def whole_or_pieces(self, node: Node) -> str:
         """A formula that is not broken, or pieces between which it may be, outside its parentheses."""
         narrow = self.width / 4
-        if self.ruler.width(node) <= min(SHORT, narrow):
+        if self.ruler.width(node) <= min(SHORT, 1.5 * narrow):
             return f"${{{self.printer.text(node)}}}$"
         parts = FormulaSplitter(self.notation, self.ruler).pieces(node)
         pieces = together(parts, min(PART, narrow), " ".join)

@@ -114,8 +114,9 @@ def _set_member(
         elif row.width + width(lead) + piece.width <= room:
             row = beside([row, TextBox.of(lead), piece])
         elif len(piece.lines) > 1:
-            lines += _flushed(row)
-            row = beside([TextBox.of(" " * hang), TextBox.of(lead.lstrip()), piece])
+            multiplies = not lead.strip() and len(row.lines) > 1
+            lines += [*_flushed(row), *[""] * multiplies]
+            row = beside([TextBox.of(" " * hang), TextBox.of("· " if multiplies else lead.lstrip()), piece])
         else:
             if len(row.lines) > 1:
                 lines += _flushed(row)

@@ -46,7 +46,9 @@ class SaidOnce:
         before = self._said[_OF.sub(kind, step.title)]
         for said in before:
             if said.detail <= step.detail and _is_the_same(said.text, said.name, text, name):
-                return (f"As for {kind} {said.name}{':' if leads_on(step.why) else '.'}",)
+                labels = [label for part in step.why if isinstance(part, Reference) for label in part.labels]
+                ending = ":" if leads_on(step.why) else "."
+                return (f"As for {kind} {said.name}", Reference(tuple(labels), ", with "), ending)
         before.append(_Said(name, step.detail, text))
         return step.why
 

@@ -62,17 +62,13 @@ def summary_blocks(
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     if short is not None and short.at_symbols:
         where: Prose = ("these",) if short.inertias and short.inertias.definitions else (letters.C,)
-        below: Prose = (
-            "In ",
-            *where,
-            " and in the rows below",
-            Reference(labels_of_names(steps, short), ", "),
-        )
+        below: Prose = ("In ", *where, " and in the rows below")
+        defined = Reference(labels_of_names(steps, short), ", by ")
         meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
         if short.single is not None and len(meanings) == 1:
-            yield Text((*below, ", ", *meanings, "."))
+            yield Text((*below, " ", *meanings, defined, "."))
         else:
-            yield Text((*below, ":"))
+            yield Text((*below, defined, ":"))
             yield Equations(meanings)
     yield from _lines(model)
     forces = [f"tau{q.index}" for q in robot.coordinates]
@@ -111,7 +107,7 @@ def _where_they_are(place: str, with_symbols: bool) -> Prose:
             letters.D,
             " as it is told there.",
         )
-    symbols = ("the Christoffel symbols of ", letters.C, Reference(("christoffel",)))
+    symbols = ("the Christoffel symbols", Reference(("christoffel",)), ", which make ", letters.C, ",")
     return (*listed([D, symbols, g]), f"{place}.")
 
 

@@ -50,7 +50,8 @@ def kinetic(model: LongModel, step: Step) -> Step:
     return with_result(
         step,
         equation(letters.K, QUADRATIC, model.formulas.kinetic_energy()),
-        " It is a quadratic form in the rates; its coefficients are the entries of the inertia matrix ",
+        " It is a quadratic form in the rates; its coefficients are the entries of the symmetric ",
+        "inertia matrix ",
         letters.D,
         Reference(("D",)),
         ", which the matrix form gives as sums over the bodies.",

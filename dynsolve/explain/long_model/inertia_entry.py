@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain
 
 from dynsolve.algebra.expr import Expr
@@ -72,17 +71,14 @@ class InertiaEntry:
             uses=(),
         )
 
-    @cached_property
-    def _multiplied(self) -> BodyShare | None:
-        """The body whose products are written out: of several the first that moves and turns."""
-        if len(self.shares) == 1:
-            return None
-        return next((share for share in self.shares if share.has_both_parts), None)
+    @property
+    def _are_multiplied(self) -> bool:
+        """Whether the products are written out: of several bodies, of which some move and turn."""
+        return len(self.shares) > 1 and any(share.has_both_parts for share in self.shares)
 
     def _on_the_sum(self, *, collected: bool) -> str:
-        """How the entry comes from the products; those of the other bodies are made alike."""
-        others = [share.body.name for share in self.shares if share is not self._multiplied]
-        added = f"With the products of body {others[0]}, made alike" if self._multiplied else "Put in"
+        """How the entry comes from the products."""
+        added = "Added up" if self._are_multiplied else "Put in"
         return f"{added}{', and collected in the abbreviations' if collected else ''}:"
 
     def _on_the_bodies(self, name: Node) -> Prose:
@@ -100,10 +96,10 @@ class InertiaEntry:
         )
 
     def _lines(self) -> Iterator[Line]:
-        """The vectors of each body, and of one also their products."""
+        """The vectors of each body, and their products."""
         for share in self.shares:
             yield from share.lines()
-            if share is self._multiplied:
+            if self._are_multiplied:
                 yield share.products()
 
 

@@ -10,10 +10,24 @@ from dynsolve.derivation.kinematics import axis
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.writing import listed
-from dynsolve.notation.tree import Letter, Number, Relation, Row, Sum, Symbol, equation
+from dynsolve.notation.tree import (
+    Cross,
+    Letter,
+    Negative,
+    Number,
+    Parenthesized,
+    Product,
+    Relation,
+    Row,
+    Sum,
+    Symbol,
+    Transpose,
+    equation,
+)
+from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, JointType
 
-_J, _K = Symbol("j"), Symbol("k")
+_I, _J, _K = Symbol("i"), Symbol("j"), Symbol("k")
 
 
 def on_parallel_axes(context: Context) -> Prose:
@@ -25,19 +39,38 @@ def on_parallel_axes(context: Context) -> Prose:
     why: Prose = ()
     for first, second in _parallel(context):
         of_first, of_second = (Letter("c", Row((Number(q.index), _J, _K))) for q in (first, second))
-        rates = Sum(tuple(Symbol(q.name, 1) for q in (first, second)))
         why += (
             "The axes of joints ",
             *listed([Number(first.index), Number(second.index)]),
-            " are parallel: velocities that come from joint j with ",
-            Relation((Number(second.index), _J), ("≤",)),
-            " are turned by them at the rate ",
-            rates,
-            ", so there ",
+            " are parallel, so ",
             equation(of_first, of_second),
+            " where ",
+            Relation((Number(second.index), _J), ("≤",)),
             ". ",
         )
-    return why
+    return (*_by_points(context), *why) if why else ()
+
+
+def _by_points(context: Context) -> Prose:
+    """c_ijk = Σ m (∂p/∂q_k)ᵀ ∂²p/∂q_i∂q_j over points p; joint i ≤ j turns ∂p/∂q_j about its axis."""
+    p = letters.ANY_POINT
+    by_j, by_k = (letters.partial_derivative(p, Letter("q", index)) for index in (_J, _K))
+    axis_of_i = letters.bold("z", Sum((_I, Negative(Number(1)))) if context.standard else _I)
+    slope = letters.partial_derivative(by_j, Letter("q", _I))
+    return (
+        Letter("c", Row((_I, _J, _K))),
+        " is the sum over all points ",
+        p,
+        " of the bodies of their mass times ",
+        Product((Transpose(Parenthesized(by_k)), slope)),
+        "; where ",
+        Relation((_I, _J), ("≤",)),
+        ", joint i turns ",
+        by_j,
+        " about its axis: ",
+        equation(slope, Cross(axis_of_i, by_j)),
+        ". ",
+    )
 
 
 def _parallel(context: Context) -> Iterator[tuple[Coordinate, Coordinate]]:

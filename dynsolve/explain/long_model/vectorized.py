@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import chain
 
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain import closing
 from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.long_model.inertia_entry import worked_entry
@@ -150,7 +150,11 @@ def coriolis(model: LongModel, step: Step) -> Step:
     why: Prose = (
         "Row k, column j. ",
         Product((letters.C, letters.QD)),
-        " holds the terms with rates: ",
+        " has in row k the sum over ",
+        *listed([Symbol("i"), Symbol("j")]),
+        " of the force k",
+        Reference(("forces",), " in "),
+        ": ",
     )
     why += ("centrifugal terms (a rate squared) and Coriolis terms (a product of two rates). ",)
     told = "One entry, written out, shows how each is made"

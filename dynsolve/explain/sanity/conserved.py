@@ -44,8 +44,8 @@ def _step(context: Context, energy: Line | None) -> Step | None:
     if energy is None and not free:
         return None
     by: Prose = energy.by if energy else ()
-    of_momenta = _of_momenta(context, free) if free else ()
-    momenta = (equation(_momentum(q), _written(context, q)) for q in free if not _stands_above(context, q))
+    momenta = [equation(_momentum(q), _written(context, q)) for q in free if not _stands_above(context, q)]
+    of_momenta = (*_of_momenta(context, free), " conserved:" if momenta else " conserved.") if free else ()
     return Step(
         id="conserved",
         stage=Stage.VECTORIZED,
@@ -151,7 +151,7 @@ def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
         *listed([(_momentum(q), Reference((f"dLdqd{q.index}",), " in "), *_named(context, q)) for q in free]),
         " is" if one else " are",
     )
-    return (*why, " conserved.")
+    return why
 
 
 def _named(context: Context, q: Coordinate) -> Prose:

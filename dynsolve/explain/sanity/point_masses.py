@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
 from dynsolve.explain.body_parts import linear_name
@@ -79,9 +81,18 @@ def _why(context: Context) -> Prose:
         ". What is left over of ",
         letters.D,
         Reference(("D",), " in "),
-        f" is what the turning of the bodies{rotors} adds",
+        f" is what the turning of the bodies{rotors} adds: the rotational parts",
+        Reference(tuple(_rotational(context)), " in "),
     )
     sliding = [Symbol(q.name) for q in robot.coordinates if q.type is JointType.PRISMATIC]
     if robot.has_table and sliding and not robot.actions.motors:
-        why += (", and nothing for ", *listed(sliding), f", which turn{'s' * (len(sliding) == 1)} no body")
+        why += ("; nothing for ", *listed(sliding), f", which turn{'s' * (len(sliding) == 1)} no body")
     return (*why, ".")
+
+
+def _rotational(context: Context) -> Iterator[str]:
+    """The labels of the rotational parts of D: by themselves, or beside a linear part that is zero."""
+    values = context.values
+    for body in context.robot.bodies:
+        if not values[f"Dw{body.name}"].is_zero:
+            yield f"Dw{body.name}" if body in _with_linear_part(context) else f"D_direct{body.name}"

@@ -74,9 +74,13 @@ def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter, wri
     by: Prose = ("Along the axes of frame 0", *_with(context, base, value))
     if seen.T @ along == along:
         by += (", and so along the body's own: ", axes, *_made_of(context, body, seen))
-        by += (", turns about the axis of this vector and leaves it as it is:",)
+        kept = "the axis of this vector and leaves it as it is"
+        if quantity != "w":
+            kept = "the axis to which its columns are parallel and leaves them as they are"
+        by += (f", turns about {kept}:",)
         rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
-        yield Line(by, (equation(whole, in_frame, first, own),), ("H0", f"R{body.name}", *rows))
+        given = f"v{body.name}" if quantity == "w" else f"Jv{body.name}#2"
+        yield Line(by, (equation(whole, in_frame, first, own),), (given, "H0", f"R{body.name}", *rows))
         return
     yield Line((*by, ":"), (equation(in_frame, first, context.show(along)),))
     if quantity == "w":

@@ -120,4 +120,4 @@ def test_the_kinetic_energy_is_collected_before_the_names_are_put_in() -> None:
     assert ["".join(map(str, line.by)) for line in step.lines[2:]] == ["Abbreviations:", "Hence:"]
     collected = shown(BOX, step.lines[1].formulas[0])
     assert "(m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12) + m₄ d₃²) c₂²" in collected
-    assert step.concluding == ("With these:",)
+    assert step.concluding == ("With the abbreviations:",)

@@ -104,7 +104,7 @@ def test_the_statement_says_how_the_base_is_placed(base: str, told: str) -> None
 
 MOMENTS = [
     ("numeric-2r", "about the axis through its mass centre parallel to 𝐳₂ is 0.02 kg m². "),
-    ("planar-2r", "parallel to 𝐳₁ is I₁; that of body 2, about the axis parallel to 𝐳₂, is I₂. "),
+    ("planar-2r", "parallel to 𝐳₁ is I₁; that of body 2, about such an axis parallel to 𝐳₂, is I₂. "),
     (
         "spherical-rrp",
         "of body 1 I₁, about that parallel to 𝐳₀; of body 2 I₂, about those parallel to 𝐱₂ and 𝐲₂; "

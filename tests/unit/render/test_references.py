@@ -63,8 +63,8 @@ def test_both_ways_and_the_summary_say_which_equations_they_speak_of() -> None:
 def test_the_summary_of_a_long_model_refers_to_its_matrices() -> None:
     document = solution_document(solved("stanford-6"))
     number, text = numbered(document), markdown.render(document)
-    for id in ("D", "christoffel", "g"):
-        assert f"$ ({number[id]})" in text.split("Summary")[-1]
+    for id, before in (("D", "$"), ("christoffel", "symbols"), ("g", "$")):
+        assert f"{before} ({number[id]})" in text.split("Summary")[-1]
     assert f"from the Christoffel symbols ({number['christoffel']}), $" in text  # no entry of C
 
 

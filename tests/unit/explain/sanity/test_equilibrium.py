@@ -45,7 +45,7 @@ def test_a_waist_is_balanced_in_any_pose() -> None:
     step = check("elbow-3r", "equilibrium")
     assert step is not None
     assert words(step.concluding).startswith(
-        "Gravity is balanced in these poses alone (up to full turns), whatever θ₁ is. "
+        "Gravity is balanced in the poses of the table alone (up to full turns), whatever θ₁ is. "
     )
     assert ["θ₂ = -90°, θ₃ = 0", "> 0", "> 0", "minimum", "stable in θ₂ and θ₃"] in rows(
         "elbow-3r", "equilibrium"

@@ -47,7 +47,7 @@ def test_a_moment_of_inertia_in_letters_is_told_body_by_body() -> None:
     ("problem", "told"),
     [
         ("in3140-rp", "the momentum ∂ℒ/∂θ̇₁, the angular momentum of the arm about z₀, is conserved."),
-        ("scara-rrpr", "∂ℒ/∂θ̇₄, the angular momentum about z₃ of all that joint 4 moves, are conserved."),
+        ("scara-rrpr", "∂ℒ/∂θ̇₄, the angular momentum about z₃ of all that joint 4 moves, are conserved:"),
         ("cart-pole", ", the total linear momentum, is conserved."),
         ("planar-2r", "The energy changes by the power of τ alone: as long as τ = 0 it is conserved. "),
         (
@@ -129,7 +129,7 @@ def test_without_moments_of_inertia_the_linear_parts_are_left() -> None:
     assert points == "𝐃_points = [[m₂ L₂², 0], [0, m₂]]"
     assert rest == "𝐃 - 𝐃_points = [[I_1zz, 0], [0, 0]]"
     assert said("in3140-rp", "point_masses").endswith(
-        "turning of the bodies adds, and nothing for L₂, which turns no body."
+        "turning of the bodies adds: the rotational parts; nothing for L₂, which turns no body."
     )
 
 
