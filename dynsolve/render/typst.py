@@ -94,7 +94,7 @@ _PREAMBLE = """#set document(title: {title}, date: none)
   let needed = measure(block(width: size.width, body)).height
   let begun = calc.min(needed, (if needed > size.height { 0.2 } else { 0.35 }) * size.height)
   block(breakable: false, spacing: 0pt, height: begun)
-  v(-begun)
+  v(-begun - 1.6em) // the space above the heading is that before the block, which no page begins with
   body
 })
 #let contents = block(above: 1.4em, breakable: false, {
