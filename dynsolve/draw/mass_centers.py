@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import cycle
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
@@ -34,6 +35,9 @@ _SHARES = (1.0, 0.7, 1.3)
 _APART = 0.12
 _OFF_AXIS = 0.2
 """How far a mass centre lies off its frame where the table gives its link no length."""
+
+_UNEVEN = (1.3, 1.0, 0.5)
+"""How much each of several symbols counts there, so that their sum looks like none of the axes."""
 
 _ON_OPEN, _AT_END = 0.6, 1.0
 """How far along a link the table says no end of, and how far out a point mass at the end of such a link."""
@@ -116,12 +120,13 @@ def _local_center(
         usual = _AT_END if body.is_point else _ON_OPEN
     try:
         start = center()
-        for name in free:
+        for name, uneven in zip(free, cycle(_UNEVEN)):
             step = subtract(center(**{name: 1.0}), start)
             twice = subtract(center(**{name: 2.0}), start)
             straight = distance(twice, scale(step, 2.0)) < NEAR
             rate = length(step) * numbers.unit if straight else 0.0
-            values[name] = share * _best(step, subtract(middle, start), distance(near, far), usual, len(free))
+            amount = _best(step, subtract(middle, start), distance(near, far), usual, len(free), uneven)
+            values[name] = share * amount
         found = center()
     except (ValueError, ZeroDivisionError, OverflowError):
         return middle, None, 0.0, ()
@@ -129,7 +134,7 @@ def _local_center(
     return found, start if measured else None, rate, tuple((name, values[name]) for name in free)
 
 
-def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols: int) -> float:
+def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols: int, uneven: float) -> float:
     """The multiple of a direction that comes nearest to a wanted vector; were it 0, one of `usual` length."""
     square = length(direction) ** 2
     if square < NEAR:
@@ -138,7 +143,7 @@ def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols:
     if abs(amount) * length(direction) > _OFF_AXIS / 2:
         return amount
     if symbols > 1:
-        return (_OFF_AXIS if size < NEAR else _OFF_AXIS / 2) / length(direction)
+        return uneven * (_OFF_AXIS if size < NEAR else _OFF_AXIS / 2) / length(direction)
     return usual / length(direction)
 
 

@@ -138,13 +138,14 @@ def _left_out(context: Context, body: Body) -> Prose:
     still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]
     if not still or len(still) > 2 or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
         return ()
-    axes = listed(
-        [_axis(context, body, name, f"its axis {name}") for i, name in enumerate("xyz") if i not in still]
-    )
+    turning_axes = [name for i, name in enumerate("xyz") if i not in still]
+    axes = listed([_axis(context, body, name, f"its axis {name}") for name in turning_axes])
     entries, along = "what belongs to ", "has components along these axes alone"
     if len(still) == 2:
         entries, along = "the moment about ", "is parallel to that axis"
         entries += "the axis parallel to " if isinstance(axes[0], Letter) else ""
+        if isinstance(axes[0], Letter) and not _in_frame(context, body):
+            axes += (f", the body's {turning_axes[0]}-axis,",)
     return (
         f"Of the tensor of {name_of(body)} about its mass centre {entries}",
         *axes,

@@ -91,7 +91,9 @@ def _inertia(context: Context) -> Step:
             ". ",
             letters.D,
             " is symmetric, and may depend on the coordinates, but on no rate.",
-            " Here it is diagonal: there is no coupling inertia." if _is_diagonal(context) else "",
+            " Here it is diagonal: no acceleration enters the force of another coordinate."
+            if _is_diagonal(context)
+            else "",
         ),
         formula=equation(_d(_I, _J), letters.partial_derivative(Letter("tau", _I), Letter("q", _J, dots=2))),
         source=f"from {spong('7.3')}",

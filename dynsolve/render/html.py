@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from html import escape
 from importlib.resources import files
@@ -142,6 +142,15 @@ class _Entry:
     anchor: str
     text: str
     steps: list[tuple[str, str, int]] = field(default_factory=list)
+
+
+def _multiplied(parts: Sequence[Piece]) -> Iterator[Piece]:
+    """The pieces; a matrix that a phone has no room for beside the factor before it has a product sign."""
+    before = 0.0
+    for part in parts:
+        apart = part.sign and before + part.width > PHONE
+        yield replace(part, text=part.sign + part.text) if apart else part
+        before = part.width
 
 
 def _with_left_sides(parts: Sequence[Piece]) -> Iterator[str]:
@@ -330,7 +339,7 @@ class _Page(MarkupPage):
 
     def in_pieces(self, node: Node) -> str:
         """A formula between whose pieces a line may end."""
-        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
+        parts = together(list(_multiplied(self.splitter.pieces(node))), _WHOLE, "".join)
         return "<wbr>".join(math(text, display=True) for text in _with_left_sides(parts))
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:

@@ -41,7 +41,7 @@ MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\tablepart}[3]{{\parskip=0pt\lineskip=0pt
   \setbox\tablerows=\hbox{\begin{tabular}{#1}#3\end{tabular}}%
   \ifdim\dimexpr\ht\tablerows+\dp\tablerows>\dimexpr\pagegoal-\pagetotal\relax \ifinner\else
-  \ifdim\pagetotal>\pagegoal\else  % else what stands above goes to the next page by itself
+  \ifdim\dimexpr\pagetotal-\pageshrink\relax>\pagegoal\else  % else what stands above goes there by itself
   \newpage\setbox\tablerows=\hbox{\begin{tabular}{#1}#2#3\end{tabular}}\fi\fi\fi
   {\centering\usebox\tablerows\par}}}
 \ifdefined\closingpage\else\newsavebox\closingpage\fi

@@ -8,6 +8,7 @@ g_d = ∂P/∂d free of d, the determinant of the second derivatives is -(∂g_d
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import lcm
 
@@ -22,6 +23,7 @@ from dynsolve.explain.sanity.sign import is_positive, sign_of, with_lengths
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.kinetic import without_signs
+from dynsolve.explain.writing import sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
     ZERO,
@@ -33,6 +35,7 @@ from dynsolve.notation.tree import (
     Quotient,
     Relation,
     Row,
+    Sum,
     Symbol,
     Words,
     equation,
@@ -79,7 +82,7 @@ def at_one_length(context: Context) -> Step | None:
     why = (*at_rest(context), *assumed(context), "The rows of ", letters.G, Reference(("g",), " in "))
     why += ("; what ", equation(letters.entry("g", slid + 1), ZERO), " says is put into the other:")
     concluding: Prose = ("So ", equation(Symbol(name), *lengths), " in both. ", these_alone(len(values)))
-    concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned, {angle: values[0]}))
+    concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned))
     concluding += _not_extended(context, name, *lengths)
     return told(why, (Line((), rows),), concluding)
 
@@ -126,22 +129,39 @@ def _length(context: Context, a: Expr, b: Expr) -> Node:
     return Quotient(context.show(-b), context.show(a))
 
 
-def _saddles(context: Context, slid: int, turned: int, pose: Pose) -> Prose:
+def _saddles(context: Context, slid: int, turned: int) -> Prose:
     """Why P has a saddle point there: g_d does not depend on d, but on the angle it does."""
     names = [context.robot.coordinates[k].name for k in (slid, turned)]
     by_d, by_angle = (slope(context, names[0], name) for name in names)
     ring, place = context.robot.ring, context.robot.ring.names.index(names[1])
-    there = context.show(at(ring, ring.diff(context.values["g"][slid, 0], place), pose))
-    det, value = (Negative(Power(x, Number(2))) for x in (Parenthesized(by_angle), without_signs(there)))
+    rate = context.show(ring.diff(context.values["g"][slid, 0], place))
+    det, value = (Negative(Power(x, Number(2))) for x in (Parenthesized(by_angle), without_signs(rate)))
     why: Prose = ("In both ", letters.P, " has a saddle point: as ", equation(by_d, ZERO))
     why += (", the determinant of its second derivatives with respect to ", Symbol(names[1]), " and ")
-    why += (Symbol(names[0]), " is ", Relation((det, value, ZERO), ("=", "<")), ". So they are unstable.")
+    why += (
+        Symbol(names[0]),
+        " is ",
+        equation(det, value),
+        ", which is negative there. So they are unstable.",
+    )
     return why
 
 
 def _not_extended(context: Context, name: str, length: Node) -> Prose:
     """That the length is on the other side of 0, where it is seen to be."""
     positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
+    if isinstance(length, Quotient) and isinstance(length.numerator, Sum):
+        return _where_extended(name, length.numerator.terms)
     if not isinstance(length, Negative) or not is_positive(length.argument, positive, constant):
         return ()
     return (" With ", Relation((Symbol(name), ZERO), (">",)), " no pose is balanced.")
+
+
+def _where_extended(name: str, terms: Sequence[Node]) -> Prose:
+    """Where the length is on the side of 0 that it should be: its positive terms are the larger ones."""
+    positive = [term for term in terms if not isinstance(term, Negative)]
+    negative = [term.argument for term in terms if isinstance(term, Negative)]
+    if not (positive and negative):
+        return ()
+    where = Relation((sum_of(negative), sum_of(positive)), ("<",))
+    return (" Here ", Relation((Symbol(name), ZERO), (">",)), " only if ", where, ".")

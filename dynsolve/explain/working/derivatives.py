@@ -21,6 +21,7 @@ from dynsolve.explain.working.proved import SILENT, Way, chain, equals
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
+    ZERO,
     Entry,
     Negative,
     Node,
@@ -141,8 +142,13 @@ def gravity_rows(context: Context) -> tuple[Line, ...]:
         rows.append(equation(letters.entry("g", q.index), slope.tree, form))
     if not rows:
         return ()
-    by: Prose = ("Term by term, and collected", *((" with ", *said(list(used))) if used else ()), ":")
-    return (Line(by, tuple(rows)),)
+    by: Prose = ("Term by term, and collected", *((" with ", *said(list(used))) if used else ()))
+    zero = [q for q, (form,) in zip(context.robot.coordinates, g.rows, strict=True) if form == ZERO]
+    if zero:
+        do = "does" if len(zero) == 1 else "do"
+        by += ("; ", *listed([Symbol(q.name) for q in zero]), f" {do} not occur in ", letters.P, ", so ")
+        by += (equation(*(letters.entry("g", q.index) for q in zero), ZERO),)
+    return (Line((*by, ":"), tuple(rows)),)
 
 
 def _count_of_terms(node: Node) -> int:

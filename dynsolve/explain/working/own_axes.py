@@ -73,14 +73,9 @@ def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter, wri
     first = Product((Transpose(block_of(context.matrix("H0"), 3, 0, 3)), written))
     by: Prose = ("Along the axes of frame 0", *_with(context, base, value))
     if seen.T @ along == along:
-        by += (", and so along the body's own: ", axes, *_made_of(context, body, seen))
-        kept = "the axis of this vector and leaves it as it is"
-        if quantity != "w":
-            kept = "the axis to which its columns are parallel and leaves them as they are"
-        by += (f", turns about {kept}:",)
-        rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
         given = f"v{body.name}" if quantity == "w" else f"Jv{body.name}#2"
-        yield Line(by, (equation(whole, in_frame, first, own),), (given, "H0", f"R{body.name}", *rows))
+        yield Line((*by, ":"), (equation(in_frame, first, own),), (given, "H0"))
+        yield _kept(context, body, quantity, equation(whole, in_frame))
         return
     yield Line((*by, ":"), (equation(in_frame, first, context.show(along)),))
     if quantity == "w":
@@ -89,6 +84,18 @@ def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter, wri
     in_letters = Product((Transpose(Parenthesized(axes)), Parenthesized(in_frame)))
     second = Product((Transpose(context.show(seen)), context.show(along)))
     yield Line(by, (equation(whole, in_letters, second, own),), (_axes_label(body),))
+
+
+def _kept(context: Context, body: Body, quantity: str, same: Node) -> Line:
+    """That the rotation from frame 0 to the body's axes leaves ω, or the columns of J_ω, as they are."""
+    axes = turned_name(context, 0, letters.of_body("R", body, "bold"))
+    seen = rotation(context.values["H0"]).T @ context.values[f"R{body.name}"]
+    what = "this vector, and leaves it as it is"
+    if quantity != "w":
+        what = "these columns, and leaves them as they are"
+    by: Prose = (axes, *_made_of(context, body, seen), f", turns about the axis of {what}:")
+    rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
+    return Line(by, (same,), (f"R{body.name}", *rows))
 
 
 def _axes_label(body: Body) -> str:

@@ -162,7 +162,10 @@ def factored(forms: Forms, poly: fmpq_mpoly) -> Node:
             kept = kept * Expr(ring, factor) ** int(exponent)
         else:
             changed.append((_terms(ring, factor), int(exponent)))
-    return times(fraction(content), [(forms.of(kept), 1), *changed], decimal=is_numeric(forms.robot))
+    front = fraction(content)
+    if len(kept) > 1:  # a sum keeps the fractions of its terms
+        kept, front = kept * ring.constant(front), Fraction(1)
+    return times(front, [(forms.of(kept), 1), *changed], decimal=is_numeric(forms.robot))
 
 
 def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group | None:

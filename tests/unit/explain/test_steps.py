@@ -31,7 +31,10 @@ def test_a_step_is_named_once_and_says_why(problem: str) -> None:
 )
 def test_an_inertia_matrix_without_coupling_is_called_diagonal(problem: str, is_diagonal: bool) -> None:
     why = said(step(problem, "D").why, problem)
-    assert why.endswith(" Here it is diagonal: there is no coupling inertia.") is is_diagonal
+    assert (
+        why.endswith(" Here it is diagonal: no acceleration enters the force of another coordinate.")
+        is is_diagonal
+    )
 
 
 @pytest.mark.parametrize("problem", SMALL)

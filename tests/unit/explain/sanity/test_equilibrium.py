@@ -188,11 +188,11 @@ def test_an_arm_with_a_balanced_length_is_at_a_saddle_point(
 
 
 def test_a_length_that_balances_on_the_other_side_of_zero_is_said_to() -> None:
-    """Where m₂ and m₃ decide on which side it is, nothing is said."""
+    """Where m₂ and m₃ decide on which side it is, it is said how."""
     found = {name: check(name, "equilibrium") for name in ("spherical-rrp", "box-cylinder-rod-sphere")}
     said_of = {name: words(step.concluding) for name, step in found.items() if step is not None}
     assert said_of["spherical-rrp"].endswith("So they are unstable. With d₃ > 0 no pose is balanced.")
-    assert said_of["box-cylinder-rod-sphere"].endswith("So they are unstable.")
+    assert said_of["box-cylinder-rod-sphere"].endswith("unstable. Here d₃ > 0 only if m₂ l₂ < m₃ l₃.")
 
 
 def test_a_determinant_that_differs_from_case_to_case_is_said_in_derivatives() -> None:
