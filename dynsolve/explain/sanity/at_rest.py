@@ -48,9 +48,9 @@ def assumed(context: Context) -> Prose:
     return ("Let all parameters be positive. ",) if context.robot.parameters else ()
 
 
-def these_alone(number: int) -> str:
-    """That there are no other poses."""
-    return f"Gravity is balanced in {'this pose' if number == 1 else 'these poses'} alone (up to full turns)"
+def in_no_others(poses: str) -> str:
+    """That there are no other poses than those: `this pose`, `the poses of the table`."""
+    return f"Gravity is balanced in {poses} alone (up to full turns)"
 
 
 def free(context: Context, names: Collection[str]) -> Prose:

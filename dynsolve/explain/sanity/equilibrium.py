@@ -14,7 +14,7 @@ from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import balance, cases, curvature, sliding
-from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, told
+from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, in_no_others, told
 from dynsolve.explain.sanity.curvature import Kind
 from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
 from dynsolve.explain.step import Line, Step
@@ -88,15 +88,14 @@ def _told_of_all(
     )
     table = tuple((side_by_side(written(pose)), *row) for pose, row in zip(zero, found, strict=True))
     shown = (_second_derivatives(context, names, rows),) if shows else ()
-    concluding: Prose = (_in_the_table(len(zero)), *free(context, zero[0]), ". ", *_by_minors(context, names))
+    concluding: Prose = (
+        in_no_others(f"the pose{'s' * (len(zero) > 1)} of the table"),
+        *free(context, zero[0]),
+        ". ",
+        *_by_minors(context, names),
+    )
     why = (*at_rest(context), *assumed(context), *_rows_of(context, rows))
     return told(why, (*lines, *shown), concluding, Table(_header(context, names), table))
-
-
-def _in_the_table(number: int) -> str:
-    """That there are no other poses than those of the table."""
-    poses = "pose" if number == 1 else "poses"
-    return f"Gravity is balanced in the {poses} of the table alone (up to full turns)"
 
 
 def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:

@@ -63,8 +63,8 @@ def _left_out(context: Context) -> Prose:
     still = [body.name for body in context.robot.bodies if body not in moving]
     if not still:
         return ()
-    bodies, are = ("bodies", "are") if len(still) > 1 else ("body", "is")
-    return (f" (of {bodies} {and_joined(still)} it {are} zero)".replace("it are", "they are"),)
+    bodies = "bodies" if len(still) > 1 else "body"
+    return (f" (zero of {bodies} {and_joined(still)})",)
 
 
 def _why(context: Context) -> Prose:

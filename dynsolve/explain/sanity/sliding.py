@@ -15,7 +15,7 @@ from math import lcm
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, these_alone, told
+from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, in_no_others, told
 from dynsolve.explain.sanity.cases import solved
 from dynsolve.explain.sanity.curvature import slope
 from dynsolve.explain.sanity.pose import Pose, at, degrees, turning_in, written
@@ -81,7 +81,12 @@ def at_one_length(context: Context) -> Step | None:
     name = robot.coordinates[slid].name
     why = (*at_rest(context), *assumed(context), "The rows of ", letters.G, Reference(("g",), " in "))
     why += ("; what ", equation(letters.entry("g", slid + 1), ZERO), " says is put into the other:")
-    concluding: Prose = ("So ", equation(Symbol(name), *lengths), " in both. ", these_alone(len(values)))
+    concluding: Prose = (
+        "So ",
+        equation(Symbol(name), *lengths),
+        " in both. ",
+        in_no_others("this pose" if len(values) == 1 else "these poses"),
+    )
     concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned))
     concluding += _not_extended(context, name, *lengths)
     return told(why, (Line((), rows),), concluding)
