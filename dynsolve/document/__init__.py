@@ -68,7 +68,8 @@ class Formula:
     `source` is where the textbook has it.  `label` names a result, so that it may be
     referred to.  `entries` names the entries of a matrix
     that is too wide to be laid out: a matrix of names, of its shape.  An `optional`
-    formula is left out where its matrices do not fit the page side by side.
+    formula is left out where its matrices do not fit the page side by side; `otherwise`
+    stands in the place of one of which a matrix does not fit a terminal.
     """
 
     node: Node
@@ -76,6 +77,7 @@ class Formula:
     entries: tuple[tuple[Node, ...], ...] = ()
     optional: bool = False
     label: str = ""
+    otherwise: tuple[Formula, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

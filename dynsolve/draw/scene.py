@@ -102,6 +102,7 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
     dashed = parallels(robot, pose)
     said = (
         (WORLD, has_world(robot, values)),
+        (_axis_of_base(robot), has_world(robot, values) and len(robot.base_turns) == 1),
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, has_offsets(pose)),
         (OFF_LINKS, annotate.has_masses_off_links(pose)),
@@ -109,6 +110,12 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
     return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])
+
+
+def _axis_of_base(robot: Robot) -> str:
+    """The axis about which frame 0 is turned in the world: the same in both."""
+    axis = {"x": "𝐱", "y": "𝐲", "z": "𝐳"}[robot.base_turns[0][0]] if robot.base_turns else ""
+    return f"{axis}₀ is that of the world, too."
 
 
 def _is_number(label: Label) -> bool:

@@ -230,7 +230,7 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     yield from others
     in_letters = letters.transposed_product(Parenthesized(own.name), letters.tensor(context.robot, body))
     product = letters.transposed_product(context.show(own.value), context.show(given))
-    put_in: Prose = ("The tensor along the same axes put in:",)
+    put_in: Prose = ("The tensor along the body's own axes put in:",)
     yield Line(put_in, (equation(name, in_letters, product),), (f"I_body{b}",))
 
 

@@ -212,7 +212,11 @@ def _jacobians_why(context: Context, late: Sequence[Node]) -> Prose:
         return (f"{why}.",)
     columns = "column of " if len(late) == 1 else "columns of "
     verb = " is zero." if len(late) == 1 else " are zero."
-    return (f"{why}: only the joints up to the body's link move it, so the {columns}", *listed(late), verb)
+    return (
+        f"{why}: only the joints up to the body's link can move it, so the {columns}",
+        *listed(late),
+        verb,
+    )
 
 
 def _is_at_the_end(context: Context, body: Body) -> bool:

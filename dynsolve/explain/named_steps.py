@@ -84,7 +84,7 @@ def steps_in_names(steps: Iterable[Step], context: Context, short: Abbreviated) 
         written = _in_symbols(in_sums, short)
         met = _first_met(short, written, labels)
         referring = tuple(dict.fromkeys((*written.names, *_used(step, written, short, labels))))
-        written = replace(written, names=referring, why=_with_names_of_d(written, context, short, labels))
+        written = _on_named_d(replace(written, names=referring), context, short, labels)
         if met:
             plain = in_sums if met[0] in short.of_symbols else step
             written = _introducing(plain, written, met, short)
@@ -130,19 +130,21 @@ def _used(step: Step, written: Step, short: Abbreviated, labels: Mapping[Symbol,
         yield from (labels[name] for name in names if name in of_symbols)
 
 
-def _with_names_of_d(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symbol, str]) -> Prose:
-    """What is said of a check on D, where D has names: with the equations that say what these mean."""
+def _on_named_d(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symbol, str]) -> Step:
+    """A check on D, where D has names: with the equations that say what these mean."""
     if short.inertias is None or step.id not in _ON_D:
-        return step.why
+        return step
     found = {node for node in walk(short.inertias.put(context.matrix("D"))) if isinstance(node, Symbol)}
-    defined = tuple(dict.fromkeys(labels[name] for name in short.inertias.symbols if name in found))
+    named = (one.name for one in short.sums if one.name in short.inertias.symbols & found)
+    defined = tuple(dict.fromkeys(labels[name] for name in named))
 
     def extended(part: Inline) -> Inline:
         if isinstance(part, Reference) and part.labels == ("D",):
             return replace(part, labels=("D", *defined))
         return part
 
-    return tuple(map(extended, step.why))
+    names = (*step.names, *defined) if step.result else step.names
+    return replace(step, why=tuple(map(extended, step.why)), names=names)
 
 
 def _introducing(plain: Step, written: Step, met: Sequence[Definition], short: Abbreviated) -> Step:

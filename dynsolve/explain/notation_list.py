@@ -237,8 +237,8 @@ def _numbers(style: Style) -> Iterator[Inline]:
         return
     yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
     yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands "
-    yield "behind a number, and behind a matrix of which all entries have it; any other formula has that of "
-    yield "its left side. "
+    yield "behind a result that is a number, or a matrix of which all entries have it; any other formula has "
+    yield "that of its left side. "
 
 
 def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:
@@ -250,7 +250,7 @@ def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:
         of = "The unit" if len(shown) == 1 else "The units"
         verb = "is" if len(shown) == 1 else "are"
         yield from (f"{of} of ", *listed(shown), f" {verb} listed for angles: ")
-        yield "divide by m for each index that belongs to a length. "
+        yield "divide by the metre for each index that belongs to a length. "
 
 
 def _of_craig(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:

@@ -18,6 +18,7 @@ from dynsolve.notation.tree import (
     Product,
     Symbol,
     Transpose,
+    Words,
     equation,
 )
 from dynsolve.quantities import letters
@@ -80,7 +81,10 @@ def _of_gravity(context: Context) -> Prose:
         return why
     i, entry = along
     axis: Inline = Letter("xyz"[i], Number(0), style="bold")
-    axis = axis if context.ground == "base" else f"The axis {'xyz'[i]} of the world"
+    if letters.has_base(context.robot):
+        axis = letters.bold("xyz"[i], Words("w"))
+    elif context.ground != "base":
+        axis = f"The axis {'xyz'[i]} of the world"
     return (*why, axis, f" points {'up' if leads_with_minus(entry) else 'down'}, so ")
 
 

@@ -56,7 +56,7 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
         own.name,
         ".",
     )
-    put_in = Line(("The tensor along the same axes put in:",), step.working, (f"I_body{b}",))
+    put_in = Line(("The tensor along the body's own axes put in:",), step.working, (f"I_body{b}",))
     return replace(
         step,
         why=why,

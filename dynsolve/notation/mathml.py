@@ -51,7 +51,7 @@ class MathMLPrinter(FormulaPrinter):
     dot = "<mo>\u22c5</mo>"
     cross = "<mo>×</mo>"
     transposition = "<mi>T</mi>"
-    differentials = ("<mo>∂</mo>", "<mi>d</mi>")
+    differentials = ('<mo lspace="0" rspace="0">∂</mo>', "<mi>d</mi>")
 
     def parenthesized(self, text: str) -> str:
         """The text in parentheses."""

@@ -126,7 +126,7 @@ def html_notation(printer: MathMLPrinter) -> Notation:
         plus='<mo form="infix">+</mo>',
         minus='<mo form="infix">\u2212</mo>',
         lead=MINUS,
-        times="",
+        times='<mo form="infix">·</mo>',
         relation=lambda sign: f'<mo form="infix">{escape(sign)}</mo>',
         opened=lambda height: _fence("(", height),
         closed=closed,
@@ -146,11 +146,11 @@ class _Entry:
 
 def _multiplied(parts: Sequence[Piece]) -> Iterator[Piece]:
     """The pieces; a matrix that a phone has no room for beside the factor before it has a product sign."""
-    before = 0.0
+    taken = 0.0
     for part in parts:
-        apart = part.sign and before + part.width > PHONE
+        apart = part.sign and taken + part.width > PHONE
         yield replace(part, text=part.sign + part.text) if apart else part
-        before = part.width
+        taken = part.width + (0.0 if apart else taken)
 
 
 def _with_left_sides(parts: Sequence[Piece]) -> Iterator[str]:
@@ -251,7 +251,11 @@ class _Page(MarkupPage):
     def cells(self, cells: Sequence[Inline], prose: Collection[int], tag: str = "td") -> Iterator[str]:
         """A row of a table; a formula is broken in a column of sentences alone."""
         for k, cell in enumerate(cells):
-            text = self.whole(cell) if isinstance(cell, Node) and k not in prose else self.prose((cell,))
+            if isinstance(cell, Node) and k not in prose:
+                names = list(listed(cell)) if isinstance(cell, Row) else [cell]
+                text = ", ".join(map(self.whole, names))
+            else:
+                text = self.prose((cell,))
             yield f'<{tag} class="words">{text}</{tag}>' if k in prose else f"<{tag}>{text}</{tag}>"
 
     def picture(self, picture: Picture) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain, groupby, zip_longest
+from itertools import chain, groupby, pairwise, zip_longest
 
 from dynsolve.document import (
     Block,
@@ -46,7 +46,7 @@ _NARROWEST = 7.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
 _STAYS = r"\begingroup\postdisplaypenalty=10000"
-_STRUT = r"\rule[-1.7ex]{0pt}{4.7ex}"
+_STRUT = r"\rule[-2.5ex]{0pt}{6.3ex}"
 _FENCES = ((FLAT, ""), (HEIGHTS[1], "big"), (1.8, "Big"), (2.4, "bigg"))
 """The sizes of parentheses, each up to a height in em."""
 _ROW_SPACES = ((r"\left", r"\\[12pt]"), (r"\dfrac", r"\\[9pt]"))
@@ -109,9 +109,9 @@ def latex_notation(printer: LatexPrinter) -> Notation:
     )
 
 
-def _row_end(line: str) -> str:
-    """The end of a row of a matrix, with room below what is high."""
-    return next((f" {end} " for sign, end in _ROW_SPACES if sign in line), r" \\ ")
+def _row_end(rows: str) -> str:
+    """The end of a row of a matrix, with room between it and the next where one of them is high."""
+    return next((f" {end} " for sign, end in _ROW_SPACES if sign in rows), r" \\ ")
 
 
 class _Printer(LatexPrinter):
@@ -130,7 +130,8 @@ class _Printer(LatexPrinter):
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         lines = [" & ".join(row).replace(r"\frac", r"\dfrac") for row in rows]
-        body = "".join(chain.from_iterable(zip(lines, [*map(_row_end, lines[:-1]), ""], strict=True)))
+        ends = [_row_end(f"{above}{below}") for above, below in pairwise(lines)]
+        body = "".join(chain.from_iterable(zip(lines, [*ends, ""], strict=True)))
         return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
 
     def _words(self, node: Words) -> str:

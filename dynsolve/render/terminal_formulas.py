@@ -28,6 +28,11 @@ def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[st
         return list(beside(boxes).lines)
     if formula.optional and len(boxes) < len(groups):
         return []
+    if formula.otherwise and any(
+        isinstance(piece, Matrix) and not _is_alone(piece, formula.node) for _, piece in groups
+    ):
+        found = [set_formula(each, printer, room) for each in formula.otherwise]
+        return [line for lines in found for line in (*lines, "")][:-1]
     if isinstance(formula.node, Row) and len(parts := list(listed(formula.node))) > 1:
         return _set_several(parts, formula, printer, room)
     members = list(_members(groups))
@@ -69,7 +74,7 @@ def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:
     lead = ""
     for part in pieces(node, printer):
         if isinstance(part, Matrix):
-            fits = matrix_width(part, printer) + _LONGEST_HANG <= room
+            fits = matrix_width(part, printer) + (_LONGEST_HANG if _is_alone(part, node) else 0) <= room
             yield lead, matrix_box(part, printer) if fits else part
             lead = ""
         else:
@@ -79,6 +84,11 @@ def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:
             else:
                 yield lead, part
                 lead = ""
+
+
+def _is_alone(matrix: Matrix, node: Node) -> bool:
+    """Whether a matrix is a side of an equation, so that its entries may be listed in its place."""
+    return matrix in (node.parts if isinstance(node, Relation) else (node,))
 
 
 def _width(member: Sequence[Group], room: int) -> int:
@@ -116,7 +126,9 @@ def _set_member(
         elif len(piece.lines) > 1:
             multiplies = not lead.strip() and len(row.lines) > 1
             lines += [*_flushed(row), *[""] * multiplies]
-            row = beside([TextBox.of(" " * hang), TextBox.of("· " if multiplies else lead.lstrip()), piece])
+            sign = "· " if multiplies else lead.lstrip()
+            margin = max(0, min(hang, room - width(sign) - piece.width))
+            row = beside([TextBox.of(" " * margin), TextBox.of(sign), piece])
         else:
             if len(row.lines) > 1:
                 lines += _flushed(row)

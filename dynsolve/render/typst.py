@@ -364,8 +364,10 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
         f"([], {_strutted(line.left)}, {_strutted(_right(line), apart=tall)}, [{side}])"
         for line, side, tall in zip(lines, sides, above, strict=False)
     ]
-    if all("mat(" in _right(line) for line in lines):  # matrices are high enough to stand alone
-        runs = ", ".join(f"({row},)" for row in rows)
+    if all("mat(" in _right(line) for line in lines):  # equations so high may stand alone
+        starts = [k for k, line in enumerate(lines) if line.left or not k]
+        ends = [*starts[1:], len(lines)]
+        runs = ", ".join(f"({', '.join(rows[a:b])},)" for a, b in zip(starts, ends, strict=True))
     else:
         runs = _in_runs(rows, [bool(line.left) for line in lines], last)
     return f"#formula-lines({runs}{_STICKY * sticks})"

@@ -55,8 +55,9 @@ def summary_blocks(
     found = Reference(_MATRICES, ", ")
     if model.result:
         yield Text(("With the matrices of this robot", found, ":"))
+        matrices = tuple(_results(by_id, [name for name in _MATRICES if name in by_id]))
         for result in model.result:
-            yield Formula(result, entries=model.entries)
+            yield Formula(result, entries=model.entries, otherwise=matrices)
     else:
         yield Text(("The matrices of this robot", found, ":"))
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])

@@ -120,7 +120,10 @@ def _by_minors(context: Context, names: Sequence[str]) -> Prose:
         where += ("a saddle point where det is negative",)
     else:
         where = ("there what the minors of its second derivatives tell (Sylvester's criterion)",)
-    return (letters.P, " has ", *where, "; at a minimum the equilibrium is stable, elsewhere it is not:")
+    stable: Prose = ("; at a minimum the equilibrium is stable",)
+    if len(names) < context.robot.n:  # nothing holds the others
+        stable += (" in ", *listed([Symbol(name) for name in names]))
+    return (letters.P, " has ", *where, *stable, ", elsewhere it is not:")
 
 
 def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero] | None) -> Line:

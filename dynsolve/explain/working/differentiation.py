@@ -201,6 +201,8 @@ def _flattened(node: Node, exponent: int) -> list[tuple[Node, int]]:
             return [(Negative(ONE), 1), *_flattened(argument, 1)]
         case Product(factors) if exponent == 1:
             return [pair for factor in factors for pair in _flattened(factor, 1)]
+        case Quotient(numerator, denominator) if exponent == 1:
+            return [*_flattened(numerator, 1), (denominator, -1)]
         case Power(base, Number(p, 1)):
             return [(base, p * exponent)]
     return [(node, exponent)]

@@ -43,7 +43,9 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
     name = letters.of_body("R", body, "bold")
     whole, by_rotation = Product((Transpose(name), letter)), f"R{body.name}"
     if own == value:
-        by: Prose = (name, " turns about the axis of ", letters.of_body("omega", body, "bold"), ":")
+        by: Prose = (name, " turns about the axis of ", letter, ", and leaves it as it is:")
+        if quantity != "w":
+            by = (name, " turns about the axis of the columns of ", letter, ", and leaves them as they are:")
         lines: tuple[Line, ...] = (Line(by, (equation(whole, letter),)),)
     elif leans(context.robot):
         by_rotation = "H0"

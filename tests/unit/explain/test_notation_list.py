@@ -322,7 +322,8 @@ def test_units_of_entries_are_those_for_angles_where_there_are_lengths_too(probl
     style = solved(problem).style
     remarks = notation(solved(problem).robot, style, document(problem).blocks).remarks
     said = "".join(part if isinstance(part, str) else to_unicode(part, style) for part in remarks)
-    rule = f"The units of {told} are listed for angles: divide by m for each index that belongs to a length."
+    rule = f"The units of {told} are listed for angles: divide by the metre for each "
+    rule += "index that belongs to a length."
     assert (rule in said) if told else ("listed for angles" not in said)
 
 
@@ -330,7 +331,9 @@ def test_in_numbers_it_is_said_which_formulas_have_a_unit() -> None:
     solution = solved("numeric-2r")
     remarks = notation(solution.robot, solution.style, document("numeric-2r").blocks).remarks
     text = "".join(part for part in remarks if isinstance(part, str))
-    assert "A unit stands behind a number, and behind a matrix of which all entries have it; " in text
+    assert (
+        "A unit stands behind a result that is a number, or a matrix of which all entries have it; " in text
+    )
 
 
 def test_the_entries_of_the_parameters_are_not_lengths_of_the_table() -> None:

@@ -138,9 +138,8 @@ def test_escape_codes_do_not_reach_the_terminal() -> None:
 
 @pytest.mark.parametrize("columns", [60, 80, 132])
 @pytest.mark.parametrize("stem", LIBRARY)
-def test_no_line_of_a_solution_runs_over(stem: str, columns: int) -> None:
+def test_no_line_of_a_solution_runs_over_and_no_matrix_is_text(stem: str, columns: int) -> None:
     document = solution_document(solved(stem), Detail.FULL)
-    too_wide = [
-        line.text for line in render(document, columns, solved(stem).style) if width(line.text) > columns
-    ]
-    assert not too_wide
+    shown = [line.text for line in render(document, columns, solved(stem).style)]
+    assert not [text for text in shown if width(text) > columns]
+    assert not [text for text in shown if "[[" in text]
