@@ -15,7 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, differentiated
-from dynsolve.explain.working.expansion import by_rates, multiplied_out, sums_of_rates
+from dynsolve.explain.working.expansion import brackets, by_rates, has_rates, multiplied_out, sums_of_rates
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import SILENT, Way, chain, equals
 from dynsolve.explain.writing import listed, sum_of
@@ -62,7 +62,16 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
     expanded = multiplied_out(found.tree, decimal=is_numeric(context.robot))
     if expanded != found.tree:
         lines.append(_expanded(context, expanded, form))
-    return chain(value, lines, lambda tree: equation(left, tree), _collected(used or ()))
+    last = _collected(used) if used else _opened_or_collected(lines[-1][1], form)
+    return chain(value, lines, lambda tree: equation(left, tree), last)
+
+
+def _opened_or_collected(before: Node, after: Node) -> Prose:
+    """What leads to the result: brackets that hold rates multiplied out, or more than that."""
+    opened = {each for each in brackets(before) if has_rates(each)} - brackets(after)
+    if opened and _count_of_terms(before) == _count_of_terms(after):
+        return ("Multiplied out:",)
+    return _collected(())
 
 
 def _expanded(context: Context, expanded: Node, form: Node) -> tuple[Prose, Node]:

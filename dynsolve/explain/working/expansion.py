@@ -148,6 +148,12 @@ def sums_of_rates(node: Node) -> set[Node]:
     return {each for each in sums if all(part.dots for part in walk(each) if isinstance(part, Symbol))}
 
 
+def brackets(node: Node) -> set[Node]:
+    """The sums that are a factor of some term, such as m l² + I beside θ̇²."""
+    factors = (factor for part in walk(node) if isinstance(part, Product) for factor in part.factors)
+    return {factor for factor in factors if isinstance(factor, Sum)}
+
+
 def has_rates(node: Node) -> bool:
     """Whether a rate or an acceleration stands in a tree."""
     return any(isinstance(part, Symbol) and part.dots for part in walk(node))

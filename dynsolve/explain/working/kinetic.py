@@ -17,7 +17,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.working import squares
-from dynsolve.explain.working.expansion import sums_of_rates
+from dynsolve.explain.working.expansion import brackets, sums_of_rates
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.other_axes import turning_line
 from dynsolve.explain.working.proved import SILENT, Way, chain
@@ -213,7 +213,10 @@ def _from_components(
         return None
     concluding: Prose = ()
     if all(len(x) == 1 for x in components):
-        concluding = lines.pop()[0] if lines else ()
+        form = context.form(f"Kv{body.name}")
+        shown = _energy(context, body, factor, lines[-1][1]) if lines else form
+        takes_out = len(brackets(form)) > len(brackets(shown))  # d₃² of two squares
+        concluding = ("Collected:",) if takes_out else lines.pop()[0] if lines else ()
     else:
         multiplied = _multiplied(context, components)
         if multiplied is None:

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working.derivatives import are_alike
-from dynsolve.explain.working.expansion import has_rates
+from dynsolve.explain.working.expansion import brackets, has_rates
 from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.tree import ZERO, Node, Number, Power, Product, Sum, equation
+from dynsolve.notation.tree import ZERO, Node, Number, Power, Sum, equation
 from dynsolve.notation.walk import walk
 
 
@@ -46,15 +46,9 @@ def numbers_in(node: Node) -> set[Node]:
 
 def _brackets_change(before: Node, after: Node) -> bool:
     """Whether brackets of the terms are opened, and coefficients come together in new ones."""
-    first, last = _brackets(before), _brackets(after)
+    first, last = brackets(before), brackets(after)
     new = {each for each in last - first if not has_rates(each)}
     return bool(first - last and new)
-
-
-def _brackets(node: Node) -> set[Node]:
-    """The sums that are a factor of some term, such as m l² + I beside θ̇²."""
-    factors = (factor for part in walk(node) if isinstance(part, Product) for factor in part.factors)
-    return {factor for factor in factors if isinstance(factor, Sum)}
 
 
 def _squares_of_sums(node: Node) -> set[Node]:
