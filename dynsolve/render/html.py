@@ -33,7 +33,7 @@ from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
-from dynsolve.render.line_breaking import FormulaSplitter, Notation, Piece, together
+from dynsolve.render.line_breaking import SUM_BREAK, FormulaSplitter, Notation, Piece, together
 from dynsolve.render.matrices import entry_equations, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.parentheses import HEIGHTS, height_around
@@ -153,13 +153,41 @@ def _multiplied(parts: Sequence[Piece]) -> Iterator[Piece]:
         taken = part.width + (0.0 if apart else taken)
 
 
-def _with_left_sides(parts: Sequence[Piece]) -> Iterator[str]:
-    """The pieces of a formula; its left side stays with what a phone has to scroll in any case."""
-    first, *rest = parts
-    if rest and rest[0].width > PHONE:
-        first, *rest = Piece(first.text + rest[0].text, first.width + rest[0].width), *rest[1:]
-    for part in (first, *rest):
-        yield part.text
+def _with_left_side(parts: Sequence[Piece]) -> list[Piece]:
+    """The pieces of a formula; its left side stays with what a phone scrolls or breaks inside in any case."""
+    if len(parts) < 2:
+        return list(parts)
+    first, second, *rest = parts
+    width = first.width + second.width
+    is_broken = bool(rest) and rest[0].depth > SUM_BREAK and width <= PHONE
+    if second.width > PHONE or is_broken:
+        return [Piece(first.text + second.text, width), *rest]
+    return list(parts)
+
+
+def _nested(parts: Sequence[Piece], depth: int = SUM_BREAK) -> str:
+    """Pieces between which a line may end; one with the deeper ones after it is a box with lines of its own.
+
+    So a browser, which looks at no depth, breaks what is in parentheses only where no line holds it whole.
+
+    >>> _nested([Piece("a", 1), Piece("=b", 2), Piece("+(c", 2, 1), Piece("+d)", 2, 3)])
+    '<math displaystyle="true">a</math><wbr><math displaystyle="true">=b</math><wbr>\
+<span class="whole"><math displaystyle="true">+(c</math><wbr><math displaystyle="true">+d)</math></span>'
+    """
+    groups: list[list[Piece]] = []
+    for part in parts:
+        if groups and part.depth > depth:
+            groups[-1].append(part)
+        else:
+            groups.append([part])
+    return "<wbr>".join(_grouped(group) for group in groups)
+
+
+def _grouped(group: Sequence[Piece]) -> str:
+    first, *deeper = group
+    if not deeper:
+        return math(first.text, display=True)
+    return f'<span class="whole">{_nested(group, min(part.depth for part in deeper))}</span>'
 
 
 class _Page(MarkupPage):
@@ -344,7 +372,7 @@ class _Page(MarkupPage):
     def in_pieces(self, node: Node) -> str:
         """A formula between whose pieces a line may end."""
         parts = together(list(_multiplied(self.splitter.pieces(node))), _WHOLE, "".join)
-        return "<wbr>".join(math(text, display=True) for text in _with_left_sides(parts))
+        return _nested(_with_left_side(parts))
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None

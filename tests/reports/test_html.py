@@ -65,8 +65,23 @@ def test_everything_is_seen_and_nothing_overflows(problem: Path, page: Page, tmp
 
 def test_a_long_fraction_is_broken_on_a_phone(page: Page, tmp_path: Path) -> None:
     page.open(saved(CONSTRAINTS / "sapienza-2013-01-line.yaml", tmp_path), 400)
-    assert page.ask("document.querySelectorAll('#eq-lambda .line > math').length") > 2
+    assert page.ask("document.querySelectorAll('#eq-lambda .line math').length") > 2
     assert page.ask(OVERFLOWING) == []
+
+
+@pytest.mark.parametrize("width", [*WIDTHS, 1000])
+def test_a_term_is_broken_only_where_no_line_holds_it(width: int, page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "elbow-3r"), tmp_path), width)
+    assert page.ask("document.querySelectorAll('.whole').length") > 20
+    broken = """
+    [...document.querySelectorAll('.whole')].filter(e => e.checkVisibility()).filter(e => {
+      const pieces = [...e.querySelectorAll('math')].map(m => m.getBoundingClientRect());
+      const needed = pieces.reduce((sum, r) => sum + r.width, 0);
+      const around = e.parentElement;
+      const room = around.clientWidth - parseFloat(getComputedStyle(around).paddingLeft);
+      return needed < room - 10 && pieces.at(-1).top - pieces[0].bottom > 0
+    }).map(e => e.textContent.slice(0, 80))"""
+    assert page.ask(broken) == []
 
 
 def test_matrices_accents_and_fractions_are_set(page: Page, tmp_path: Path) -> None:
@@ -103,7 +118,7 @@ def test_a_matrix_beside_others_stands_on_the_line_of_its_name(
     assert page.ask("document.querySelectorAll('.part mtable').length") > 0
     parted = """
     [...document.querySelectorAll('.part')].filter(e => e.checkVisibility()).filter(e => {
-      const pieces = [...e.querySelectorAll(':scope > math')].map(m => m.getBoundingClientRect());
+      const pieces = [...e.querySelectorAll('math')].map(m => m.getBoundingClientRect());
       const middles = pieces.map(r => (r.top + r.bottom) / 2);
       const needed = pieces.reduce((sum, r) => sum + r.width, 0);
       return needed < e.parentElement.clientWidth - 40 && Math.max(...middles) - Math.min(...middles) > 20
