@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
@@ -44,6 +44,9 @@ SLOPES = Parenthesized(
     ))
 )  # fmt: skip
 """Twice c_ijk, by the derivatives of D."""
+
+Slope = tuple[tuple[int, int], int]
+"""((a, b), c) of ∂d_ab/∂q_c, a ≤ b, from 0."""
 
 
 def christoffel_step(context: Context) -> Step:
@@ -114,16 +117,28 @@ def _symbol(context: Context, i: int, j: int, k: int) -> Node:
     return equation(*names, slopes, value)
 
 
+def with_slopes(context: Context, slopes: Iterable[Slope]) -> tuple[str, ...]:
+    """The equations of the symbols that say what derivatives of D are: of each alone, or else all with it."""
+    nonzero, _ = _sorted_symbols(context)
+    found: dict[str, None] = {}
+    made = [{key for key, weight in _weights(context, *ijk).items() if weight} for ijk in nonzero]
+    for slope in slopes:
+        places = [place for place, keys in enumerate(made, start=1) if slope in keys]
+        alone = [place for place in places if len(made[place - 1]) == 1]
+        found |= dict.fromkeys(f"christoffel#{place}" for place in alone[:1] or places)
+    return tuple(found)
+
+
 def in_slopes(context: Context, i: int, j: int, k: int) -> Node:
     """½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k) without those that are zero or cancel, of indices from 0."""
     weights = _weights(context, i, j, k)
     return _halved([_weighted(context, key, weight) for key, weight in weights.items() if weight])
 
 
-def _weights(context: Context, i: int, j: int, k: int) -> dict[tuple[tuple[int, int], int], int]:
+def _weights(context: Context, i: int, j: int, k: int) -> dict[Slope, int]:
     """How often each slope ∂d_ab/∂q_c that is not zero, a ≤ b, occurs in twice c_ijk; 0 where two cancel."""
     ring, D = context.robot.ring, context.values["D"]
-    weights: dict[tuple[tuple[int, int], int], int] = {}
+    weights: dict[Slope, int] = {}
     for (row, col), by, sign in (((k, j), i, 1), ((k, i), j, 1), ((i, j), k, -1)):
         if not ring.diff(D[row, col], by).is_zero:
             key = ((min(row, col), max(row, col)), by)
@@ -131,7 +146,7 @@ def _weights(context: Context, i: int, j: int, k: int) -> dict[tuple[tuple[int, 
     return weights
 
 
-def _weighted(context: Context, key: tuple[tuple[int, int], int], weight: int) -> tuple[int, Node]:
+def _weighted(context: Context, key: Slope, weight: int) -> tuple[int, Node]:
     (row, col), by = key
     name = letters.entry("d", row + 1, col + 1)
     return weight, letters.partial_derivative(name, Symbol(context.robot.coordinates[by].name))

@@ -297,7 +297,9 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             turning: Prose = (
                 "The body's axes are parallel to frame 0 at ",
                 at_zero,
-                " and turn with the link: its rotation, times the inverse of that at ",
+                " and turn with the link: its rotation",
+                Reference((f"H{link}",), " in "),
+                ", times the inverse, which is the transpose, of that at ",
                 at_zero,
                 ".",
             )

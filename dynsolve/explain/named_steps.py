@@ -17,17 +17,19 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from math import gcd
 
 from dynsolve.document import Inline, Prose, Reference
 from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.agreement import compared_rows
+from dynsolve.explain.christoffel import with_slopes
 from dynsolve.explain.closing import rows_in_names
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia_names import InertiaNames
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
-from dynsolve.explain.working.derivatives import are_alike, inertia_rate
+from dynsolve.explain.working.derivatives import are_alike, inertia_rate, varying
 from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
 from dynsolve.notation.build import split_sign, times, total
@@ -61,6 +63,9 @@ _BODY_BY_BODY = frozenset({"inertia_poses", "point_masses"})
 _ON_D = frozenset({"definite", "inertia_poses", "point_masses"})
 """The checks in which D is looked at."""
 
+_ON_G = "equilibrium"
+"""The check in which g is looked at."""
+
 _COLLECTED = frozenset({"D_sum", "g"})
 """The steps that are worked out anew from what stands before the names, and end in these."""
 
@@ -84,7 +89,7 @@ def steps_in_names(steps: Iterable[Step], context: Context, short: Abbreviated) 
         written = _in_symbols(in_sums, short)
         met = _first_met(short, written, labels)
         referring = tuple(dict.fromkeys((*written.names, *_used(step, written, short, labels))))
-        written = _on_named_d(replace(written, names=referring), context, short, labels)
+        written = _on_named(replace(written, names=referring), context, short, labels)
         if met:
             plain = in_sums if met[0] in short.of_symbols else step
             written = _introducing(plain, written, met, short)
@@ -130,21 +135,32 @@ def _used(step: Step, written: Step, short: Abbreviated, labels: Mapping[Symbol,
         yield from (labels[name] for name in names if name in of_symbols)
 
 
-def _on_named_d(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symbol, str]) -> Step:
-    """A check on D, where D has names: with the equations that say what these mean."""
-    if short.inertias is None or step.id not in _ON_D:
+def _on_named(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symbol, str]) -> Step:
+    """A check on D, or on g row by row, where these have names: with the equations of what the names mean."""
+    if short.inertias is None or not (step.id in _ON_D or step.id == _ON_G):
         return step
-    found = {node for node in walk(short.inertias.put(context.matrix("D"))) if isinstance(node, Symbol)}
+    looked_at = "g" if step.id == _ON_G else "D"
+    formulas = [node for line in step.lines for node in line.formulas]
+    shown = list(_put_in(formulas)) if step.id == _ON_G else [short.inertias.put(context.matrix("D"))]
+    found = {node for node in walk(*shown) if isinstance(node, Symbol)}
     named = (one.name for one in short.sums if one.name in short.inertias.symbols & found)
     defined = tuple(dict.fromkeys(labels[name] for name in named))
 
     def extended(part: Inline) -> Inline:
-        if isinstance(part, Reference) and part.labels == ("D",):
-            return replace(part, labels=("D", *defined))
+        if isinstance(part, Reference) and part.labels == (looked_at,):
+            return replace(part, labels=(looked_at, *defined))
         return part
 
     names = (*step.names, *defined) if step.result else step.names
     return replace(step, why=tuple(map(extended, step.why)), names=names)
+
+
+def _put_in(nodes: Iterable[Node]) -> Iterator[Node]:
+    """The names of sums that are in one member of an equation, and no more in the next."""
+    for relation in (node for node in walk(*nodes) if isinstance(node, Relation)):
+        for before, after in pairwise(relation.parts):
+            left = set(walk(after))
+            yield from (node for node in walk(before) if isinstance(node, Symbol) and node not in left)
 
 
 def _introducing(plain: Step, written: Step, met: Sequence[Definition], short: Abbreviated) -> Step:
@@ -329,8 +345,10 @@ def _skew(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symb
         )
 
     rows = tuple(tuple(entry((-1, 1), k, j) for j in range(n)) for k in range(n))
-    used = (*(labels[one.name] for one in short.of_symbols), "christoffel")
-    lines = inertia_rate(context, lambda i, j: entry((1, 1), i, j), tuple(dict.fromkeys(used)))
+    slopes = [((i, j), q.index - 1) for i, j, q in varying(context)]
+    named = (labels[one.name] for one in short.of_symbols if one != short.single)
+    used = tuple(dict.fromkeys((*named, *with_slopes(context, slopes))))
+    lines = inertia_rate(context, lambda i, j: entry((1, 1), i, j), used)
     return replace(step, lines=lines, result=(equation(letters.bold("N"), Matrix(rows)), *step.result[-1:]))
 
 

@@ -213,8 +213,10 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     ):  # the recursions tell it with their other levers
         lever = letters.bold("r", Row((letters.BEFORE, Words(","), center)), _I)
         yield _line(lever, "mass centre of body i from the near end of its link, in the link's frame", "m")
+    own = _own_tensors(robot)
+    raised = " (b)" * any(isinstance(letter, Letter) and letter.sup is not None for letter in own)
     yield _line(
-        _own_tensors(robot), "inertia tensor of body i about its mass centre, along its axes", "kg m^2"
+        own, f"inertia tensor of body i about its mass centre, along the body's axes{raised}", "kg m^2"
     )
     yield _line(letters.base_tensor(_I), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")

@@ -46,7 +46,8 @@ _NARROWEST = 7.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
 _STAYS = r"\begingroup\postdisplaypenalty=10000"
-_STRUT = r"\rule[-2.5ex]{0pt}{6.3ex}"
+_STRUTS = ((FLAT, ""), (2.6, r"\rule[-2.5ex]{0pt}{6.3ex}"), (99.0, r"\rule[-2.7ex]{0pt}{7.7ex}"))
+"""What makes a row of a table as high as its formulas, each up to a height in em."""
 _FENCES = ((FLAT, ""), (HEIGHTS[1], "big"), (1.8, "Big"), (2.4, "bigg"))
 """The sizes of parentheses, each up to a height in em."""
 _ROW_SPACES = ((r"\left", r"\\[12pt]"), (r"\dfrac", r"\\[9pt]"))
@@ -304,14 +305,16 @@ class _Page(TypesetPage):
 
     def row(self, cells: Sequence[Inline]) -> str:
         """A row of a tabular; around fractions there is room to the rows beside it."""
-        tall = any(isinstance(cell, Node) and self.ruler.height(cell) > FLAT for cell in cells)
+        height = max((self.ruler.height(cell) for cell in cells if isinstance(cell, Node)), default=FLAT)
+        tall = height > FLAT
         texts = [
             f"$\\displaystyle {self.printer.text(cell)}$"
             if tall and isinstance(cell, Node)
             else self.part(cell)
             for cell in cells
         ]
-        return (_STRUT if tall else "") + " & ".join(texts) + r" \\"
+        strut = next(strut for most, strut in _STRUTS if height <= most)
+        return strut + " & ".join(texts) + r" \\"
 
     def column_kinds(self, table: Table, fixed: bool) -> str:
         """The columns of a tabular, of `fixed` widths or as wide as they are.

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, groupby
+from itertools import chain, groupby, pairwise
 
 from dynsolve.render.columns import Cell, Columns
 from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, stay
@@ -16,15 +16,17 @@ from dynsolve.render.typesetting import INDENT, Line
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 
 _MATRIX = r"\begin{"
+_FRACTION = r"\frac"
 
 
-def _end(text: str, keep: bool) -> str:
-    """The end of a row, further from the next one below a matrix.
+def _end(text: str, below: str, keep: bool) -> str:
+    """The end of a row, further from the next one below a matrix, or below fractions if that has none.
 
     amsmath ends no page in a display by itself: where a row need not `keep` with the next, it says so.
     """
     may_end = "" if keep else r"\displaybreak[0] "
-    return f" {may_end}\\\\{'[2pt]' if _MATRIX in text else ''}\n"
+    is_apart = _MATRIX in text or (_FRACTION in text and _FRACTION not in below)
+    return f" {may_end}\\\\{'[2pt]' if is_apart else ''}\n"
 
 
 def in_columns(columns: Columns, label: str = "", last: int = LAST_OF_DISPLAY) -> Iterator[str]:
@@ -78,7 +80,7 @@ def _gathered(rows: Sequence[DisplayRow], are_level: bool) -> Iterator[str]:
         return
     texts = [level(row.line) if are_level else row.line.alone for row in rows]
     labelled = [text + (row.label or r" \notag") for text, row in zip(texts, rows, strict=True)]
-    ends = [_end(text, row.stays) for text, row in zip(texts, rows[:-1], strict=False)]
+    ends = [_end(*pair, row.stays) for pair, row in zip(pairwise(texts), rows[:-1], strict=True)]
     body = "".join(chain.from_iterable(zip(labelled, [*ends, ""], strict=True)))
     name = "align" if are_level else "gather"
     yield f"\\begin{{{name}}}\n{body}\n\\end{{{name}}}"
@@ -94,8 +96,9 @@ def aligned(lines: Sequence[Line], label: str = "", last: int = LAST_OF_DISPLAY)
 
 
 def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:
-    for line, stays in zip(lines, stay([bool(line.left) for line in lines], last), strict=True):
-        at_end = line is lines[-1]
-        tag = (label if at_end else r" \notag") if label else ""
-        text = level(line) + tag
-        yield text if at_end else text + _end(text, stays)
+    stays = stay([bool(line.left) for line in lines], last)
+    texts = [level(line) for line in lines]
+    notag = r" \notag" if label else ""
+    for (text, below), keep in zip(pairwise(texts), stays[:-1], strict=True):
+        yield text + notag + _end(text, below, keep)
+    yield texts[-1] + label

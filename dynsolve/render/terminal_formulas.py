@@ -14,6 +14,9 @@ from dynsolve.render.terminal_breaking import break_sum
 from dynsolve.render.typesetting import listed
 
 _HANG = 4
+_UNDER_HEAD = 2
+"""How far the entries of a matrix are moved in under the letter that they belong to."""
+
 _LONGEST_HANG = 12
 
 Group = tuple[str, TextBox | Matrix]
@@ -117,9 +120,9 @@ def _set_member(
         if not row.lines[0].strip() and len(row.lines) == 1:
             lead = lead.lstrip()
         if isinstance(piece, Matrix):
-            if row.lines[0].strip() != _left_side(formula, printer):
-                lines += _flushed(row)
-            lines += _entry_by_entry(piece, formula, printer, room)
+            is_headed = row.lines[0].strip() != _left_side(formula, printer)
+            lines += _flushed(row) if is_headed else []
+            lines += _entry_by_entry(piece, formula, printer, room, _UNDER_HEAD * is_headed)
             row = TextBox.of(" " * hang)
         elif row.width + width(lead) + piece.width <= room:
             row = beside([row, TextBox.of(lead), piece])
@@ -152,12 +155,14 @@ def _flushed(row: TextBox) -> list[str]:
     return [line.rstrip() for line in row.lines] if any(line.strip() for line in row.lines) else []
 
 
-def _entry_by_entry(matrix: Matrix, formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
+def _entry_by_entry(
+    matrix: Matrix, formula: Formula, printer: UnicodePrinter, room: int, indent: int
+) -> list[str]:
     """`d₁₂ = ...` a line for each entry; equal ones in one chain, those that are 0 last."""
     lines: list[str] = []
     left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
     for chain in entry_equations(matrix, left, formula):
         text = " = ".join(map(printer.text, chain.parts))
-        first, *others = break_sum(text, room - 2, room - _HANG - 2)
-        lines += ["  " + first, *("  " + " " * _HANG + other for other in others)]
+        first, *others = break_sum(text, room - indent, room - _HANG - indent)
+        lines += [" " * indent + first, *(" " * (indent + _HANG) + other for other in others)]
     return lines

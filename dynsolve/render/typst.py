@@ -82,10 +82,14 @@ _PREAMBLE = """#set document(title: {title}, date: none)
     grid(columns: columns, row-gutter: 0.3em, ..options, ..rows.flatten()))
 }
 #let strut = box(width: 0pt, hide($lr(|, size: #1.5em)$))
+#let right-aligned(width, body) = context h(width.to-absolute() - measure(body).width) + body
+#let level-line(width, left, right) = strut + right-aligned(width, left) + h(0.28em) + right
 #let formula-lines(sticky: false, ..runs) = context {
   let widest(part) = calc.max(..runs.pos().join().map(row => measure(row.at(part)).width))
-  in-runs(runs.pos(), sticky, (1fr, widest(1), widest(2), 1fr), column-gutter: (0pt, 0.28em, 0pt),
-    align: (left, right + horizon, left + horizon, right + horizon))
+  let (left-width, right-width) = (widest(0), widest(1))
+  let row((left, right, apart, side)) = ([], pad(y: apart, level-line(left-width, left, right)), side)
+  in-runs(runs.pos().map(rows => rows.map(row)), sticky, (1fr, left-width + right-width + 0.3em, 1fr),
+    align: (left, left + horizon, right + horizon))
 }
 #let columned(count, indent, sticky: false, ..runs) = in-runs(runs.pos(), sticky,
   (indent * 1fr, ..(1fr / count,) * (count - 1), (1 / count - indent) * 1fr, 3em),
@@ -361,7 +365,7 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
         return f"#formula({_math(lines[0].alone)}, [{sides[0]}]{_STICKY * sticks})"
     above = [False, *("mat(" in _right(line) for line in lines)]
     rows = [
-        f"([], {_strutted(line.left)}, {_strutted(_right(line), apart=tall)}, [{side}])"
+        f"({_math(line.left)}, {_math(right := _right(line))}, {_apart(tall and 'mat(' in right)}, [{side}])"
         for line, side, tall in zip(lines, sides, above, strict=False)
     ]
     if all("mat(" in _right(line) for line in lines):  # equations so high may stand alone
@@ -373,14 +377,9 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     return f"#formula-lines({runs}{_STICKY * sticks})"
 
 
-def _strutted(text: str, *, apart: bool = False) -> str:
-    """A formula as high about the axis as its neighbour, so that both stand on one line of writing.
-
-    A matrix stands `apart` from that of the line above, or both would look like one.
-    """
-    if apart and "mat(" in text:
-        return f"pad(y: 0.25em, strut + {_math(text)})"
-    return f"strut + {_math(text)}" if text else "[]"
+def _apart(is_under_matrix: bool) -> str:
+    """The room around a matrix under that of the line above, or both would look like one."""
+    return "0.25em" if is_under_matrix else "0em"
 
 
 def _in_runs(rows: Sequence[str], begins: Sequence[bool], last: int) -> str:
@@ -396,9 +395,8 @@ def _in_columns(columns: Columns, side: str, last: int, sticks: bool) -> str:
     for row in columns.rows:
         cells = ["[]"]
         for cell in row:
-            name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
-            whole = f"strut + {name} + h(0.28em) + {_math(_right(cell.line))}"
-            cells.append(f"grid.cell(colspan: {cell.span}, {whole})")
+            left_right = f"{_math(cell.line.left)}, {_math(_right(cell.line))}"
+            cells.append(f"grid.cell(colspan: {cell.span}, level-line({columns.name:.2f}em, {left_right}))")
         if rest := columns.count - sum(cell.span for cell in row):
             cells.append(f"grid.cell(colspan: {rest}, [])")
         rows.append([*cells, "[]"])

@@ -136,9 +136,9 @@ def _first(context: Context, block: Sequence[int]) -> int | None:
 
 def _of_determinants(context: Context, determinants: Sequence[Determinant]) -> Prose:
     """Why determinants are positive: no term takes anything away, and one is never 0."""
-    signs = "their last equals signs" if len(determinants) > 1 else "the last equals sign"
+    last = "the last expression of each" if len(determinants) > 1 else "the last expression"
     least = listed([_never_zero(context, each.form) for each in determinants])
-    return (f"After {signs} no term is negative, and ", *least, ". So ", letters.D, " is positive definite.")
+    return (f"In {last} no term is negative, and ", *least, ". So ", letters.D, " is positive definite.")
 
 
 def _never_zero(context: Context, form: Node) -> Node:

@@ -63,8 +63,8 @@ def _left_out(context: Context) -> Prose:
     still = [body.name for body in context.robot.bodies if body not in moving]
     if not still:
         return ()
-    bodies = "bodies" if len(still) > 1 else "body"
-    return (f" (zero of {bodies} {and_joined(still)})",)
+    zero = f"those of bodies {and_joined(still)} are" if len(still) > 1 else f"that of body {still[0]} is"
+    return (f" ({zero} zero)",)
 
 
 def _why(context: Context) -> Prose:

@@ -39,6 +39,7 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Power,
     Product,
+    Quotient,
     Row,
     Sum,
     equation,
@@ -178,10 +179,16 @@ def _products(context: Context, pairs: Sequence[tuple[Expr, Expr]], is_square: b
     for a, b in pairs:
         first, second = map(context.show, (a, b))
         bare = without_signs(first), without_signs(second)
-        found = collector.product(*collector.decompose(Product(bare)), ())
+        found = _single_fraction(collector.product(*collector.decompose(Product(bare)), ()))
         opposite = (first != bare[0]) != (second != bare[1])
         terms.append(negated(found) if opposite and not is_square else found)
     return sum_of(terms) if is_square else total(terms)
+
+
+def _single_fraction(node: Node) -> Node:
+    """l (a + b/2)/2 as ½ l (a + b/2): no fraction in another."""
+    has_two = isinstance(node, Quotient) and any(isinstance(part, Quotient) for part in walk(node.numerator))
+    return number_in_front(node) if has_two else node
 
 
 def _in_brackets(squares_shown: Node) -> Node:

@@ -183,7 +183,7 @@ def slopes(context: Context) -> Way:
     """The slopes ∂d_ij/∂q_k that are not zero, where one of them asks for more than a look."""
     if not context.is_short:
         return SILENT
-    found = [_differentiated(context, *place) for place in _varying(context)]
+    found = [_differentiated(context, *place) for place in varying(context)]
     if not any(each.asks_for_more for each in found):
         return SILENT
     used = list(dict.fromkeys(identity for each in found for identity in each.used))
@@ -224,7 +224,7 @@ def _slope(i: int, j: int, q: Coordinate) -> Node:
     return letters.partial_derivative(letters.entry("d", i + 1, j + 1), Symbol(q.name))
 
 
-def _varying(context: Context) -> Iterator[tuple[int, int, Coordinate]]:
+def varying(context: Context) -> Iterator[tuple[int, int, Coordinate]]:
     """(i, j, q) with i ≤ j and ∂d_ij/∂q not zero."""
     ring, D = context.robot.ring, context.values["D"]
     for i in range(context.robot.n):
@@ -242,7 +242,7 @@ def inertia_rate(
         return ()
     ring, D = context.robot.ring, context.values["D"]
     rates: dict[tuple[int, int], list[Node]] = {}
-    for i, j, q in _varying(context):
+    for i, j, q in varying(context):
         rates.setdefault((i, j), []).append(Product((_slope(i, j, q), letters.velocity(q))))
     if not rates:
         return ()

@@ -32,10 +32,8 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Power,
     Product,
-    Row,
     Sum,
     Symbol,
-    Words,
     equation,
 )
 from dynsolve.notation.unicode import to_unicode
@@ -273,8 +271,7 @@ def _turn(context: Context, found: squares.Turned) -> Prose:
         both = Sum((Vc, Negative(Us))), Sum((Uc, Vs))
     left = Sum(tuple(Power(Parenthesized(x), Number(2)) for x in both))
     identity = equation(left, Sum((Power(U, Number(2)), Power(V, Number(2)))))
-    both_letters = Row((U, Words(" and "), V))
-    return "By ", identity, " with ", first, " and ", second, " for ", both_letters, ":"
+    return "By ", identity, " with ", first, " and ", second, " for ", U, " and ", V, ":"
 
 
 def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:

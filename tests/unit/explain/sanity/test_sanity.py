@@ -95,7 +95,7 @@ def test_the_determinant_of_the_planar_arm() -> None:
         "below is positive."
     )
     assert words(step.concluding) == (
-        "After the last equals sign no term is negative, and I₁ I₂ > 0. So D is positive definite."
+        "In the last expression no term is negative, and I₁ I₂ > 0. So D is positive definite."
     )
     assert said("in3140-rp", "definite") == (
         "Let all parameters be positive. On the diagonal of D, d₁₁ ≥ I_1zz > 0 and d₂₂ = m₂ > 0. All "
