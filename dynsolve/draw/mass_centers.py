@@ -27,14 +27,23 @@ from dynsolve.draw.vectors import (
     subtract,
 )
 from dynsolve.notation.walk import names_in
-from dynsolve.robot.model import Body, Convention, Robot
+from dynsolve.robot.model import Body, Convention, JointType, Robot
 
 _SHARES = (1.0, 0.7, 1.3)
 """What part of the way to the middle of a link a free symbol stands for, best first."""
 
+_OF_SLIDING_SHAPES = (0.7, 1.0, 1.3)
+"""The same for a shape that slides, of which nothing says that it is as long as it is far out."""
+
 _APART = 0.12
 _OFF_AXIS = 0.2
 """How far a mass centre lies off its frame where the table gives its link no length."""
+
+_PAST_AXIS = 0.46, 0.3
+"""How far along an axis of the frame a mass centre lies that one symbol gives there: past its arrow.
+
+The second is for a shape, which is twice as long.
+"""
 
 _UNEVEN = (1.3, 1.0, 0.5)
 """How much each of several symbols counts there, so that their sum looks like none of the axes."""
@@ -48,9 +57,11 @@ def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton) -> Skeleton
     masses: list[MassCenter] = []
     for body in robot.bodies:
         free = free_symbols(robot, body)
-        tried = (_mass(robot, numbers, bare, body, free, share) for share in _SHARES)
+        slides = robot.joints[body.link - 1].type is JointType.PRISMATIC and body.shape is not None
+        shares = _OF_SLIDING_SHAPES if slides else _SHARES
+        tried = [_mass(robot, numbers, bare, body, free, share) for share in shares]
         apart = (mass for mass in tried if _is_apart(mass, masses))
-        masses.append(next(apart, None) or _mass(robot, numbers, bare, body, free, _SHARES[0]))
+        masses.append(next(apart, tried[0]))
     return replace(bare, masses=tuple(masses))
 
 
@@ -115,7 +126,7 @@ def _local_center(
         return x, y, z
 
     middle = between(near, far, 0.5)
-    usual = 0.3 if distance(near, far) < NEAR else _OFF_AXIS
+    usual = _PAST_AXIS[body.shape is not None] if distance(near, far) < NEAR else _OFF_AXIS
     if is_open(robot, body.link):
         usual = _AT_END if body.is_point else _ON_OPEN
     try:

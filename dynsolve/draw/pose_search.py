@@ -41,6 +41,9 @@ _BEYOND = 24.0
 
 _TURNS = tuple(math.radians(15 * k) for k in range(-11, 13))
 _SLIDES = (0.6, 0.75, 0.9, 1.05)
+_SHAPES_OUT = (1.05, 1.2, 1.35)
+"""How far out a link is that slides, and one with a shape, which takes more room to be seen."""
+
 _AZIMUTHS = tuple(math.radians(10 * k + 5) for k in range(-9, 9))
 _ELEVATIONS = tuple(math.radians(angle) for angle in (18, 24, 30, 36))
 _SAMPLES, _IMPROVED, _ROUNDS = 260, 3, 3
@@ -80,7 +83,9 @@ def _pick(random: Random, values: Sequence[float]) -> float:
 
 def options_of(robot: Robot, orientation: Orientation) -> list[tuple[float, ...]]:
     """The values that each coordinate, and the view, may take."""
-    joints = [_TURNS if q.type is JointType.REVOLUTE else _SLIDES for q in robot.coordinates]
+    has_shapes = any(body.shape is not None for body in robot.bodies)
+    slides = _SHAPES_OUT if has_shapes else _SLIDES
+    joints = [_TURNS if q.type is JointType.REVOLUTE else slides for q in robot.coordinates]
     return joints if orientation.normal else [*joints, _AZIMUTHS, _ELEVATIONS]
 
 

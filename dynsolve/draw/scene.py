@@ -41,6 +41,7 @@ PARALLELS = "Dashed grey lines at a joint are parallel to the directions between
 
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey; a square corner is 90°."
 IN_METRES = "Lengths are in m."
+SHAPES = "Bodies of a given shape are tan, joints blue-grey."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
 _SUBSCRIPTS = str.maketrans("0123456789", SUBSCRIPT_DIGITS)
@@ -105,6 +106,7 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (_axis_of_base(robot), has_world(robot, values) and len(robot.base_turns) == 1),
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, has_offsets(pose)),
+        (SHAPES, bool(pose.bodies)),
         (OFF_LINKS, annotate.has_masses_off_links(pose)),
         (SPRINGS, bool(joint_springs(robot, values, pose))),
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),

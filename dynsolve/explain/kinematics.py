@@ -8,7 +8,7 @@ from dynsolve.document import Prose, Reference, Table
 from dynsolve.explain.base_frame import base_step, motion
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.writing import craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
@@ -208,6 +208,7 @@ def _general(context: Context) -> Step:
         )  # fmt: skip
         motions = (("x", alpha), ("x", a), ("z", theta), ("z", d))
     product = Product(tuple(motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
+    in_full = Product(tuple(_motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
     matrix = Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
     name = Letter("A", _I, style="bold")
     return Step(
@@ -220,10 +221,23 @@ def _general(context: Context) -> Step:
         ),
         formula=equation(name, product),
         source=spong("3.2") if context.standard else craig("3.5"),
+        lines=(Line((), (equation(name, in_full),)),) if context.is_short else (),
         task=equation(name, product, matrix),
         result=(equation(name, matrix),),
         detail=Detail.BRIEF,
     )
+
+
+def _motion(axis: str, amount: Node, turns: bool) -> Matrix:
+    """The 4×4 matrix of a rotation about an axis, x or z, or of a translation along it."""
+    rows: list[list[Node]] = [[_ONE if i == j else _ZERO for j in range(4)] for i in range(4)]
+    first, second, along = (1, 2, 0) if axis == "x" else (0, 1, 2)
+    if turns:
+        rows[first][first] = rows[second][second] = _cos(amount)
+        rows[first][second], rows[second][first] = Negative(_sin(amount)), _sin(amount)
+    else:
+        rows[along][3] = amount
+    return Matrix(tuple(map(tuple, rows)))
 
 
 def _row(context: Context, joint: Joint) -> Step:

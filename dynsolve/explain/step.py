@@ -30,13 +30,14 @@ class Line:
 
     Words that end in a colon lead on; where what goes in is put in without more, there are none.
     `uses` names the earlier steps whose results go in here, and not before.  Formulas that are referred
-    to later have a `label`, and so one number.
+    to later have a `label`, and so one number; many short ones stand `in_columns`.
     """
 
     by: Prose
     formulas: tuple[Node, ...]
     uses: tuple[str, ...] = ()
     label: str = ""
+    in_columns: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,7 +42,7 @@ from dynsolve.render.references import levels, numbered, with_results
 from dynsolve.render.typesetting import listed
 
 PHONE = 16.5
-"""What fits a phone, in em."""
+"""What fits a phone beside a number, in em."""
 
 PAGE = 44.0
 """What fits the widest page."""
@@ -145,12 +145,18 @@ class _Entry:
 
 
 def _multiplied(parts: Sequence[Piece]) -> Iterator[Piece]:
-    """The pieces; a matrix that a phone has no room for beside the factor before it has a product sign."""
+    """The pieces; a matrix before which a line may have ended has a product sign.
+
+    Where that is a line of a phone alone, the sign is seen there alone.
+    """
     taken = 0.0
     for part in parts:
-        apart = part.sign and taken + part.width > PHONE
-        yield replace(part, text=part.sign + part.text) if apart else part
-        taken = part.width + (0.0 if apart else taken)
+        taken += part.width
+        if part.sign and taken > PHONE:
+            sign = part.sign if taken > PAGE else f'<mrow class="broken">{part.sign}</mrow>'
+            yield replace(part, text=sign + part.text)
+        else:
+            yield part
 
 
 def _with_left_side(parts: Sequence[Piece]) -> list[Piece]:
@@ -281,7 +287,8 @@ class _Page(MarkupPage):
         for k, cell in enumerate(cells):
             if isinstance(cell, Node) and k not in prose:
                 names = list(listed(cell)) if isinstance(cell, Row) else [cell]
-                text = ", ".join(map(self.whole, names))
+                *before, last = map(self.whole, names)
+                text = " ".join([*(f'<span class="one">{each},</span>' for each in before), last])
             else:
                 text = self.prose((cell,))
             yield f'<{tag} class="words">{text}</{tag}>' if k in prose else f"<{tag}>{text}</{tag}>"
@@ -324,6 +331,7 @@ class _Page(MarkupPage):
             return
         label = formula.label
         kind = "result" if label else "law" if formula.source else "work"
+        kind += " wide" * (max(piece.width for piece in self.splitter.pieces(formula.node)) > PHONE)
         anchor = f' id="eq-{label}"' if label else ""
         beside = self.number(label) if label else ""
         if formula.source:

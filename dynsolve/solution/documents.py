@@ -289,7 +289,7 @@ def _leading_on(step: Step) -> Iterator[Block]:
         yield (
             Formula(line.formulas[0], optional=not line.label, label=line.label)
             if len(line.formulas) == 1
-            else Equations(line.formulas, label=line.label)
+            else Equations(line.formulas, in_columns=line.in_columns, label=line.label)
         )
     if step.concluding:
         yield Text(step.concluding)

@@ -20,6 +20,7 @@ from dynsolve.explain.jacobian_columns import column_letters
 from dynsolve.explain.step import Line
 from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.differentiation import product_of
+from dynsolve.explain.working.identities import doubled_angles
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.build import total
 from dynsolve.notation.tree import (
@@ -145,10 +146,12 @@ class BodyShare:
         left, right = (self._shown(joint) for joint in self.joints)
         each = [product_of(1, [(a, 1), (b, 1)]) for a, b in zip(left, right, strict=True)]
         entries = Parenthesized(total(each))
-        linear = equation(terms[0], Product((self.context.mass(self.body), entries)), show(self.linear))
-        return Line(
-            (f"Multiplied, for body {self.body.name}:",), (linear, equation(terms[1], show(self.angular)))
-        )
+        linear, angular = show(self.linear), show(self.angular)
+        by: Prose = (f"Multiplied, for body {self.body.name}",)
+        if used := dict.fromkeys(doubled_angles(linear, angular)):
+            by += (", with ", *listed(list(used)))
+        shown = equation(terms[0], Product((self.context.mass(self.body), entries)), linear)
+        return Line((*by, ":"), (shown, equation(terms[1], angular)))
 
     def _shown(self, joint: Joint) -> tuple[Node, ...]:
         """The entries of the column of J_v."""

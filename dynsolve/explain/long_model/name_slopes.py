@@ -5,7 +5,7 @@ A name is differentiated as it was defined, term by term; what comes out is ofte
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -30,6 +30,9 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import names_in
 from dynsolve.quantities import letters
+
+_FACTORS = (1, -1, 2, -2)
+"""The multiples of a name that a derivative is looked for among."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +113,7 @@ class NameSlopes:
     def _as_a_name(self, slope: Expr) -> Node | None:
         """A name, or a small multiple of one, that has this value."""
         for definition in self._candidates:
-            for factor in (1, -1, 2, -2):
+            for factor in _FACTORS:
                 if self._values[definition.name] * factor == slope:
                     return times(factor, [(definition.name, 1)])
         return None
@@ -138,11 +141,28 @@ class NameSlopes:
 
     @cached_property
     def _values(self) -> dict[Symbol, Expr]:
-        """What the names are worth, exactly."""
-        names = [definition.name for definition in self._candidates]
-        trees = expanded(self.model.short.definitions, names)
-        ring = self.model.context.robot.ring
-        return {name: value_of(ring, node) for name, node in zip(names, trees, strict=True)}
+        return _values(self.model, self._candidates)
+
+
+def slopes_that_are_names(model: LongModel) -> Iterator[tuple[Derivative, Node]]:
+    """∂σ/∂q where it is a name again, or twice one, and that: coordinate by coordinate."""
+    values = _values(model, model.short.sums)
+    known: dict[Expr, Node] = {}
+    for factor in _FACTORS:
+        for name, value in values.items():
+            known.setdefault(value * factor, times(factor, [(name, 1)]))
+    for k, q in enumerate(model.context.robot.coordinates):
+        for name, value in values.items():
+            if form := known.get(model.context.robot.ring.diff(value, k)):
+                yield letters.partial_derivative(name, Symbol(q.name)), form
+
+
+def _values(model: LongModel, definitions: Sequence[Definition]) -> dict[Symbol, Expr]:
+    """What names are worth, exactly."""
+    names = [definition.name for definition in definitions]
+    trees = expanded(model.short.definitions, names)
+    ring = model.context.robot.ring
+    return {name: value_of(ring, node) for name, node in zip(names, trees, strict=True)}
 
 
 def _of_single_angles(node: Node) -> Node:

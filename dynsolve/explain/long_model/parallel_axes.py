@@ -58,12 +58,16 @@ def _by_points(context: Context) -> Prose:
     axis_of_i = letters.bold("z", Sum((_I, Negative(Number(1)))) if context.standard else _I)
     slope = letters.partial_derivative(by_j, Letter("q", _I))
     return (
-        Letter("c", Row((_I, _J, _K))),
+        Letter("d", Row((_J, _K))),
         " is the sum over all points ",
         p,
         " of the bodies of their mass times ",
+        Product((Transpose(Parenthesized(by_k)), by_j)),
+        ". Put into the formula below, four of six terms cancel: ",
+        Letter("c", Row((_I, _J, _K))),
+        " is the sum of the masses times ",
         Product((Transpose(Parenthesized(by_k)), slope)),
-        "; where ",
+        ". Where ",
         Relation((_I, _J), ("≤",)),
         ", joint i turns ",
         by_j,

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from dynsolve.document import Prose
 from dynsolve.explain.christoffel import in_slopes
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.long_model.model import LongModel
-from dynsolve.explain.long_model.name_slopes import NameSlopes
+from dynsolve.explain.long_model.name_slopes import NameSlopes, slopes_that_are_names
 from dynsolve.explain.recurring import expanded_once
 from dynsolve.explain.step import Line
+from dynsolve.explain.working.identities import doubled_angles
+from dynsolve.explain.writing import listed
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import (
     ZERO,
@@ -20,6 +22,7 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Product,
     Relation,
+    Slashed,
     Sum,
     Symbol,
     equation,
@@ -54,12 +57,30 @@ def christoffel_example(model: LongModel, row: int, column: int) -> tuple[Line, 
     if not names:
         return (Line(("For example:",), (equation(*dict.fromkeys((*first.parts, once, form))),)),)
     put_in = _put_in(by_entries, {each.parts[0]: each.parts[-1] for each in entries})
+    shown = {each.parts[0] for each in names}
+    others = tuple(
+        equation(Slashed(slope), form) for slope, form in slopes_that_are_names(model) if slope not in shown
+    )
+    again = "Other derivatives of names, found in the same way, that are names again:"
     return (
         Line(("For example:",), (first,)),
-        Line(("The names are differentiated as they were defined:",), names),
+        Line(("The names are differentiated as they were defined", *_with_doubled(model, names), ":"), names),
         Line(("With these:",), entries),
         Line(("Put in:",), (equation(*dict.fromkeys((name, put_in, once, form))),)),
+        *([Line((again,), others, in_columns=True)] if others else []),
     )
+
+
+def _with_doubled(model: LongModel, slopes: Sequence[Relation]) -> Prose:
+    """The identities by which derivatives of names are names that have sines or cosines of twice an angle."""
+    meanings = {one.name: one.meaning for one in model.short.sums}
+    found: dict[Relation, None] = {}
+    for relation in slopes:
+        named = [meanings[node] for node in walk(relation.parts[-1]) if node in meanings]
+        found |= dict.fromkeys(doubled_angles(*named))
+        for known in doubled_angles(*relation.parts):
+            found.pop(known, None)
+    return (", with ", *listed(list(found))) if found else ()
 
 
 def _entries_differentiated(

@@ -61,10 +61,11 @@ def inertia(model: LongModel, step: Step) -> Step:
     if model.direct is None:  # the forces come from the recursions, and no energy is there
         return replace(step, result=result)
     given = model.context.robot.given is not None
+    in_full = (" The next section works one entry out.",) if worked_entry(model) else ()
     return replace(
         step,
         title=model.direct.title,
-        why=_on_what_it_depends(model) if given else (*_of_the_bodies(), *_on_what_it_depends(model)),
+        why=(*(() if given else _of_the_bodies()), *_on_what_it_depends(model), *in_full),
         formula=model.direct.formula,
         source=model.direct.source,
         result=result,
@@ -119,7 +120,7 @@ def christoffel(model: LongModel, step: Step) -> Step:
         step,
         why=_on_symbols(model),
         lines=example,
-        concluding=("The others in the same way:",) if example else (),
+        concluding=("The other symbols in the same way:",) if example else (),
         result=rows,
         listed=True,
         notes=(note,),

@@ -115,6 +115,17 @@ def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
 _FULL = {"sin": "sine", "cos": "cosine"}
 
 
+def doubled_angles(*nodes: Node) -> Iterator[Relation]:
+    """What cos(2θ) and sin(2θ) stand for, where they do in trees: c² - s² = cos(2θ), 2 s c = sin(2θ)."""
+    for part in walk(*nodes):
+        match part:
+            case Function("cos", Product((Number(2, 1), angle))):
+                c, s = (Power(Function(name, angle), Number(2)) for name in ("cos", "sin"))
+                yield equation(Sum((c, Negative(s))), part)
+            case Function("sin", Product((Number(2, 1), angle))):
+                yield equation(Product((Number(2), Function("sin", angle), Function("cos", angle))), part)
+
+
 def pythagoras(angle: Node) -> Identity:
     """sin² + cos² = 1 of an angle."""
     squares = tuple(Power(Function(name, angle), Number(2)) for name in ("sin", "cos"))

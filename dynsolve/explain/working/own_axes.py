@@ -77,7 +77,8 @@ def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter, wri
     if seen.T @ along == along:
         given = f"v{body.name}" if quantity == "w" else f"Jv{body.name}#2"
         yield Line((*by, ":"), (equation(in_frame, first, own),), (given, "H0"))
-        yield _kept(context, body, quantity, equation(whole, in_frame))
+        turned_back = Product((Transpose(Parenthesized(axes)), Parenthesized(in_frame)))
+        yield _kept(context, body, quantity, equation(whole, turned_back, in_frame))
         return
     yield Line((*by, ":"), (equation(in_frame, first, context.show(along)),))
     if quantity == "w":
@@ -92,10 +93,13 @@ def _kept(context: Context, body: Body, quantity: str, same: Node) -> Line:
     """That the rotation from frame 0 to the body's axes leaves ω, or the columns of J_ω, as they are."""
     axes = turned_name(context, 0, letters.of_body("R", body, "bold"))
     seen = rotation(context.values["H0"]).T @ context.values[f"R{body.name}"]
-    what = "this vector, and leaves it as it is"
-    if quantity != "w":
-        what = "these columns, and leaves them as they are"
-    by: Prose = (axes, *_made_of(context, body, seen), f", turns about the axis of {what}:")
+    what = "this vector, which its" if quantity == "w" else "these columns, which its"
+    factors = _table_factors(context, body, seen)
+    by: Prose = (axes, " turns")
+    if factors is not None:
+        H = (letters.H(context.robot, link) for link in (body.link, 0))
+        by = (axes, " is the rotation of ", factors, ", as ", equation(next(H), Product((*H, factors))), ",")
+    by += (f" about the axis of {what} transpose leaves as {'it is' if quantity == 'w' else 'they are'}:",)
     rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
     return Line(by, (same,), (f"R{body.name}", *rows))
 
@@ -120,11 +124,17 @@ def _axes_seen(context: Context, body: Body, axes: Node, seen: Matrix) -> Line:
 
 def _made_of(context: Context, body: Body, seen: Matrix) -> Prose:
     """That the body's axes, seen from frame 0, are the rotation of A_1 A_2, where that is so."""
+    factors = _table_factors(context, body, seen)
+    return () if factors is None else (", the rotation of ", factors)
+
+
+def _table_factors(context: Context, body: Body, seen: Matrix) -> Node | None:
+    """A_1 A_2, where its rotation is that from frame 0 to the body's axes."""
     base, H = rotation(context.values["H0"]), context.values[f"H{body.link}"]
     factors = tuple(letters.A(joint.index) for joint in context.robot.path(body.link))
     if not factors or seen != base.T @ rotation(H):
-        return ()
-    return (", the rotation of ", Product(factors) if len(factors) > 1 else factors[0])
+        return None
+    return Product(factors) if len(factors) > 1 else factors[0]
 
 
 def _with(context: Context, R: Matrix, value: Matrix) -> Prose:

@@ -67,16 +67,16 @@ def test_equations_on_one_line_that_do_not_fit_go_on_below_after_a_comma() -> No
 def test_a_matrix_too_wide_is_given_entry_by_entry() -> None:
     long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
     shown = lines(Formula(equation(Letter("D"), matrix(f"{long}, x", "x, 0"))), columns=80)
-    assert shown[0].startswith("      D₁₁ = m₁ l₁ cos(q₁) + ")
-    assert "      D₁₂ = D₂₁ = x" in shown
-    assert "      D₂₂ = 0" in shown
+    assert shown[0].startswith("    D₁₁ = m₁ l₁ cos(q₁) + ")
+    assert "    D₁₂ = D₂₁ = x" in shown
+    assert "    D₂₂ = 0" in shown
 
 
 def test_names_of_entries_are_used() -> None:
     long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
     names = ((Letter("tau", Number(1)),), (Letter("f", Number(2)),))
     shown = lines(Formula(equation(Letter("tau"), matrix(long, "x")), entries=names))
-    assert "      f₂ = x" in shown
+    assert "    f₂ = x" in shown
 
 
 def test_an_optional_formula_is_left_out_where_it_does_not_fit() -> None:
