@@ -8,7 +8,7 @@ from dynsolve.document import Prose, Reference, Table
 from dynsolve.explain.base_frame import base_step, motion
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.writing import craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
@@ -221,7 +221,7 @@ def _general(context: Context) -> Step:
         ),
         formula=equation(name, product),
         source=spong("3.2") if context.standard else craig("3.5"),
-        lines=(Line((), (equation(name, in_full),)),) if context.is_short else (),
+        further=(equation(name, in_full),) if context.is_short else (),
         task=equation(name, product, matrix),
         result=(equation(name, matrix),),
         detail=Detail.BRIEF,

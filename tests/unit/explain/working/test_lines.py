@@ -304,8 +304,9 @@ def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -
     whole = lines(TILTED_BODIES, "Kw1")
     assert whole[1].startswith("(𝐑₀^w)ᵀ 𝛚₁ = [[") and whole[1].endswith(" = [[0], [0], [q̇₁]]")
     assert whole[2:4] == [
-        "(𝐑₀^w)ᵀ 𝐑₁, the rotation of 𝐀₁, turns about the axis of this vector, and leaves it as it is:",
-        "𝐑₁ᵀ 𝛚₁ = (𝐑₀^w)ᵀ 𝛚₁",
+        "(𝐑₀^w)ᵀ 𝐑₁ is the rotation of 𝐀₁, as 𝐇₁^w = 𝐇₀^w 𝐀₁, about the axis of this vector, "
+        "which its transpose leaves as it is:",
+        "𝐑₁ᵀ 𝛚₁ = ((𝐑₀^w)ᵀ 𝐑₁)ᵀ ((𝐑₀^w)ᵀ 𝛚₁) = (𝐑₀^w)ᵀ 𝛚₁",
     ]
 
 
