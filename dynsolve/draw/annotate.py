@@ -49,7 +49,8 @@ _AROUND = 11.0
 class Notes:
     """Paths and labels as they are collected; `taken` is what is drawn so far, `solid` the robot's body.
 
-    `behind` are the paths that the body of the robot is drawn over, `lengths` the lines of lengths.
+    `behind` are the paths that the body of the robot is drawn over, `lengths` the lines of lengths,
+    `tips` the heads of the axes' arrows, and `heads` where they are.
     """
 
     style: Style
@@ -59,6 +60,8 @@ class Notes:
     wanted: list[Wanted] = field(default_factory=list)
     solid: Taken = field(default_factory=Taken)
     lengths: Taken = field(default_factory=Taken)
+    heads: Taken = field(default_factory=Taken)
+    tips: list[Path] = field(default_factory=list)
 
     def draw(self, *paths: Path, behind: bool = False) -> None:
         """Add paths."""
@@ -127,11 +130,14 @@ def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     reach = reach_of_axis((x, y), pose)
     tip = (origin[0] + x * reach, origin[1] + y * reach)
     back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
+    head = Path(paths.head(tip, (x, y)), None, fill=paths.FRAME)
     notes.draw(
         Path(paths.line(origin, back), paths.WHITE, 4.2),
         Path(paths.line(origin, back), paths.FRAME, 1.6),
-        Path(paths.head(tip, (x, y)), None, fill=paths.FRAME),
+        head,
     )
+    notes.tips.append(head)
+    notes.heads.add([head])
     return tip
 
 

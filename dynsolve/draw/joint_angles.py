@@ -87,6 +87,8 @@ def joint_angles(pose: Pose, names: Sequence[Node], notes: Notes) -> None:
             _ring(pose, part, name, notes)
         else:
             _angle_in_space(pose, part, leg, name, notes)
+    if len(pose.skeleton.legs) > MANY:
+        notes.paths.extend(notes.tips)  # an arrow around an axis is not to cut the head of that axis
 
 
 def _turning(pose: Pose) -> Iterator[tuple[JointBody, Leg]]:
@@ -96,14 +98,18 @@ def _turning(pose: Pose) -> Iterator[tuple[JointBody, Leg]]:
             yield part, pose.skeleton.legs[part.row - 1]
 
 
-def parallels(robot: Robot, pose: Pose) -> list[int | None]:
-    """For every dashed line the frame whose x axis it is parallel to, None where it is to none."""
-    found: list[int | None] = []
+def parallels(robot: Robot, pose: Pose) -> list[tuple[str, int] | None]:
+    """For every dashed line the axis that it is parallel to, ("x", 1), None where it is to none.
+
+    That is an x axis at one end of the row, or where it is none of these the z axis after it.
+    """
+    found: list[tuple[str, int] | None] = []
     for part, leg in _turning(pose):
         if pose.view.flat or not _has_ring(pose, leg):
-            ends = (part.row, leg.after), (robot.joints[part.row - 1].parent, leg.before)
+            row, parent = part.row, robot.joints[part.row - 1].parent
+            axes = {("x", row): leg.after, ("x", parent): leg.before, ("z", row): pose.skeleton.frames[row].z}
             found += (
-                next((frame for frame, x in ends if dot(x, direction) > _ALIKE), None)
+                next((name for name, axis in axes.items() if dot(axis, direction) > _ALIKE), None)
                 for direction in _unseen(leg, _center(pose, part, leg), pose)
             )
     return found

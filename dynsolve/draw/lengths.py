@@ -35,6 +35,9 @@ _UNDER, _ACROSS, _HEAD = 12.0, 4.0, 8.0
 _ON_LINK = 150.0
 """What it costs to run over a link or a joint."""
 
+_CUT = 60.0
+"""What it costs to cut the head of an axis."""
+
 _OVER = 30.0
 """What each cell costs of another length, or of the lines to its ends, that a length's line runs over."""
 
@@ -175,8 +178,9 @@ def _shift(
         under = _UNDER * taken.cells_on(p, q) + _ACROSS * sum(taken.cells_on(*line) for line in from_ends)
         heads = sum(taken.inside(Box.around(at, 6.0, 6.0)) for at in (p, q))
         on_link = _ON_LINK if notes.solid.cells_on(p, q) else 0.0
+        cut = _CUT * bool(notes.heads.cells_on(p, q))
         over = _OVER * notes.lengths.cells_on(p, q)
-        return 250.0 * crowded(shift) + _RESERVED * in_places + under + _HEAD * heads + on_link + over
+        return 250.0 * crowded(shift) + _RESERVED * in_places + under + _HEAD * heads + on_link + over + cut
 
     tried = [(round(cost(shift) + price, 6), k, shift) for k, (shift, price) in enumerate(_shifts(along))]
     best = min(tried)[-1]

@@ -6,9 +6,10 @@ One that is given by a symbol which the table does not have lies near the middle
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import cycle
+from functools import partial
+from itertools import cycle, permutations, product
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
@@ -39,21 +40,30 @@ _APART = 0.12
 _OFF_AXIS = 0.2
 """How far a mass centre lies off its frame where the table gives its link no length."""
 
-_PAST_AXIS = 0.46, 0.3
-"""How far along an axis of the frame a mass centre lies that one symbol gives there: past its arrow.
-
-The second is for a shape, which is twice as long.
-"""
+_ON_AXIS, _PAST_AXIS = 0.3, 0.46
+"""How far along an axis of its frame a mass centre lies; past the arrow where the next link slides there."""
 
 _UNEVEN = (1.3, 1.0, 0.5)
 """How much each of several symbols counts there, so that their sum looks like none of the axes."""
+
+_CLEAR = 15.0
+"""How clear of all else such a centre is to be on paper, where some way to count them gives that."""
+
+_ALL_UNEVEN = tuple(
+    tuple(size * sign * part for sign, part in zip(signs, parts, strict=True))
+    for size in (1.0, 1.6)
+    for signs in product((1.0, -1.0), repeat=3)
+    for parts in permutations(_UNEVEN)
+)
+
+Clear = Callable[[MassCenter, Sequence[MassCenter]], float]
 
 _ON_OPEN, _AT_END = 0.6, 1.0
 """How far along a link the table says no end of, and how far out a point mass at the end of such a link."""
 
 
-def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton) -> Skeleton:
-    """The skeleton with its mass centres."""
+def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton, clear: Clear | None = None) -> Skeleton:
+    """The skeleton with its mass centres; `clear` says how clear one is of all else, those before it too."""
     masses: list[MassCenter] = []
     for body in robot.bodies:
         free = free_symbols(robot, body)
@@ -61,8 +71,31 @@ def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton) -> Skeleton
         shares = _OF_SLIDING_SHAPES if slides else _SHARES
         tried = [_mass(robot, numbers, bare, body, free, share) for share in shares]
         apart = (mass for mass in tried if _is_apart(mass, masses))
-        masses.append(next(apart, tried[0]))
+        found = next(apart, tried[0])
+        if clear is not None and len(free) > 1:
+            found = _clearest(found, clear, masses, partial(_mass, robot, numbers, bare, body, free, 1.0))
+        masses.append(found)
     return replace(bare, masses=tuple(masses))
+
+
+def _clearest(
+    usual: MassCenter,
+    clear: Clear,
+    others: Sequence[MassCenter],
+    counted: Callable[[Sequence[float]], MassCenter],
+) -> MassCenter:
+    """A mass centre that several letters give, where it is clear of all else, or as clear as can be."""
+    if clear(usual, others) >= _CLEAR:
+        return usual
+    best, most = usual, clear(usual, others)
+    for uneven in _ALL_UNEVEN:
+        mass = counted(uneven)
+        room = clear(mass, others)
+        if room >= _CLEAR:
+            return mass
+        if room > most + NEAR:
+            best, most = mass, room
+    return best
 
 
 def _is_from_near(body: Body) -> bool:
@@ -88,7 +121,13 @@ def _is_apart(mass: MassCenter, others: Sequence[MassCenter]) -> bool:
 
 
 def _mass(
-    robot: Robot, numbers: RobotNumbers, bare: Skeleton, body: Body, free: Sequence[str], share: float
+    robot: Robot,
+    numbers: RobotNumbers,
+    bare: Skeleton,
+    body: Body,
+    free: Sequence[str],
+    share: float,
+    uneven: Sequence[float] = _UNEVEN,
 ) -> MassCenter:
     frame = bare.frames[body.link]
     near, far = near_and_far(robot, bare, body.link)
@@ -97,7 +136,7 @@ def _mass(
     if written in exact:
         return MassCenter(body.name, exact[written], body.is_point, body.link)
     ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
-    center, from_, rate, chosen = _local_center(robot, numbers, body, free, share, *ends)
+    center, from_, rate, chosen = _local_center(robot, numbers, body, free, share, uneven, *ends)
     place = add(frame.origin, applied(frame.axes, center))
     if not free and (number := _number(robot, numbers, body)):
         from_end = near if _is_from_near(body) else frame.origin
@@ -113,6 +152,7 @@ def _local_center(
     body: Body,
     free: Sequence[str],
     share: float,
+    uneven: Sequence[float],
     near: Vector,
     far: Vector,
 ) -> tuple[Vector, Vector | None, float, tuple[tuple[str, float], ...]]:
@@ -126,23 +166,29 @@ def _local_center(
         return x, y, z
 
     middle = between(near, far, 0.5)
-    usual = _PAST_AXIS[body.shape is not None] if distance(near, far) < NEAR else _OFF_AXIS
+    usual = _past_axis(robot, body) if distance(near, far) < NEAR else _OFF_AXIS
     if is_open(robot, body.link):
         usual = _AT_END if body.is_point else _ON_OPEN
     try:
         start = center()
-        for name, uneven in zip(free, cycle(_UNEVEN)):
-            step = subtract(center(**{name: 1.0}), start)
-            twice = subtract(center(**{name: 2.0}), start)
+        for name, part in zip(free, cycle(uneven)):
+            so_far = center()
+            step = subtract(center(**{name: 1.0}), so_far)
+            twice = subtract(center(**{name: 2.0}), so_far)
             straight = distance(twice, scale(step, 2.0)) < NEAR
             rate = length(step) * numbers.unit if straight else 0.0
-            amount = _best(step, subtract(middle, start), distance(near, far), usual, len(free), uneven)
+            amount = _best(step, subtract(middle, so_far), distance(near, far), usual, len(free), part)
             values[name] = share * amount
         found = center()
     except (ValueError, ZeroDivisionError, OverflowError):
         return middle, None, 0.0, ()
     measured = len(free) == 1 and rate > NEAR and distance(start, found) > NEAR
     return found, start if measured else None, rate, tuple((name, values[name]) for name in free)
+
+
+def _past_axis(robot: Robot, body: Body) -> float:
+    slides = any(joint.type is JointType.PRISMATIC for joint in robot.joints[body.link : body.link + 1])
+    return _PAST_AXIS if slides and body.shape is None else _ON_AXIS
 
 
 def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols: int, uneven: float) -> float:

@@ -9,9 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from random import Random
 
 from dynsolve.draw.bodies import drawn_bodies, sleeves
+from dynsolve.draw.clearance import clearance
 from dynsolve.draw.drawn_lengths import RobotNumbers
 from dynsolve.draw.last_links import last_links
 from dynsolve.draw.loops import closing_links
@@ -71,7 +73,7 @@ def best_pose(
     starts = sorted(set(tried), key=lambda choice: (cost(choice), choice))[:_IMPROVED]
     best = min((improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
     pose = pose_of(robot, numbers, orientation, best, slid_in)
-    body = with_masses(robot, numbers, pose.skeleton)
+    body = with_masses(robot, numbers, pose.skeleton, partial(clearance, pose))
     more = (*closing_links(robot, body), *last_links(robot, body, pose.view.space(_BEYOND)))
     parts = replace(pose.parts, links=(*pose.parts.links, *more))
     return replace(pose, skeleton=body, parts=parts, bodies=drawn_bodies(robot, numbers, body))

@@ -44,6 +44,7 @@ IN_METRES = "Lengths are in m."
 SHAPES = "Bodies of a given shape are tan, joints blue-grey."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
+_BOLD = {"x": "𝐱", "y": "𝐲", "z": "𝐳"}
 _SUBSCRIPTS = str.maketrans("0123456789", SUBSCRIPT_DIGITS)
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)
@@ -116,27 +117,28 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
 
 def _axis_of_base(robot: Robot) -> str:
     """The axis about which frame 0 is turned in the world: the same in both."""
-    axis = {"x": "𝐱", "y": "𝐲", "z": "𝐳"}[robot.base_turns[0][0]] if robot.base_turns else ""
-    return f"{axis}₀ is that of the world, too."
+    axis = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
+    return f"{axis}₀, about which the base is turned, is that of the world, too."
 
 
 def _is_number(label: Label) -> bool:
     return not set("".join(run.text for run in label.line.runs)) - set("0123456789.")
 
 
-def _parallel(frames: Sequence[int | None]) -> str:
-    """To the x axes of which frames the dashed lines are parallel.
+def _parallel(found: Sequence[tuple[str, int] | None]) -> str:
+    """To which axes the dashed lines are parallel.
 
-    >>> _parallel([1])
+    >>> _parallel([("x", 1)])
     'The dashed grey line is parallel to 𝐱₁.'
-    >>> _parallel([1, 3, 4])
-    'The dashed grey lines are parallel to 𝐱₁, 𝐱₃ and 𝐱₄.'
+    >>> _parallel([("z", 1), ("x", 1), ("x", 4)])
+    'The dashed grey lines are parallel to 𝐳₁, 𝐱₁ and 𝐱₄.'
     """
-    if None in frames:
+    known = dict.fromkeys(axis for axis in found if axis is not None)
+    if not known or None in found:
         return PARALLELS
-    axes = [f"𝐱{str(frame).translate(_SUBSCRIPTS)}" for frame in dict.fromkeys(frames)]
+    axes = [f"{_BOLD[letter]}{str(frame).translate(_SUBSCRIPTS)}" for letter, frame in known]
     named = " and ".join([", ".join(axes[:-1]), axes[-1]] if len(axes) > 1 else axes)
-    return f"The dashed grey {'line is' if len(frames) == 1 else 'lines are'} parallel to {named}."
+    return f"The dashed grey {'line is' if len(found) == 1 else 'lines are'} parallel to {named}."
 
 
 def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:

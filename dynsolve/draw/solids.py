@@ -31,6 +31,9 @@ from dynsolve.robot.model import JointType
 _GROUND, _PLATE = 30.0, 40.0
 """Half the length of the ground in a plane, and half the side of its plate, on which an angle may stand."""
 
+_STEEP = 0.93
+"""The cosine to the way down from which an edge of the ground has no strokes."""
+
 
 def solids(parts: Parts, view: View, up: Vector, bodies: Sequence[DrawnBody] = ()) -> tuple[Path, ...]:
     """All of a robot's body but the ground, from back to front."""
@@ -108,12 +111,14 @@ def _hatched_line(
 
 
 def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
-    """Short slanted strokes under a line."""
+    """Short slanted strokes under a line; none beside one so steep that they would run along it."""
     reach = math.dist(a, b)
     if reach < 1.0:
         return []
     drop = math.hypot(*down) or 1.0
     x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    if abs(x * down[0] + y * down[1]) > _STEEP * drop:
+        return []
     slant = (down[0] / drop * 8.0 - x * 6.0, down[1] / drop * 8.0 - y * 6.0)
     count = max(2, round(reach / 7.5))
     starts = [(a[0] + x * reach * k / count, a[1] + y * reach * k / count) for k in range(1, count + 1)]

@@ -86,7 +86,7 @@ def steps_in_names(steps: Iterable[Step], context: Context, short: Abbreviated) 
         labels[short.single.name] = "christoffel"
     for step in steps:
         in_sums = _in_sums(step, context, short, labels)
-        written = _in_symbols(in_sums, short)
+        written = _in_symbols(_ending_in_sums(in_sums, short, labels), short, labels)
         met = _first_met(short, written, labels)
         referring = tuple(dict.fromkeys((*written.names, *_used(step, written, short, labels))))
         written = _on_named(replace(written, names=referring), context, short, labels)
@@ -127,12 +127,35 @@ def _used(step: Step, written: Step, short: Abbreviated, labels: Mapping[Symbol,
         yield DERIVATIVES
     elif step.id in _COLLECTED:
         yield from (labels[name] for name in of_sums)
-    if step.id.startswith("dLdq") and written.lines:
-        before = set(walk(*written.lines[-1].formulas))
-        yield from (labels[name] for name in of_sums if name not in before)
-    if _BY_SYMBOLS.fullmatch(step.id):
+    if _BY_SYMBOLS.fullmatch(step.id) and not _has_way(written):
         of_symbols = {one.name for one in short.of_symbols if one != short.single}
         yield from (labels[name] for name in names if name in of_symbols)
+
+
+def _ending_in_sums(step: Step, short: Abbreviated, labels: Mapping[Symbol, str]) -> Step:
+    """A derivative of L that is collected in names of sums which the line before has not: they are said."""
+    if short.inertias is None or not (step.id.startswith("dLdq") and _has_way(step)):
+        return step
+    before = set(walk(*step.lines[-1].formulas))
+    names = (node for node in walk(*step.result) if isinstance(node, Symbol) and node not in before)
+    return _ending_in(step, [name for name in dict.fromkeys(names) if name in short.inertias.symbols], labels)
+
+
+def _ending_in(step: Step, names: Sequence[Symbol], labels: Mapping[Symbol, str]) -> Step:
+    """The step with what is said before its result: collected, written with σ₁ in (55)."""
+    if not names:
+        return step
+    *before, last = step.concluding
+    assert isinstance(last, str)
+    known = tuple(dict.fromkeys(labels[name] for name in names if name in labels))
+    defined = (Reference(known, " in "),) if known else ()
+    said = f"{last.removesuffix(':')}, written with "
+    return replace(step, concluding=(*before, said, *listed(list(names)), *defined, ":"))
+
+
+def _has_way(step: Step) -> bool:
+    """Whether lines lead to the result, and something is said before that."""
+    return bool(step.lines and step.concluding)
 
 
 def _on_named(step: Step, context: Context, short: Abbreviated, labels: Mapping[Symbol, str]) -> Step:
@@ -248,7 +271,7 @@ def _last_put(names: InertiaNames) -> Callable[[Node], Node]:
 # -- names of symbols ------------------------------------------------------------------------------
 
 
-def _in_symbols(step: Step, short: Abbreviated) -> Step:
+def _in_symbols(step: Step, short: Abbreviated, labels: Mapping[Symbol, str]) -> Step:
     """A step whose result has the names of symbols beside products of rates."""
     if not _WITH_RATES.fullmatch(step.id):
         return step
@@ -269,14 +292,8 @@ def _in_symbols(step: Step, short: Abbreviated) -> Step:
 
     written = replace(step, result=tuple(map(put, step.result)))
     names = set(walk(*written.result)) - set(walk(*step.result))
-    shown: list[Node] = [one.name for one in short.of_symbols if one.name in names]
-    if not (shown and step.lines and step.concluding):
-        return written
-    *before, last = step.concluding
-    assert isinstance(last, str)
-    return replace(
-        written, concluding=(*before, f"{last.removesuffix(':')}, written with ", *listed(shown), ":")
-    )
+    shown = [one.name for one in short.of_symbols if one.name in names]
+    return _ending_in(written, shown, labels) if _has_way(step) else written
 
 
 def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:

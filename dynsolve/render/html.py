@@ -33,7 +33,7 @@ from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
-from dynsolve.render.line_breaking import SUM_BREAK, FormulaSplitter, Notation, Piece, together
+from dynsolve.render.line_breaking import RELATION_BREAK, FormulaSplitter, Notation, Piece, together
 from dynsolve.render.matrices import entry_equations, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.parentheses import HEIGHTS, height_around
@@ -47,11 +47,17 @@ PHONE = 16.5
 PAGE = 44.0
 """What fits the widest page."""
 
+_SHORT_CELL = 6
+"""The letters of a cell of a table up to which it is never broken."""
+
 _FINE = 6.0
 _FRACTION = 13.0
 _WHOLE = 13.0
+_FEW, _COLUMN = 12, 20.0
+"""The equations that stand under each other where one is wider than this, in em, which a column holds."""
+
 _LEVELS = ("brief", "normal", "full")
-_CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>[.,:;)]+")
+_CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
 
 
 def render(document: Document, style: Style = PLAIN, level: str = "normal") -> str:
@@ -165,20 +171,21 @@ def _with_left_side(parts: Sequence[Piece]) -> list[Piece]:
         return list(parts)
     first, second, *rest = parts
     width = first.width + second.width
-    is_broken = bool(rest) and rest[0].depth > SUM_BREAK and width <= PHONE
+    is_broken = bool(rest) and rest[0].depth > RELATION_BREAK and width <= PHONE
     if second.width > PHONE or is_broken:
         return [Piece(first.text + second.text, width), *rest]
     return list(parts)
 
 
-def _nested(parts: Sequence[Piece], depth: int = SUM_BREAK) -> str:
+def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK) -> str:
     """Pieces between which a line may end; one with the deeper ones after it is a box with lines of its own.
 
-    So a browser, which looks at no depth, breaks what is in parentheses only where no line holds it whole.
+    So a browser, which looks at no depth, breaks a chain at its equals signs, and a member of it,
+    or what is in parentheses, only where no line holds that whole.
 
-    >>> _nested([Piece("a", 1), Piece("=b", 2), Piece("+(c", 2, 1), Piece("+d)", 2, 3)])
+    >>> _nested([Piece("a", 1), Piece("=b", 2), Piece("=c", 2), Piece("+d", 2, 1)])
     '<math displaystyle="true">a</math><wbr><math displaystyle="true">=b</math><wbr>\
-<span class="whole"><math displaystyle="true">+(c</math><wbr><math displaystyle="true">+d)</math></span>'
+<span class="whole"><math displaystyle="true">=c</math><wbr><math displaystyle="true">+d</math></span>'
     """
     groups: list[list[Piece]] = []
     for part in parts:
@@ -235,7 +242,7 @@ class _Page(MarkupPage):
 
     def equations(self, equations: Equations) -> Iterator[str]:
         lines = "".join(map(self.broken, equations.nodes))
-        columns = " columns" if equations.in_columns else ""
+        columns = " columns" if equations.in_columns and self.fit_columns(equations.nodes) else ""
         label = equations.label
         kind, anchor = ("result", f' id="eq-{label}"') if label else ("work", "")
         number = self.number(label) if label else ""
@@ -291,6 +298,8 @@ class _Page(MarkupPage):
                 text = " ".join([*(f'<span class="one">{each},</span>' for each in before), last])
             else:
                 text = self.prose((cell,))
+                if isinstance(cell, str) and len(cell) <= _SHORT_CELL:
+                    text = f'<span class="one">{text}</span>'
             yield f'<{tag} class="words">{text}</{tag}>' if k in prose else f"<{tag}>{text}</{tag}>"
 
     def picture(self, picture: Picture) -> Iterator[str]:
@@ -318,7 +327,8 @@ class _Page(MarkupPage):
         """A formula in a sentence; a long one may be broken."""
         if self.ruler.width(node) <= 0.8 * PHONE:
             return self.whole(node)
-        return "<wbr>".join(math(piece.text) for piece in self.splitter.pieces(node))
+        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
+        return "<wbr>".join(math(part.text) for part in parts)
 
     def whole(self, node: Node) -> str:
         """A formula that is not broken."""
@@ -386,10 +396,14 @@ class _Page(MarkupPage):
         left = node.parts[0] if isinstance(node, Relation) else None
         if isinstance(node, Relation) and len(node.parts) > 2 and not any(map(holds_matrix, node.parts[:-1])):
             yield self.broken(Relation(node.parts[:-1], node.signs[:-1]))
-        yield '<div class="columns">'
-        for chain in entry_equations(matrix, left, formula):
-            yield self.broken(chain)
+        chains = list(entry_equations(matrix, left, formula))
+        yield '<div class="columns">' if self.fit_columns(chains) else "<div>"
+        yield from map(self.broken, chains)
         yield "</div>"
+
+    def fit_columns(self, nodes: Sequence[Node]) -> bool:
+        """Whether equations stand in columns: many, or such as a column holds on one line."""
+        return len(nodes) > _FEW or all(self.ruler.width(node) <= _COLUMN for node in nodes)
 
     def contents(self) -> str:
         """The table of contents."""

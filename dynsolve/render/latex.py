@@ -3,7 +3,7 @@ r"""Documents -> LaTeX: a complete document, or a fragment to \input; amsmath an
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import chain, groupby, pairwise, zip_longest
 
 from dynsolve.document import (
@@ -40,12 +40,15 @@ FRAGMENT_PAGE = 32.8
 
 _NUMBER = 3.4
 _MOST_ROWS = 18
-_ROWS_TOGETHER = 6  # of a longer table
+_ROWS_TOGETHER = 3  # of a longer table
 _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 7.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
 _STAYS = r"\begingroup\postdisplaypenalty=10000"
+_RAGGED = r"\rightskip=0pt plus 4em\relax "
+"""Words in a narrow column are not stretched; \raggedright would take the ends of the rows away."""
+
 _STRUTS = ((FLAT, ""), (2.6, r"\rule[-2.5ex]{0pt}{6.3ex}"), (99.0, r"\rule[-2.7ex]{0pt}{7.7ex}"))
 """What makes a row of a table as high as its formulas, each up to a height in em."""
 _FENCES = ((FLAT, ""), (HEIGHTS[1], "big"), (1.8, "Big"), (2.4, "bigg"))
@@ -288,7 +291,8 @@ class _Page(TypesetPage):
 
     def table(self, table: Table) -> Iterator[str]:
         """A tabular, which stays on one page; a long one in several, each page of it with the header."""
-        head, *body = [self.row(row) for row in (table.header, *table.rows)]
+        prose = prose_columns(table)
+        head, *body = [self.row(row, prose) for row in (table.header, *table.rows)]
         is_long = len(body) > _MOST_ROWS
         columns = self.column_kinds(table, is_long)
         size = _ROWS_TOGETHER if is_long else len(body)
@@ -303,15 +307,15 @@ class _Page(TypesetPage):
             yield f"{{\\parskip=0pt\\lineskip=0pt\\centering{tabular}\\par}}"
         yield "\\nopagebreak\\medskip" if self.closes(table) else "\\medskip"
 
-    def row(self, cells: Sequence[Inline]) -> str:
+    def row(self, cells: Sequence[Inline], prose: Collection[int]) -> str:
         """A row of a tabular; around fractions there is room to the rows beside it."""
         height = max((self.ruler.height(cell) for cell in cells if isinstance(cell, Node)), default=FLAT)
         tall = height > FLAT
         texts = [
             f"$\\displaystyle {self.printer.text(cell)}$"
             if tall and isinstance(cell, Node)
-            else self.part(cell)
-            for cell in cells
+            else f"{_RAGGED * (k in prose)}{self.part(cell)}"
+            for k, cell in enumerate(cells)
         ]
         strut = next(strut for most, strut in _STRUTS if height <= most)
         return strut + " & ".join(texts) + r" \\"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
@@ -34,9 +34,16 @@ def summed(
     is_seen = are_alike(before, after) or (stand_above and is_sorted)
     if is_seen and not (used or opened):
         return SILENT
-    by: Prose = ("The square multiplied out, and collected",) if opened else ("Collected",)
+    by = _opened(opened) if opened else ("Collected",)
     by += (", with ", *said(used), ":") if used else (":",)
     return chain(context.values[result], [((), before)], lambda tree: equation(name, tree), by)
+
+
+def _opened(squares: Collection[Node]) -> Prose:
+    """Which square of a sum is multiplied out."""
+    if len(squares) > 1:
+        return ("The squares of sums multiplied out, and collected",)
+    return ("The square ", *squares, " multiplied out, and collected")
 
 
 def numbers_in(node: Node) -> set[Node]:

@@ -122,16 +122,17 @@ def test_a_waist_has_its_angle_about_the_origin_of_the_base() -> None:
 
 def test_lines_that_are_parallel_to_axes_are_said() -> None:
     """As many as are dashed, and each in the direction of the axis that is named."""
-    for name, lines in (("crustcrawler-2r", 1), ("elbow-3r", 1), ("planar-2r", 0), ("five-bar", 0)):
+    for name, lines in (("crustcrawler-2r", 1), ("in3140-rp", 2), ("planar-2r", 0), ("five-bar", 0)):
         problem = library(name)
         pose, notes = shown(problem)
         dashed = [path for path in (*notes.paths, *notes.behind) if path.dashed and path.stroke == GREY]
         named = parallels(problem.robot, pose)
         assert len(named) == len(dashed) == lines
-        for frame, path in zip(named, dashed, strict=True):
-            assert frame is not None
+        for axis, path in zip(named, dashed, strict=True):
+            assert axis is not None
+            letter, frame = axis
             (x0, y0), (x1, y1) = (points[0] for _, points in path.commands)
-            x, y = pose.view.direction(pose.skeleton.frames[frame].x)
+            x, y = pose.view.direction(getattr(pose.skeleton.frames[frame], letter))
             assert (x1 - x0) * y == pytest.approx((y1 - y0) * x, abs=1e-6)
 
 
