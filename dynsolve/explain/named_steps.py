@@ -127,7 +127,8 @@ def _used(step: Step, written: Step, short: Abbreviated, labels: Mapping[Symbol,
         yield DERIVATIVES
     elif step.id in _COLLECTED:
         yield from (labels[name] for name in of_sums)
-    if _BY_SYMBOLS.fullmatch(step.id) and not _has_way(written):
+    told_at_the_end = _WITH_RATES.fullmatch(step.id) and _has_way(written)
+    if _BY_SYMBOLS.fullmatch(step.id) and not told_at_the_end:
         of_symbols = {one.name for one in short.of_symbols if one != short.single}
         yield from (labels[name] for name in names if name in of_symbols)
 

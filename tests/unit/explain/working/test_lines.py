@@ -473,7 +473,7 @@ def test_a_fraction_that_the_columns_share_stays_in_front_of_their_products() ->
 def test_a_square_of_rates_is_opened_after_it_is_added() -> None:
     _, plain, concluding = lines("planar-2r", "K2")
     assert plain.endswith(" + ½ I₂ (q̇₁ + q̇₂)²")
-    assert concluding == "The square multiplied out, and collected:"
+    assert concluding == "The square (q̇₁ + q̇₂)² multiplied out, and collected:"
 
 
 def test_a_cross_product_before_its_identity_has_the_roots_of_a_leaning_base() -> None:
