@@ -6,6 +6,7 @@ From the table to a pose:
     orientation   which way is up, and whether the robot moves in a plane
     skeleton      where frames and links are for given values of the coordinates
     mass_centers  where the mass centres are
+    clearance     how clear of all else a mass centre is on paper
     last_links    the link that no origin of a modified table ends
     loops         what closes a linkage that its table opens
     view          how space is laid on paper

@@ -13,7 +13,7 @@ PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\parskip}{3pt plus 1pt}
 \setlength{\emergencystretch}{6em}
 \setlength{\jot}{2pt}
-\delimitershortfall=1.5pt % of brackets around a column of fractions
+\delimitershortfall=3pt % of brackets around a column of fractions
 \setcounter{MaxMatrixCols}{30}
 \renewcommand{\arraystretch}{1.12}
 \clubpenalty=10000 \widowpenalty=10000
