@@ -94,8 +94,9 @@ def written_out(node: Function) -> Node:
 
 
 def _meaning_of_shorthands(shown: Sequence[Function]) -> Node:
-    """The first sine and cosine, and the first of a sum."""
-    examples = [*shown[:2], *[node for node in shown if isinstance(node.argument, Sum)][:2]]
+    """The first sine and cosine, and the first of a sum, or else the next."""
+    of_sums = [node for node in shown if isinstance(node.argument, Sum)]
+    examples = [*shown[:2], *(of_sums or shown[2:])[:2]]
     return side_by_side([equation(node, written_out(node)) for node in dict.fromkeys(examples)])
 
 

@@ -20,6 +20,13 @@ MINUS = '<mo form="prefix">\u2212</mo>'
 _DOTS = ("", "\u02d9", "\u00a8", "\u20db")
 _APPLY = "<mo>\u2061</mo>"
 _CAPITAL = re.compile("<mi>[A-Z]</mi>")
+_OPERATOR = re.compile(r"(sin|cos|det)?(?:(?<=[a-z])( )|([()]))?")
+"""Words that are signs of the formula: the name of a function, and the parentheses of what it is of."""
+_OPERATOR_PARTS = (
+    "<mi>{}</mi>".format,
+    '<mspace width="0.17em"/>'.format,
+    '<mo stretchy="false">{}</mo>'.format,
+)
 _TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
 
@@ -140,6 +147,8 @@ class MathMLPrinter(FormulaPrinter):
         return f"<msup>{row(self.parenthesized(self._number(Number(node.p, node.q))))}<mo>°</mo></msup>"
 
     def _words(self, node: Words) -> str:
+        if sign := _OPERATOR.fullmatch(node.text):
+            return "".join(f(part) for f, part in zip(_OPERATOR_PARTS, sign.groups(), strict=True) if part)
         text = escape(node.text).replace(" ", "\u00a0")
         return f"<mtext>{text}</mtext>"
 

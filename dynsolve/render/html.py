@@ -44,11 +44,17 @@ from dynsolve.render.typesetting import listed
 PHONE = 16.5
 """What fits a phone beside a number, in em."""
 
+LINE = 20.0
+"""What fits a phone where the number stands below."""
+
 PAGE = 44.0
 """What fits the widest page."""
 
 _SHORT_CELL = 6
 """The letters of a cell of a table up to which it is never broken."""
+
+_INDENT = 2.0
+"""How much less a line of a phone holds in a box of its own."""
 
 _FINE = 6.0
 _FRACTION = 13.0
@@ -150,21 +156,6 @@ class _Entry:
     steps: list[tuple[str, str, int]] = field(default_factory=list)
 
 
-def _multiplied(parts: Sequence[Piece]) -> Iterator[Piece]:
-    """The pieces; a matrix before which a line may have ended has a product sign.
-
-    Where that is a line of a phone alone, the sign is seen there alone.
-    """
-    taken = 0.0
-    for part in parts:
-        taken += part.width
-        if part.sign and taken > PHONE:
-            sign = part.sign if taken > PAGE else f'<mrow class="broken">{part.sign}</mrow>'
-            yield replace(part, text=sign + part.text)
-        else:
-            yield part
-
-
 def _with_left_side(parts: Sequence[Piece]) -> list[Piece]:
     """The pieces of a formula; its left side stays with what a phone scrolls or breaks inside in any case."""
     if len(parts) < 2:
@@ -177,7 +168,7 @@ def _with_left_side(parts: Sequence[Piece]) -> list[Piece]:
     return list(parts)
 
 
-def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK) -> str:
+def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK, room: float = LINE) -> str:
     """Pieces between which a line may end; one with the deeper ones after it is a box with lines of its own.
 
     So a browser, which looks at no depth, breaks a chain at its equals signs, and a member of it,
@@ -187,20 +178,33 @@ def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK) -> str:
     '<math displaystyle="true">a</math><wbr><math displaystyle="true">=b</math><wbr>\
 <span class="whole"><math displaystyle="true">=c</math><wbr><math displaystyle="true">+d</math></span>'
     """
+    width = sum(part.width for part in parts)
     groups: list[list[Piece]] = []
     for part in parts:
         if groups and part.depth > depth:
             groups[-1].append(part)
         else:
-            groups.append([part])
-    return "<wbr>".join(_grouped(group) for group in groups)
+            groups.append([_multiplied(part, width, room) if groups else part])
+    return "<wbr>".join(_grouped(group, room) for group in groups)
 
 
-def _grouped(group: Sequence[Piece]) -> str:
+def _multiplied(part: Piece, width: float, room: float) -> Piece:
+    """A piece of a box so wide; a matrix before which a line may end has a product sign.
+
+    Where that is a line of a phone alone, the sign is seen there alone.
+    """
+    if not part.sign or width <= room:
+        return part
+    sign = part.sign if width > PAGE else f'<mrow class="broken">{part.sign}</mrow>'
+    return replace(part, text=sign + part.text)
+
+
+def _grouped(group: Sequence[Piece], room: float) -> str:
     first, *deeper = group
     if not deeper:
         return math(first.text, display=True)
-    return f'<span class="whole">{_nested(group, min(part.depth for part in deeper))}</span>'
+    inside = _nested(group, min(part.depth for part in deeper), room - _INDENT)
+    return f'<span class="whole">{inside}</span>'
 
 
 class _Page(MarkupPage):
@@ -389,7 +393,7 @@ class _Page(MarkupPage):
 
     def in_pieces(self, node: Node) -> str:
         """A formula between whose pieces a line may end."""
-        parts = together(list(_multiplied(self.splitter.pieces(node))), _WHOLE, "".join)
+        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
         return _nested(_with_left_side(parts))
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:

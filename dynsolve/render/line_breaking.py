@@ -7,7 +7,7 @@ gives the text of a tree and a few signs, this module says where they may be par
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from dynsolve.notation.extent import BINARY, FLAT, PARENTHESIS, RELATION, Ruler
 from dynsolve.notation.tree import (
@@ -256,7 +256,7 @@ def together(pieces: Sequence[Piece], most: float, join: Callable[[Sequence[str]
             end = i + 1
         group = pieces[i:end]
         text = join([piece.text for piece in group])
-        joined.append(Piece(text, sum(piece.width for piece in group), pieces[i].depth))
+        joined.append(replace(pieces[i], text=text, width=sum(piece.width for piece in group)))
         i = end
     return joined
 
