@@ -80,6 +80,10 @@ class Formula:
     otherwise: tuple[Formula, ...] = ()
 
 
+DEFINITIONS = "names-"
+"""What the label of a display begins with that defines names."""
+
+
 @dataclass(frozen=True, slots=True)
 class Equations:
     """Short equations in one display, one under another and level at their equals signs.

@@ -52,7 +52,7 @@ def base_step(context: Context) -> Step:
         why += ("Its axes are the columns of the rotation that the problem gives. ",)
     elif len(factors) > 1:
         why += ("Each motion is along or about an axis of the frame that those before it have led to. ",)
-    why += ("The heights, and every vector below, are in world coordinates.",)
+    why += ("The heights, and the vectors below where nothing else is said, are in world coordinates.",)
     return Step(
         id="H0",
         stage=Stage.KINEMATICS,

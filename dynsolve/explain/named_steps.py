@@ -20,7 +20,7 @@ from dataclasses import replace
 from itertools import pairwise
 from math import gcd
 
-from dynsolve.document import Inline, Prose, Reference
+from dynsolve.document import DEFINITIONS, Inline, Prose, Reference
 from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.agreement import compared_rows
 from dynsolve.explain.christoffel import with_slopes
@@ -34,6 +34,7 @@ from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
 from dynsolve.notation.build import split_sign, times, total
 from dynsolve.notation.tree import (
+    NAMED,
     ZERO,
     Entry,
     Letter,
@@ -47,9 +48,6 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.walk import walk, with_children
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-
-_DEFINED = "names-"
-"""What the labels of the lines that introduce names begin with."""
 
 DERIVATIVES = "derivatives-of-names"
 """The label of the derivatives of named sums."""
@@ -94,12 +92,12 @@ def steps_in_names(steps: Iterable[Step], context: Context, short: Abbreviated) 
             plain = in_sums if met[0] in short.of_symbols else step
             written = _introducing(plain, written, met, short)
         yield written
-        labels |= dict.fromkeys((one.name for one in met), f"{_DEFINED}{step.id}")
+        labels |= dict.fromkeys((one.name for one in met), f"{DEFINITIONS}{step.id}")
 
 
 def labels_of_names(steps: Iterable[Step], short: Abbreviated) -> tuple[str, ...]:
     """The labels of where names are introduced."""
-    found = tuple(line.label for step in steps for line in step.lines if line.label.startswith(_DEFINED))
+    found = tuple(line.label for step in steps for line in step.lines if line.label.startswith(DEFINITIONS))
     return found if short.single is None else (*found, "christoffel")
 
 
@@ -191,7 +189,7 @@ def _introducing(plain: Step, written: Step, met: Sequence[Definition], short: A
     """The step that introduces names: its plain result stands before them, if it was collected."""
     names = {one.name for one in met}
     lead = "Abbreviations:" if len(met) > 1 else "Abbreviation:"
-    lines = [Line((lead,), _equations(met), label=f"{_DEFINED}{plain.id}")]
+    lines = [Line((lead,), _equations(met), label=f"{DEFINITIONS}{plain.id}")]
     slopes = tuple(slope for slope in _slopes(short) if not names.isdisjoint(walk(slope)))
     if slopes:
         lines.append(Line(("Hence:",), slopes, label=DERIVATIVES))
@@ -310,7 +308,7 @@ def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
     first, *others = written.result
     assert isinstance(first, Relation)
     *before, name = first.parts
-    signs = (*first.signs, "=:")
+    signs = (*first.signs, NAMED)
     return replace(
         written,
         why=(*step.why, " The symbol ", before[0], " is named ", name, "."),

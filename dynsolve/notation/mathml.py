@@ -19,7 +19,9 @@ MINUS = '<mo form="prefix">\u2212</mo>'
 
 _DOTS = ("", "\u02d9", "\u00a8", "\u20db")
 _APPLY = "<mo>\u2061</mo>"
-_CAPITAL = re.compile("<mi>[A-Z]</mi>")
+_CAPITAL = re.compile("<mi>[B-KM-Z]</mi>")
+_COMMA = "<mo separator='true'>,</mo>"
+_FACTOR = re.compile(r"([\d.]+)·")
 _OPERATOR = re.compile(r"(sin|cos|det)?(?:(?<=[a-z])( )|([()]))?")
 """Words that are signs of the formula: the name of a function, and the parentheses of what it is of."""
 _OPERATOR_PARTS = (
@@ -93,7 +95,7 @@ class MathMLPrinter(FormulaPrinter):
         return f'<mover accent="true">{base}<mo>{_DOTS[dots]}</mo></mover>'
 
     def _indices(self, groups: Sequence[str]) -> str:
-        return self._one("<mo separator='true'>,</mo>".join(map(self._group, groups)))
+        return self._one(_COMMA.join(map(self._group, groups)))
 
     def _run(self, text: str) -> str:
         if text.isalpha():
@@ -149,6 +151,10 @@ class MathMLPrinter(FormulaPrinter):
     def _words(self, node: Words) -> str:
         if sign := _OPERATOR.fullmatch(node.text):
             return "".join(f(part) for f, part in zip(_OPERATOR_PARTS, sign.groups(), strict=True) if part)
+        if node.text == ",":
+            return _COMMA
+        if number := _FACTOR.fullmatch(node.text):
+            return f"<mn>{number[1]}</mn>{self.dot}"
         text = escape(node.text).replace(" ", "\u00a0")
         return f"<mtext>{text}</mtext>"
 

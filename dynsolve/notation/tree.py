@@ -253,6 +253,9 @@ class Relation(Node):
     signs: tuple[str, ...] = ("=",)
 
 
+NAMED = "=:"
+"""The sign between what gets a name and the name."""
+
 ZERO = Number(0)
 ONE = Number(1)
 

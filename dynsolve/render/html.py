@@ -13,8 +13,10 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from html import escape
 from importlib.resources import files
+from itertools import takewhile
 
 from dynsolve.document import (
+    DEFINITIONS,
     Block,
     Document,
     Equations,
@@ -32,7 +34,8 @@ from dynsolve.document import (
 from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
+from dynsolve.notation.tree import NAMED, Matrix, Node, Relation, Row, Words, equation
+from dynsolve.notation.walk import walk
 from dynsolve.render.line_breaking import RELATION_BREAK, FormulaSplitter, Notation, Piece, together
 from dynsolve.render.matrices import entry_equations, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
@@ -56,6 +59,9 @@ _SHORT_CELL = 6
 _INDENT = 2.0
 """How much less a line of a phone holds in a box of its own."""
 
+_HENCE = ", so "
+"""The words of a row whose formulas follow from each other."""
+
 _FINE = 6.0
 _FRACTION = 13.0
 _WHOLE = 13.0
@@ -63,6 +69,8 @@ _FEW, _COLUMN = 12, 20.0
 """The equations that stand under each other where one is wider than this, in em, which a column holds."""
 
 _LEVELS = ("brief", "normal", "full")
+_SIGN = re.compile(r"([<>=]?) ?([-\u2212]?)(\d+)")
+"""A cell of a table that is a number, or what one is compared with."""
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
 
 
@@ -156,16 +164,27 @@ class _Entry:
     steps: list[tuple[str, str, int]] = field(default_factory=list)
 
 
-def _with_left_side(parts: Sequence[Piece]) -> list[Piece]:
-    """The pieces of a formula; its left side stays with what a phone scrolls or breaks inside in any case."""
-    if len(parts) < 2:
-        return list(parts)
-    first, second, *rest = parts
-    width = first.width + second.width
-    is_broken = bool(rest) and rest[0].depth > RELATION_BREAK and width <= PHONE
-    if second.width > PHONE or is_broken:
-        return [Piece(first.text + second.text, width), *rest]
-    return list(parts)
+def _laid_out(parts: Sequence[Piece], room: float) -> str:
+    """The pieces of a formula, between which a line may end; `room` is what a line of a phone holds.
+
+    A left side of several pieces takes a right side of one with it; another left side stays with what
+    no line of a phone holds, and an equation of two members is broken before the terms of the second.
+    """
+    members = sum(part.depth == RELATION_BREAK for part in parts)
+    if members == 2 and len(parts) > 2 and parts[-1].depth == RELATION_BREAK:
+        terms = min(part.depth for part in parts[1:-1])
+        return _nested([*parts[:-1], replace(parts[-1], depth=terms)])
+    if members < 2 or parts[1].depth > RELATION_BREAK:
+        return _nested(parts)
+    left, right, *rest = parts
+    inside = list(takewhile(lambda part: part.depth > RELATION_BREAK, rest))
+    terms = min((part.depth for part in inside), default=RELATION_BREAK)
+    head = right.width + sum(part.width for part in takewhile(lambda part: part.depth > terms, inside))
+    width = left.width + right.width
+    is_broken = inside and head > room >= width
+    if right.width > PHONE or is_broken or (inside and members > 2 and left.width + head <= room):
+        parts = [replace(left, text=left.text + right.text, width=width), *rest]
+    return _nested(parts, terms if members == 2 else RELATION_BREAK)
 
 
 def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK, room: float = LINE) -> str:
@@ -219,6 +238,7 @@ class _Page(MarkupPage):
         self.ruler = Ruler(style)
         self.splitter = FormulaSplitter(html_notation(printer), self.ruler, _FINE, _FRACTION)
         self.entries: list[_Entry] = []
+        self.definitions: list[Node] = []  # in the folds before that a page in brief does not show
 
     def document(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks, those under a heading in a section."""
@@ -245,7 +265,8 @@ class _Page(MarkupPage):
         yield f'<p class="why" dir="auto">{self.prose(text.parts)}</p>\n'
 
     def equations(self, equations: Equations) -> Iterator[str]:
-        lines = "".join(map(self.broken, equations.nodes))
+        room = PHONE if equations.label else LINE
+        lines = "".join(self.broken(node, room) for node in equations.nodes)
         columns = " columns" if equations.in_columns and self.fit_columns(equations.nodes) else ""
         label = equations.label
         kind, anchor = ("result", f' id="eq-{label}"') if label else ("work", "")
@@ -297,9 +318,15 @@ class _Page(MarkupPage):
         """A row of a table; a formula is broken in a column of sentences alone."""
         for k, cell in enumerate(cells):
             if isinstance(cell, Node) and k not in prose:
-                names = list(listed(cell)) if isinstance(cell, Row) else [cell]
-                *before, last = map(self.whole, names)
+                *before, last = map(self.inline, _between_commas(cell))
                 text = " ".join([*(f'<span class="one">{each},</span>' for each in before), last])
+            elif isinstance(cell, str) and (sign := _SIGN.fullmatch(cell)):
+                relation, minus, number = sign.groups()
+                text = math(
+                    f"<mo>{escape(relation)}</mo>" * bool(relation)
+                    + MINUS * bool(minus)
+                    + f"<mn>{number}</mn>"
+                )
             else:
                 text = self.prose((cell,))
                 if isinstance(cell, str) and len(cell) <= _SHORT_CELL:
@@ -317,9 +344,21 @@ class _Page(MarkupPage):
             self.entries[-1].steps.append((anchor, title, fold.level))
         yield f'<details open class="step l{int(fold.level)}" id="{anchor}"><summary>{title}</summary>\n'
         self.level = fold.level
+        if fold.level == self.levels[0]:
+            yield from self.defined_in_brief(fold)
+        else:
+            self.definitions += _definitions(fold)
         yield from self.blocks(with_results(fold.blocks))
         self.level = 0
         yield "</details>\n"
+
+    def defined_in_brief(self, fold: Fold) -> Iterator[str]:
+        """What the names in a fold mean, where the step that defines them is not seen."""
+        names = {node.parts[0] for node in self.definitions if isinstance(node, Relation)}
+        if names & set(walk(*(node for _, node in _displayed(fold)))):
+            lines = "".join(map(self.broken, self.definitions))
+            self.definitions = []
+            yield f'<div class="formula in in1"><div class="box">{lines}</div></div>\n'
 
     def escaped(self, text: str) -> str:
         return escape(typographic(text))
@@ -332,7 +371,7 @@ class _Page(MarkupPage):
         if self.ruler.width(node) <= 0.8 * PHONE:
             return self.whole(node)
         parts = together(self.splitter.pieces(node), _WHOLE, "".join)
-        return "<wbr>".join(math(part.text) for part in parts)
+        return "<wbr>".join(_parted([part.text for part in parts]))
 
     def whole(self, node: Node) -> str:
         """A formula that is not broken."""
@@ -345,13 +384,14 @@ class _Page(MarkupPage):
             return
         label = formula.label
         kind = "result" if label else "law" if formula.source else "work"
-        kind += " wide" * (max(piece.width for piece in self.splitter.pieces(formula.node)) > PHONE)
+        is_wide = max(piece.width for piece in self.splitter.pieces(formula.node)) > PHONE
+        kind += " wide" * is_wide
         anchor = f' id="eq-{label}"' if label else ""
         beside = self.number(label) if label else ""
         if formula.source:
             beside = f"<cite>{self.words(formula.source)}</cite>{beside}"
         yield f'<div class="formula {kind}"{anchor}><div class="box">'
-        yield from self.lines(formula.node, formula)
+        yield from self.lines(formula.node, formula, LINE if is_wide or not beside else PHONE)
         yield f"</div>{beside}</div>\n"
 
     def number(self, label: str) -> str:
@@ -359,8 +399,11 @@ class _Page(MarkupPage):
         numbers = self.by_level(lambda numbers: f"({numbers[label]})")
         return "".join(f'<span class="{f"n {classes}".strip()}">{text}</span>' for text, classes in numbers)
 
-    def lines(self, node: Node, formula: Formula) -> Iterator[str]:
-        """A formula on the page: whole, or in pieces; a matrix that no page shows whole, entry by entry."""
+    def lines(self, node: Node, formula: Formula, room: float) -> Iterator[str]:
+        """A formula on the page: whole, or in pieces; a matrix that no page shows whole, entry by entry.
+
+        A phone has so much `room`, in em, for what is not broken.
+        """
         width = self.ruler.width(node)
         if width <= PHONE:
             yield f'<div class="line">{math(self.printer.text(node), display=True)}</div>'
@@ -369,9 +412,9 @@ class _Page(MarkupPage):
         widest = max(piece.width for piece in self.splitter.pieces(node))
         if widest > PAGE and isinstance(node, Row) and not formula.optional:
             for part in listed(node):
-                yield from self.lines(part, formula)
+                yield from self.lines(part, formula, room)
         elif widest <= PAGE or matrix is None:
-            yield self.broken(node)
+            yield self.broken(node, room)
         else:
             yield from self.entry_by_entry(node, matrix, formula)
 
@@ -379,22 +422,21 @@ class _Page(MarkupPage):
         """Whether a part that cannot be broken is wider than the widest page."""
         return max(piece.width for piece in self.splitter.pieces(node)) > PAGE
 
-    def broken(self, node: Node) -> str:
+    def broken(self, node: Node, room: float = PHONE) -> str:
         """A formula in pieces; of several side by side each is broken only where a line cannot hold it."""
-        beside = list(listed(node)) if isinstance(node, Row) else []
+        beside = list(listed(node)) if isinstance(node, Row) and Words(_HENCE) not in node.parts else []
         if len(beside) < 2:
-            return f'<div class="line">{self.in_pieces(node)}</div>'
+            return f'<div class="line">{self.in_pieces(node, room)}</div>'
         comma = math(self.printer.text(Words(",")))
-        *before, last = map(self.in_pieces, beside)
+        *before, last = (self.in_pieces(each, room) for each in beside)
         parts = [*(f'<span class="one">{part}{comma}</span>' for part in before), last]
         return "".join(
             ('<div class="line">', *(f'<span class="part">{part}</span>' for part in parts), "</div>")
         )
 
-    def in_pieces(self, node: Node) -> str:
+    def in_pieces(self, node: Node, room: float) -> str:
         """A formula between whose pieces a line may end."""
-        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
-        return _nested(_with_left_side(parts))
+        return _laid_out(together(self.splitter.pieces(node), _WHOLE, "".join), room)
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None
@@ -425,6 +467,46 @@ class _Page(MarkupPage):
             if items
             else ""
         )
+
+
+def _displayed(fold: Fold) -> Iterator[tuple[str, Node]]:
+    """The displayed formulas of a fold, each with its label."""
+    for block in fold.blocks:
+        if isinstance(block, Formula | Equations):
+            nodes = (block.node,) if isinstance(block, Formula) else block.nodes
+            yield from ((block.label, node) for node in nodes)
+
+
+def _definitions(fold: Fold) -> Iterator[Node]:
+    """What names stand for that a fold introduces."""
+    for label, node in _displayed(fold):
+        if label.startswith(DEFINITIONS):
+            yield node
+        elif isinstance(node, Relation) and node.signs[-1] == NAMED:
+            *_, meaning, name = node.parts
+            yield equation(name, meaning)
+
+
+def _between_commas(cell: Node) -> list[Node]:
+    """What stands between the commas of a cell: signs, or units."""
+    if isinstance(cell, Words):
+        return [Words(text) for text in cell.text.split(", ")]
+    return list(listed(cell)) if isinstance(cell, Row) else [cell]
+
+
+def _parted(texts: Sequence[str]) -> Iterator[str]:
+    """Formulas between which a line may end; the space before a sign ends the line before it.
+
+    >>> for text in _parted(["<mi>d</mi>", '<mo form="infix">=</mo><mi>m</mi>']):
+    ...     print(text)
+    <math><mi>d</mi><mspace width="0.28em"/></math>
+    <math><mo form="infix" lspace="0">=</mo><mi>m</mi></math>
+    """
+    sign = '<mo form="infix">'
+    for k, text in enumerate(texts):
+        begun = text.replace(sign, '<mo form="infix" lspace="0">', 1) if k and text.startswith(sign) else text
+        is_followed = k + 1 < len(texts) and texts[k + 1].startswith(sign)
+        yield math(begun + '<mspace width="0.28em"/>' * is_followed)
 
 
 def math(text: str, display: bool = False) -> str:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from dynsolve.notation.extent import BINARY, FLAT, PARENTHESIS, RELATION, Ruler
 from dynsolve.notation.tree import (
     Cross,
+    Function,
     Negative,
     Node,
     Number,
@@ -190,7 +191,9 @@ class FormulaSplitter:
         """Narrow factors together, wide ones taken apart; m_1 and ( are not parted."""
         narrow: list[Node] = []
         for i, factor in enumerate(factors):
-            if holds_matrix(factor) or self._is_wide(factor):
+            if narrow and isinstance(factor, Function):  # never broken, and it keeps its distance
+                narrow.append(factor)
+            elif holds_matrix(factor) or self._is_wide(factor):
                 self._together(builder, narrow)
                 if i and (not narrow or holds_matrix(factor)):
                     builder.gap(level, FACTOR_BREAK, self.notation.times)

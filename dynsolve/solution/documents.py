@@ -34,7 +34,7 @@ from dynsolve.explain.notation_list import notation
 from dynsolve.explain.statement import statement
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, machine
-from dynsolve.notation.tree import Number, Power, Relation, equation
+from dynsolve.notation.tree import Number, Power, Relation, Row, Words, equation
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
@@ -337,4 +337,5 @@ def _in_powers_of_ten(size: float) -> Prose:
     if not size:
         return ("0",)
     mantissa, exponent = f"{size:.1e}".split("e")
-    return (f"{mantissa}·", Power(Number(10), Number(int(exponent))))
+    power = Power(Number(10), Number(int(exponent)))
+    return (Row((Words(f"{mantissa}·"), power)),)

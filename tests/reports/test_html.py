@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -226,6 +227,25 @@ def test_at_each_level_numbers_have_no_gaps_and_references_are_to_what_is_seen(
         assert [said for said, beside in references if said != beside] == []
         assert (len(references) > 10) is (level != "brief")
     assert 5 < counts[0] < counts[1] <= counts[2]
+
+
+@pytest.mark.parametrize("name, letter", [("planar-2r", "h"), ("elbow-3r", "σ"), ("spherical-rrp", "σ")])
+def test_in_brief_each_name_is_defined_before_it_is_used(
+    name: str, letter: str, page: Page, tmp_path: Path
+) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == name), tmp_path), 1200)
+    page.ask("document.querySelector('label[for=brief]').click()")
+    lines = page.ask("""[...document.querySelectorAll('.step .line')].filter(e => e.checkVisibility())
+      .map(e => [...e.querySelectorAll('mi, mn, mo')].map(e => e.textContent).join(''))""")
+    using = [line for line in lines if letter in line]
+    assert len(using) > 1
+    assert using[0].startswith(letter)
+    seen: set[str] = set()
+    for line in using:
+        names = re.findall(rf"{letter}[1-9]?", line)
+        if re.match(rf"{letter}\d*=", line):
+            seen.add(names[0])
+        assert set(names) <= seen
 
 
 def test_every_link_leads_somewhere_on_the_page(page: Page, tmp_path: Path) -> None:
