@@ -120,6 +120,11 @@ def has_offsets(pose: Pose) -> bool:
     return any(leg.offset and (pose.view.flat or not _has_ring(pose, leg)) for _, leg in _turning(pose))
 
 
+def has_rings(pose: Pose) -> bool:
+    """Whether some arrow shows no angle, but in which sense it grows."""
+    return not pose.view.flat and any(_has_ring(pose, leg) for _, leg in _turning(pose))
+
+
 def _has_ring(pose: Pose, leg: Leg) -> bool:
     """Whether there is no room for an angle in space, or it is too small to be seen."""
     return len(pose.skeleton.legs) > MANY or leg.turn < _SMALL

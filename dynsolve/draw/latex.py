@@ -100,7 +100,7 @@ class _Printer(LatexPrinter):
 def _formula(node: Node, style: Style) -> str:
     """A label's formula; a list of names needs no package for its commas."""
     if isinstance(node, Row):
-        return ",\\ ".join(_formula(part, style) for part in node.parts if not isinstance(part, Words))
+        return r",\,".join(_formula(part, style) for part in node.parts if not isinstance(part, Words))
     return _Printer(style).text(node)
 
 

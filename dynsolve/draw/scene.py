@@ -9,7 +9,7 @@ from fractions import Fraction
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.draw import annotate, paths
 from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
-from dynsolve.draw.joint_angles import has_offsets, joint_angles, names_of_angles, parallels
+from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, names_of_angles, parallels
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimensions, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
@@ -40,6 +40,7 @@ PARALLELS = "Dashed grey lines at a joint are parallel to the directions between
 """Said where one of them is parallel to no x axis, since degrees are added to its angle."""
 
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey; a square corner is 90°."
+RINGS = "A red arrow around an axis shows the positive sense of the angle."
 IN_METRES = "Lengths are in m."
 SHAPES = "Bodies of a given shape are tan, joints blue-grey."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
@@ -107,6 +108,7 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (_axis_of_base(robot), has_world(robot, values) and len(robot.base_turns) == 1),
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, has_offsets(pose)),
+        (RINGS, has_rings(pose)),
         (SHAPES, bool(pose.bodies)),
         (OFF_LINKS, annotate.has_masses_off_links(pose)),
         (SPRINGS, bool(joint_springs(robot, values, pose))),

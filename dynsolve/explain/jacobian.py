@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from dynsolve.algebra import matrix as algebra
@@ -71,8 +72,7 @@ def _axes(context: Context) -> Step:
         why=(
             *_purpose(context),
             "In the first three rows of ",
-            Letter("H", style="bold"),
-            Reference(tuple(f"H{i}" for i in told if i), " in "),
+            *_matrices_of_frames(context, told),
             " the first three columns are the rotation ",
             Letter("R", style="bold"),
             ", the third of these is ",
@@ -91,6 +91,13 @@ def _axes(context: Context) -> Step:
         result=tuple(pairs),
         uses=(),
     )
+
+
+def _matrices_of_frames(context: Context, told: Sequence[int]) -> Prose:
+    """The matrices whose columns are looked at: of a long arm not all of them are printed."""
+    if context.is_short:
+        return (Letter("H", style="bold"), Reference(tuple(f"H{i}" for i in told if i), " in "))
+    return ("each ", replace(letters.H(context.robot, 0), sub=letters.COUNT))
 
 
 def _purpose(context: Context) -> Prose:

@@ -238,8 +238,8 @@ def _numbers(style: Style) -> Iterator[Inline]:
         return
     yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
     yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands "
-    yield "behind a result that is a number, or a matrix of which all entries have it; any other formula has "
-    yield "that of its left side. "
+    yield "behind a result that is a number other than 0, or a matrix of which all entries have it; any other "
+    yield "formula has that of its left side. "
 
 
 def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:
