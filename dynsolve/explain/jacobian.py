@@ -305,9 +305,9 @@ def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
             " turns everything after it about the axis ",
             letters.z(joint_frame(robot, joint)),
             f". At unit rate the velocity of {context.end} is the cross product of the axis "
-            "and the vector from ",
+            "and the vector to that point from ",
             letters.o(joint_frame(robot, joint)),
-            ", a point of the axis, to it; the angular velocity is the axis.",
+            ", a point of the axis; the angular velocity is the axis.",
         )
     z = letters.z(joint_frame(robot, joint))
     return (

@@ -223,7 +223,10 @@ def _counting(occurring: set[Kind]) -> Iterator[Inline]:
     """What counts, and the time."""
     names = [name for name in COUNTING if ("", "name", name) in occurring]
     if any("#" in shape for _, kind, shape in occurring if kind != "name"):
-        yield from (*listed([Symbol(name) for name in "ijk"]), " count rows, bodies and coordinates. ")
+        yield from (
+            *listed([Symbol(name) for name in "ijk"]),
+            " count rows, frames, bodies and coordinates. ",
+        )
     if "n" in names:
         yield from (Symbol("n"), " is the number of coordinates. ")
     if "t" in names:
@@ -238,8 +241,8 @@ def _numbers(style: Style) -> Iterator[Inline]:
         return
     yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
     yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands "
-    yield "behind a result that is a number other than 0, or a matrix of which all entries have it; any other "
-    yield "formula has that of its left side. "
+    yield "behind a result that is a number other than 0, or a matrix of which all entries have it; any "
+    yield "other formula has that of its left side. "
 
 
 def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:

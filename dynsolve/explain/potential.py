@@ -39,6 +39,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
     P, pull = letters.of_body("P", body), Product((Transpose(letters.GRAVITY), letters.rc(body)))
     parts: tuple[Node, ...] = (P, Negative(Product((context.mass(body), pull))))
     working: tuple[Node, ...] = ()
+    numbers: tuple[Node, ...] = ()
     is_pulled = not context.robot.gravity.is_zero
     if not is_pulled:
         why: Prose = ("There is no gravity.",)
@@ -54,7 +55,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
             h, g = letters.height(letters.index_of(body.name)), _acceleration(context)
             why += _entry_of_height(context, body, h, tells)
             parts += (Product((context.mass(body), g, h)),)
-            working = (*_numbers(context, body, g), equation(h, height))
+            working, numbers = (equation(h, height),), _numbers(context, body, g)
     return Step(
         id=f"P{body.name}",
         stage=STAGE,
@@ -62,7 +63,10 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         why=why,
         formula=equation(*parts),
         source=spong("7.2.3"),
-        further=(equation(letters.GRAVITY, gravity_row(context)),) if tells and is_pulled else (),
+        further=(
+            *((equation(letters.GRAVITY, gravity_row(context)),) if tells and is_pulled else ()),
+            *numbers,
+        ),
         working=working,
         result=(equation(P, context.form(f"P{body.name}")),),
     )

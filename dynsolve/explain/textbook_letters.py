@@ -207,7 +207,9 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     center = Row((Words("c"), _I))
     yield _line(_body("m"), "mass of body i", "kg")
     yield _line(Letter("r", center, None, "bold"), "mass centre of body i", "m")
-    yield _line(Letter("r", center, _I, "bold"), "mass centre of body i, in its link's frame", "m")
+    by_links = all(body.name in ("", str(body.link)) or not body.name.isdigit() for body in robot.bodies)
+    frame, its = (_I, "in its link's frame") if by_links else (_J, "in the frame of its link j")
+    yield _line(Letter("r", center, frame, "bold"), f"mass centre of body i, {its}", "m")
     if Stage.NEWTON_EULER not in asked_stages(
         robot.questions
     ):  # the recursions tell it with their other levers

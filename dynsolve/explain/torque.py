@@ -110,7 +110,8 @@ def _slope(context: Context, q: Coordinate) -> Step:
 def _of_potential_energy(context: Context, q: Coordinate) -> Prose:
     """That a coordinate is in P alone, and what is held fixed there."""
     slope, fall = (letters.partial_derivative(of, Symbol(q.name)) for of in (letters.L, letters.P))
-    held = " The other coordinates are held fixed." if context.robot.n > 1 else ""
+    others = " and the other coordinates" if context.robot.n > 1 else ""
+    held = f" The rates{others} are held fixed."
     return (Symbol(q.name), " does not occur in 𝒦, so ", equation(slope, Negative(fall)), f".{held}")
 
 

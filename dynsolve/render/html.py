@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from html import escape
 from importlib.resources import files
-from itertools import takewhile
+from itertools import chain, takewhile
 
 from dynsolve.document import (
     DEFINITIONS,
@@ -53,6 +53,9 @@ LINE = 20.0
 PAGE = 44.0
 """What fits the widest page."""
 
+_SHORT_SIDE = 3.0
+"""The width of a left side that stays with what follows in a sentence."""
+
 _SHORT_CELL = 6
 """The letters of a cell of a table up to which it is never broken."""
 
@@ -69,8 +72,10 @@ _FEW, _COLUMN = 12, 20.0
 """The equations that stand under each other where one is wider than this, in em, which a column holds."""
 
 _LEVELS = ("brief", "normal", "full")
+_COMMA, _AND_SO_ON = Words(","), Words(", …, ")
 _SIGN = re.compile(r"([<>=]?) ?([-\u2212]?)(\d+)")
 """A cell of a table that is a number, or what one is compared with."""
+_DOUBLE_NAME = re.compile(r"\b[A-Z][a-z]+-[A-Z][a-z]+\b")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
 
 
@@ -182,9 +187,10 @@ def _laid_out(parts: Sequence[Piece], room: float) -> str:
     head = right.width + sum(part.width for part in takewhile(lambda part: part.depth > terms, inside))
     width = left.width + right.width
     is_broken = inside and head > room >= width
-    if right.width > PHONE or is_broken or (inside and members > 2 and left.width + head <= room):
+    if right.width > room or is_broken or (inside and members > 2 and left.width + head <= room):
         parts = [replace(left, text=left.text + right.text, width=width), *rest]
-    return _nested(parts, terms if members == 2 else RELATION_BREAK)
+    has_terms = members == 2 and any(part.level == 0 for part in inside)
+    return _nested(parts, terms if has_terms else RELATION_BREAK)
 
 
 def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK, room: float = LINE) -> str:
@@ -255,7 +261,8 @@ class _Page(MarkupPage):
 
     def heading(self, heading: Heading) -> Iterator[str]:
         level = heading.level
-        yield f'<h{level} dir="auto">{self.words(heading.text)}</h{level}>\n'
+        words = _DOUBLE_NAME.sub(r'<span class="one">\g<0></span>', self.words(heading.text))
+        yield f'<h{level} dir="auto">{words}</h{level}>\n'
 
     def prose(self, parts: Prose) -> str:
         """A sentence, in which no line begins with the comma or the stop after a formula."""
@@ -370,8 +377,10 @@ class _Page(MarkupPage):
         """A formula in a sentence; a long one may be broken."""
         if self.ruler.width(node) <= 0.8 * PHONE:
             return self.whole(node)
-        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
-        return "<wbr>".join(_parted([part.text for part in parts]))
+        first, *rest = together(self.splitter.pieces(node), _WHOLE, "".join)
+        if rest and first.width <= _SHORT_SIDE and first.width + rest[0].width <= PHONE:
+            first, rest = replace(first, text=first.text + rest[0].text), rest[1:]
+        return "<wbr>".join(_parted([part.text for part in (first, *rest)]))
 
     def whole(self, node: Node) -> str:
         """A formula that is not broken."""
@@ -491,7 +500,10 @@ def _between_commas(cell: Node) -> list[Node]:
     """What stands between the commas of a cell: signs, or units."""
     if isinstance(cell, Words):
         return [Words(text) for text in cell.text.split(", ")]
-    return list(listed(cell)) if isinstance(cell, Row) else [cell]
+    if not isinstance(cell, Row):
+        return [cell]
+    parts = ((_COMMA, Words("…"), _COMMA) if part == _AND_SO_ON else (part,) for part in cell.parts)
+    return list(listed(Row(tuple(chain.from_iterable(parts)))))
 
 
 def _parted(texts: Sequence[str]) -> Iterator[str]:

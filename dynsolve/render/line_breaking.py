@@ -194,17 +194,20 @@ class FormulaSplitter:
             if narrow and isinstance(factor, Function):  # never broken, and it keeps its distance
                 narrow.append(factor)
             elif holds_matrix(factor) or self._is_wide(factor):
-                self._together(builder, narrow)
+                self._together(builder, narrow, after=i > len(narrow))
                 if i and (not narrow or holds_matrix(factor)):
                     builder.gap(level, FACTOR_BREAK, self.notation.times)
                 narrow = []
                 self._factor(builder, factor, level)
             else:
                 narrow.append(factor)
-        self._together(builder, narrow)
+        self._together(builder, narrow, after=len(factors) > len(narrow))
 
-    def _together(self, builder: _Builder, factors: Sequence[Node]) -> None:
+    def _together(self, builder: _Builder, factors: Sequence[Node], after: bool = False) -> None:
+        """Narrow factors; `after` a wide one a number has a product sign."""
         if factors:
+            if after and isinstance(factors[0], Number):
+                builder.add(self.notation.times, BINARY)
             node = factors[0] if len(factors) == 1 else Product(tuple(factors))
             if len(factors) == 1 and isinstance(node, Sum):
                 node = Parenthesized(node)

@@ -23,6 +23,7 @@ from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.kinetic import without_signs
 from dynsolve.explain.working.proved import equals
+from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost, factors_of, negated, total
 from dynsolve.notation.tree import (
     Function,
@@ -54,7 +55,8 @@ _PUT_IN, MULTIPLIED_OUT, _COLLECTED = OPERATIONS
 class Determinant:
     """The determinant of coupled coordinates: its members, by which operations, the identities of the last.
 
-    `form` is its last member, `differences` what rows and columns leave that are subtracted first.
+    `form` is its last member, `differences` what rows and columns leave that are subtracted first;
+    of numbers, `cancelled` are the products of coordinates that cancel where all is multiplied out.
     """
 
     line: Node
@@ -62,6 +64,7 @@ class Determinant:
     operations: tuple[str, ...] = ()
     used: tuple[Identity, ...] = ()
     differences: Line | None = None
+    cancelled: tuple[Node, ...] = ()
 
 
 def said_of(determinants: Sequence[Determinant]) -> Prose:
@@ -69,8 +72,10 @@ def said_of(determinants: Sequence[Determinant]) -> Prose:
     done = {operation for each in determinants for operation in each.operations}
     *first, last = [operation for operation in OPERATIONS if operation in done]
     used = list(dict.fromkeys(identity for each in determinants for identity in each.used))
-    words = f"{', '.join(first)}, and {last}" if first else last
-    return (f"{words} with ", *said(used)) if used else (words,)
+    gone = list(dict.fromkeys(node for each in determinants for node in each.cancelled))
+    cancelling: Prose = (" (the terms with ", *listed(gone), " cancel)") if gone else ()
+    words: Prose = (f"{', '.join(first)}", *cancelling, f", and {last}") if first else (last, *cancelling)
+    return (*words, " with ", *said(used)) if used else words
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,14 +109,15 @@ def determinant_of_two(context: Context, places: tuple[int, int], value: Expr, f
         line = equation(*members, form)
         return Determinant(line, form, tuple(operations), differences=best.differences)
     lines, last = [before], MULTIPLIED_OUT
-    expanded, count = _multiplied_out(context, before)
+    expanded, count, gone = _multiplied_out(context, before)
     if count <= MOST_TERMS and not are_alike(expanded, form) and equals(expanded, value):
         lines.append(expanded)
         operations.append(MULTIPLIED_OUT)
         last, form = _COLLECTED, _in_terms(context, form, expanded)
     used = identities(context.robot.ring, lines[-1], form) or ()
     line = equation(*members, *lines, form)
-    return Determinant(line, form, (*operations, last), used, best.differences)
+    cancelled = gone if is_numeric(context.robot) else ()
+    return Determinant(line, form, (*operations, last), used, best.differences, cancelled)
 
 
 def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
@@ -140,7 +146,7 @@ def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
 
 def _in_terms(context: Context, form: Node, before: Node) -> Node:
     """A form as a plain sum, in the order of the line before; as it is where a term would be negative."""
-    plain, count = _multiplied_out(context, form)
+    plain, count, _ = _multiplied_out(context, form)
     if not isinstance(plain, Sum) or count > MOST_TERMS or any(isinstance(t, Negative) for t in plain.terms):
         return form
     known = before.terms if isinstance(before, Sum) else (before,)
@@ -164,15 +170,16 @@ def _is_sine(node: Node) -> bool:
     return isinstance(node, Function) and node.name == "sin"
 
 
-def _multiplied_out(context: Context, node: Node) -> tuple[Node, int]:
-    """The sum of all products of terms, and of how many terms it is."""
+def _multiplied_out(context: Context, node: Node) -> tuple[Node, int, tuple[Node, ...]]:
+    """The sum of all products of terms, of how many terms it is, and the products that cancel."""
     collector = context.forms.compactor.collector
     found: dict[Monomial, Rational] = {}
     for term in _terms(node):
         factor, monomial = collector.decompose(term)
         found[monomial] = found.get(monomial, 0) + factor
     left = [collector.product(factor, monomial, ()) for monomial, factor in found.items() if factor]
-    return total(left), len(left)
+    gone = tuple(collector.product(1, monomial, ()) for monomial, factor in found.items() if not factor)
+    return total(left), len(left), gone
 
 
 def _terms(node: Node) -> Iterator[Node]:

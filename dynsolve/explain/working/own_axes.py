@@ -93,15 +93,22 @@ def _kept(context: Context, body: Body, quantity: str, same: Node) -> Line:
     """That the rotation from frame 0 to the body's axes leaves ω, or the columns of J_ω, as they are."""
     axes = turned_name(context, 0, letters.of_body("R", body, "bold"))
     seen = rotation(context.values["H0"]).T @ context.values[f"R{body.name}"]
-    what = "this vector, which its" if quantity == "w" else "these columns, which its"
+    this, what = ("this vector", "it as it is") if quantity == "w" else ("these columns", "them as they are")
     factors = _table_factors(context, body, seen)
     by: Prose = (axes, " turns")
     if factors is not None:
         H = (letters.H(context.robot, link) for link in (body.link, 0))
-        by = (axes, " is the rotation of ", factors, ", as ", equation(next(H), Product((*H, factors))), ",")
-    by += (f" about the axis of {what} transpose leaves as {'it is' if quantity == 'w' else 'they are'}:",)
+        by = (axes, " is the rotation of ", factors, ", as ", equation(next(H), Product((*H, factors))))
+        by += (", and turns",)
+    by += (f" about the axis of {this}, so its transpose leaves {what}. With ", *_identity(context), ":")
     rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
     return Line(by, (same,), (f"R{body.name}", *rows))
+
+
+def _identity(context: Context) -> Prose:
+    """What is put between the factors, so that each is seen from frame 0."""
+    base = letters.R(context.robot, 0)
+    return (Product((base, Transpose(base))), ", the identity, between the factors")
 
 
 def _axes_label(body: Body) -> str:

@@ -97,7 +97,7 @@ def test_a_cross_product_is_worked_out_before_an_identity_is_used() -> None:
 
 
 def test_numbers_that_go_in_are_named() -> None:
-    assert shown_working("numeric-2r", "P2")[0] == "m₂ = 1.2 kg, g = 9.81 m/s²"
+    assert shown_working("numeric-2r", "P2")[0] == "η₂ = 0.5 s₁ + 0.15 s₁₂"
     assert shown_working("planar-2r", "P2")[0].startswith("η₂ = ")
     assert "the bodies 1, 2 and p, counted in this order" in said(
         step("numeric-2r", "D_direct").why, "numeric-2r"

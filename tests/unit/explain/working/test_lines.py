@@ -239,7 +239,9 @@ def test_the_rate_of_d_in_the_check_of_skewness() -> None:
     assert [text.partition(" = ")[2] for text in lines("planar-2r", "skew")[1:]] == [
         "(∂d₁₁/∂q₂) q̇₂ = -2m₂ l₁ l_c2 s₂ q̇₂",
         "ḋ₂₁ = (∂d₁₂/∂q₂) q̇₂ = -m₂ l₁ l_c2 s₂ q̇₂".replace("ḋ", "d\u0307"),
+        "",
     ]
+    assert lines("planar-2r", "skew")[-1].startswith("So, with 𝐂Reference(labels=('C',)")
 
 
 TILTED = """
@@ -304,8 +306,8 @@ def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -
     whole = lines(TILTED_BODIES, "Kw1")
     assert whole[1].startswith("(𝐑₀^w)ᵀ 𝛚₁ = [[") and whole[1].endswith(" = [[0], [0], [q̇₁]]")
     assert whole[2:4] == [
-        "(𝐑₀^w)ᵀ 𝐑₁ is the rotation of 𝐀₁, as 𝐇₁^w = 𝐇₀^w 𝐀₁, about the axis of this vector, "
-        "which its transpose leaves as it is:",
+        "(𝐑₀^w)ᵀ 𝐑₁ is the rotation of 𝐀₁, as 𝐇₁^w = 𝐇₀^w 𝐀₁, and turns about the axis of this vector, "
+        "so its transpose leaves it as it is. With 𝐑₀^w (𝐑₀^w)ᵀ, the identity, between the factors:",
         "𝐑₁ᵀ 𝛚₁ = ((𝐑₀^w)ᵀ 𝐑₁)ᵀ ((𝐑₀^w)ᵀ 𝛚₁) = (𝐑₀^w)ᵀ 𝛚₁",
     ]
 
