@@ -50,6 +50,9 @@ PHONE = 16.5
 LINE = 20.0
 """What fits a phone where the number stands below."""
 
+SCROLLED = 24.0
+"""What no phone shows whole, even on a line of its own."""
+
 PAGE = 44.0
 """What fits the widest page."""
 
@@ -183,14 +186,13 @@ def _laid_out(parts: Sequence[Piece], room: float) -> str:
         return _nested(parts)
     left, right, *rest = parts
     inside = list(takewhile(lambda part: part.depth > RELATION_BREAK, rest))
-    terms = min((part.depth for part in inside), default=RELATION_BREAK)
+    terms = min((part.depth for part in inside if part.level == 0), default=RELATION_BREAK)
     head = right.width + sum(part.width for part in takewhile(lambda part: part.depth > terms, inside))
     width = left.width + right.width
-    is_broken = inside and head > room >= width
-    if right.width > room or is_broken or (inside and members > 2 and left.width + head <= room):
+    is_broken = inside and head > room - _INDENT and width <= room
+    if right.width > SCROLLED or is_broken or (inside and members > 2 and left.width + head <= room):
         parts = [replace(left, text=left.text + right.text, width=width), *rest]
-    has_terms = members == 2 and any(part.level == 0 for part in inside)
-    return _nested(parts, terms if has_terms else RELATION_BREAK)
+    return _nested(parts, terms if members == 2 else RELATION_BREAK)
 
 
 def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK, room: float = LINE) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from dynsolve.notation.extent import BINARY, FLAT, PARENTHESIS, RELATION, Ruler
 from dynsolve.notation.tree import (
@@ -133,7 +134,9 @@ class FormulaSplitter:
                 put(builder, argument, level)
             case Row(parts):
                 inside = level + 1 if any(map(_is_comma, parts)) else level
-                for part in parts:
+                for before, part in pairwise((Words(""), *parts)):
+                    if holds_matrix(before) and not _is_comma(part):  # its unit
+                        builder.gap(level, FACTOR_BREAK)
                     self._put(builder, part, inside)
                     if _is_comma(part):
                         builder.gap(level, RELATION_BREAK)
