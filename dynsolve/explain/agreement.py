@@ -114,11 +114,6 @@ def _exchanged() -> Prose:
     )
 
 
-def _put_in() -> Prose:
-    """What the entries of N are computed from, beside the rate of D."""
-    return ("So, with ", letters.C, Reference(("C",)), ":")
-
-
 def _nothing_to_check(name: Node) -> Step:
     """N of a constant D, of which no Christoffel symbol is left."""
     zero = letters.bold("0")
@@ -169,7 +164,7 @@ def skew_step(context: Context) -> Step:
         formula=equation(name, SKEW),
         lines=rate or general,
         uses=() if rate or general else ("D",),
-        concluding=_exchanged() if general else _put_in() if rate and result else (),
+        concluding=_exchanged() if general else (),
         entries=letters.entries("n", robot.n, robot.n) if robot.n > 1 else (),
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),

@@ -307,7 +307,7 @@ def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
             f". At unit rate the velocity of {context.end} is the cross product of the axis "
             "and the vector to that point from ",
             letters.o(joint_frame(robot, joint)),
-            ", a point of the axis; the angular velocity is the axis.",
+            " on the axis; the angular velocity is the axis.",
         )
     z = letters.z(joint_frame(robot, joint))
     return (

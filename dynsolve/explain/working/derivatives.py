@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from math import prod
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
@@ -237,7 +237,7 @@ def varying(context: Context) -> Iterator[tuple[int, int, Coordinate]]:
 def inertia_rate(
     context: Context, written: Callable[[int, int], Node] | None = None, used: tuple[str, ...] = ("D",)
 ) -> tuple[Line, ...]:
-    """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary; `written` writes its value."""
+    """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary, before N; `written` writes its value."""
     if not context.is_short:
         return ()
     ring, D = context.robot.ring, context.values["D"]
@@ -253,6 +253,11 @@ def inertia_rate(
         letters.D,
         " by the chain rule, entry by entry",
         *_kept(context, set(rates)),
+        "; then ",
+        letters.bold("N"),
+        " with ",
+        letters.C,
+        Reference(("C",)),
         ":",
     )
     told = (SLOPES,) if slopes(context).lines else used

@@ -239,9 +239,7 @@ def test_the_rate_of_d_in_the_check_of_skewness() -> None:
     assert [text.partition(" = ")[2] for text in lines("planar-2r", "skew")[1:]] == [
         "(∂d₁₁/∂q₂) q̇₂ = -2m₂ l₁ l_c2 s₂ q̇₂",
         "ḋ₂₁ = (∂d₁₂/∂q₂) q̇₂ = -m₂ l₁ l_c2 s₂ q̇₂".replace("ḋ", "d\u0307"),
-        "",
     ]
-    assert lines("planar-2r", "skew")[-1].startswith("So, with 𝐂Reference(labels=('C',)")
 
 
 TILTED = """
