@@ -8,7 +8,8 @@ Formulas: `line_breaking` cuts them into pieces and these into lines, `parenthes
 around others are, `typesetting` sets a displayed formula to a width, `columns` sets many short equations
 beside each other, `strokes` sets fractions among words, `matrices` gives a matrix that is too wide entry by
 entry, `references` numbers formulas, `page_ends` says where a page may end, `latex_displays` writes
-displayed formulas for LaTeX, `latex_macros` is what stands before the text there.
+displayed formulas for LaTeX, `latex_macros` is what stands before the text there, `html_pieces` puts
+formulas together for a browser, which ends the lines.
 A terminal has cells in place of a font: `terminal_boxes`, `terminal_formulas`,
 `terminal_breaking`.  `files` writes a file whole or not at all.
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from html import escape
 from importlib.resources import files
-from itertools import chain, takewhile
+from itertools import chain
 
 from dynsolve.document import (
     DEFINITIONS,
@@ -31,39 +31,30 @@ from dynsolve.document import (
     Text,
     Uses,
 )
-from dynsolve.notation.extent import FLAT, Ruler
-from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
+from dynsolve.notation.extent import Ruler
+from dynsolve.notation.mathml import MINUS
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import NAMED, Matrix, Node, Relation, Row, Words, equation
 from dynsolve.notation.walk import walk
-from dynsolve.render.line_breaking import RELATION_BREAK, FormulaSplitter, Notation, Piece, together
+from dynsolve.render.html_pieces import (
+    LINE,
+    PAGE,
+    PHONE,
+    PagePrinter,
+    html_notation,
+    in_sentence,
+    laid_out,
+    math,
+)
+from dynsolve.render.line_breaking import FormulaSplitter, together
 from dynsolve.render.matrices import entry_equations, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
-from dynsolve.render.parentheses import HEIGHTS, height_around
 from dynsolve.render.prose import typographic, visible
 from dynsolve.render.references import levels, numbered, with_results
 from dynsolve.render.typesetting import listed
 
-PHONE = 16.5
-"""What fits a phone beside a number, in em."""
-
-LINE = 20.0
-"""What fits a phone where the number stands below."""
-
-SCROLLED = 24.0
-"""What no phone shows whole, even on a line of its own."""
-
-PAGE = 44.0
-"""What fits the widest page."""
-
-_SHORT_SIDE = 3.0
-"""The width of a left side that stays with what follows in a sentence."""
-
 _SHORT_CELL = 6
 """The letters of a cell of a table up to which it is never broken."""
-
-_INDENT = 2.0
-"""How much less a line of a phone holds in a box of its own."""
 
 _HENCE = ", so "
 """The words of a row whose formulas follow from each other."""
@@ -115,54 +106,6 @@ def _switch(level: str) -> str:
     return f"{inputs}\n"
 
 
-def _fence(sign: str, height: float) -> str:
-    """A parenthesis of a height in em."""
-    if height <= FLAT:
-        return f'<mo stretchy="false">{sign}</mo>'
-    size = f'minsize="{height:.2f}em" maxsize="{height:.2f}em"'
-    form = "prefix" if sign == "(" else "postfix"
-    return f'<mo form="{form}" stretchy="true" symmetric="true" {size}>{sign}</mo>'
-
-
-def _around(text: str) -> float:
-    return height_around(text, [_fence("(", height) for height in HEIGHTS])
-
-
-class _Printer(MathMLPrinter):
-    """MathML for a page: parentheses are larger than those in them."""
-
-    def parenthesized(self, text: str) -> str:
-        """The text in parentheses."""
-        whole = super().parenthesized(text)
-        height = _around(text)
-        if height == FLAT or "stretchy" not in whole.partition(">")[0]:
-            return whole
-        return row(f"{_fence('(', height)}{text}{_fence(')', height)}")
-
-
-def html_notation(printer: MathMLPrinter) -> Notation:
-    """The signs of a formula in MathML."""
-
-    def closed(height: float, exponent: Node | None) -> str:
-        sign = _fence(")", height)
-        if exponent is None:
-            return sign
-        return f"<msup>{row(sign)}{row(printer.text(exponent))}</msup>"  # alone in a row it is stretched
-
-    return Notation(
-        text=printer.text,
-        plus='<mo form="infix">+</mo>',
-        minus='<mo form="infix">\u2212</mo>',
-        lead=MINUS,
-        times='<mo form="infix">·</mo>',
-        relation=lambda sign: f'<mo form="infix">{escape(sign)}</mo>',
-        opened=lambda height: _fence("(", height),
-        closed=closed,
-        around=_around,
-        joined="".join,
-    )
-
-
 @dataclass(slots=True)
 class _Entry:
     """A line of the table of contents."""
@@ -172,73 +115,11 @@ class _Entry:
     steps: list[tuple[str, str, int]] = field(default_factory=list)
 
 
-def _laid_out(parts: Sequence[Piece], room: float) -> str:
-    """The pieces of a formula, between which a line may end; `room` is what a line of a phone holds.
-
-    A left side of several pieces takes a right side of one with it; another left side stays with what
-    no line of a phone holds, and an equation of two members is broken before the terms of the second.
-    """
-    members = sum(part.depth == RELATION_BREAK for part in parts)
-    if members == 2 and len(parts) > 2 and parts[-1].depth == RELATION_BREAK:
-        terms = min(part.depth for part in parts[1:-1])
-        return _nested([*parts[:-1], replace(parts[-1], depth=terms)])
-    if members < 2 or parts[1].depth > RELATION_BREAK:
-        return _nested(parts)
-    left, right, *rest = parts
-    inside = list(takewhile(lambda part: part.depth > RELATION_BREAK, rest))
-    terms = min((part.depth for part in inside if part.level == 0), default=RELATION_BREAK)
-    head = right.width + sum(part.width for part in takewhile(lambda part: part.depth > terms, inside))
-    width = left.width + right.width
-    is_broken = inside and head > room - _INDENT and width <= room
-    if right.width > SCROLLED or is_broken or (inside and members > 2 and left.width + head <= room):
-        parts = [replace(left, text=left.text + right.text, width=width), *rest]
-    return _nested(parts, terms if members == 2 else RELATION_BREAK)
-
-
-def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK, room: float = LINE) -> str:
-    """Pieces between which a line may end; one with the deeper ones after it is a box with lines of its own.
-
-    So a browser, which looks at no depth, breaks a chain at its equals signs, and a member of it,
-    or what is in parentheses, only where no line holds that whole.
-
-    >>> _nested([Piece("a", 1), Piece("=b", 2), Piece("=c", 2), Piece("+d", 2, 1)])
-    '<math displaystyle="true">a</math><wbr><math displaystyle="true">=b</math><wbr>\
-<span class="whole"><math displaystyle="true">=c</math><wbr><math displaystyle="true">+d</math></span>'
-    """
-    width = sum(part.width for part in parts)
-    groups: list[list[Piece]] = []
-    for part in parts:
-        if groups and part.depth > depth:
-            groups[-1].append(part)
-        else:
-            groups.append([_multiplied(part, width, room) if groups else part])
-    return "<wbr>".join(_grouped(group, room) for group in groups)
-
-
-def _multiplied(part: Piece, width: float, room: float) -> Piece:
-    """A piece of a box so wide; a matrix before which a line may end has a product sign.
-
-    Where that is a line of a phone alone, the sign is seen there alone.
-    """
-    if not part.sign or width <= room:
-        return part
-    sign = part.sign if width > PAGE else f'<mrow class="broken">{part.sign}</mrow>'
-    return replace(part, text=sign + part.text)
-
-
-def _grouped(group: Sequence[Piece], room: float) -> str:
-    first, *deeper = group
-    if not deeper:
-        return math(first.text, display=True)
-    inside = _nested(group, min(part.depth for part in deeper), room - _INDENT)
-    return f'<span class="whole">{inside}</span>'
-
-
 class _Page(MarkupPage):
     """Turns blocks into HTML, and remembers what the contents and the styles need."""
 
     def __init__(self, style: Style, document: Document) -> None:
-        printer = _Printer(style)
+        printer = PagePrinter(style)
         super().__init__(printer, numbered(document))
         self.levels = range(1, len(_LEVELS) + 1) if len(levels(document)) > 1 else range(1)
         self.numbers = {level: numbered(document, level or None) for level in self.levels}
@@ -379,10 +260,7 @@ class _Page(MarkupPage):
         """A formula in a sentence; a long one may be broken."""
         if self.ruler.width(node) <= 0.8 * PHONE:
             return self.whole(node)
-        first, *rest = together(self.splitter.pieces(node), _WHOLE, "".join)
-        if rest and first.width <= _SHORT_SIDE and first.width + rest[0].width <= PHONE:
-            first, rest = replace(first, text=first.text + rest[0].text), rest[1:]
-        return "<wbr>".join(_parted([part.text for part in (first, *rest)]))
+        return "<wbr>".join(in_sentence(together(self.splitter.pieces(node), _WHOLE, "".join)))
 
     def whole(self, node: Node) -> str:
         """A formula that is not broken."""
@@ -447,7 +325,7 @@ class _Page(MarkupPage):
 
     def in_pieces(self, node: Node, room: float) -> str:
         """A formula between whose pieces a line may end."""
-        return _laid_out(together(self.splitter.pieces(node), _WHOLE, "".join), room)
+        return laid_out(together(self.splitter.pieces(node), _WHOLE, "".join), room)
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None
@@ -506,26 +384,6 @@ def _between_commas(cell: Node) -> list[Node]:
         return [cell]
     parts = ((_COMMA, Words("…"), _COMMA) if part == _AND_SO_ON else (part,) for part in cell.parts)
     return list(listed(Row(tuple(chain.from_iterable(parts)))))
-
-
-def _parted(texts: Sequence[str]) -> Iterator[str]:
-    """Formulas between which a line may end; the space before a sign ends the line before it.
-
-    >>> for text in _parted(["<mi>d</mi>", '<mo form="infix">=</mo><mi>m</mi>']):
-    ...     print(text)
-    <math><mi>d</mi><mspace width="0.28em"/></math>
-    <math><mo form="infix" lspace="0">=</mo><mi>m</mi></math>
-    """
-    sign = '<mo form="infix">'
-    for k, text in enumerate(texts):
-        begun = text.replace(sign, '<mo form="infix" lspace="0">', 1) if k and text.startswith(sign) else text
-        is_followed = k + 1 < len(texts) and texts[k + 1].startswith(sign)
-        yield math(begun + '<mspace width="0.28em"/>' * is_followed)
-
-
-def math(text: str, display: bool = False) -> str:
-    """Elements as a formula of their own."""
-    return f'<math displaystyle="true">{text}</math>' if display else f"<math>{text}</math>"
 
 
 def _lone_matrix(node: Node) -> Matrix | None:
