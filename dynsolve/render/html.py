@@ -62,8 +62,8 @@ _HENCE = ", so "
 _FINE = 6.0
 _FRACTION = 13.0
 _WHOLE = 13.0
-_FEW, _COLUMN = 12, 20.0
-"""The equations that stand under each other where one is wider than this, in em, which a column holds."""
+_FEWEST, _FEW, _COLUMN = 4, 12, 20.0
+"""From how many equations on columns are made: of narrow ones, of any; and what a column holds, in em."""
 
 _LEVELS = ("brief", "normal", "full")
 _COMMA, _AND_SO_ON = Words(","), Words(", …, ")
@@ -338,7 +338,8 @@ class _Page(MarkupPage):
 
     def fit_columns(self, nodes: Sequence[Node]) -> bool:
         """Whether equations stand in columns: many, or such as a column holds on one line."""
-        return len(nodes) > _FEW or all(self.ruler.width(node) <= _COLUMN for node in nodes)
+        are_narrow = all(self.ruler.width(node) <= _COLUMN for node in nodes)
+        return len(nodes) > _FEW or (are_narrow and len(nodes) >= _FEWEST)
 
     def contents(self) -> str:
         """The table of contents."""
