@@ -42,7 +42,7 @@ PARALLELS = "Dashed grey lines at a joint are parallel to the directions between
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey; a square corner is 90°."
 RINGS = "A red arrow around an axis shows the positive sense of the angle."
 IN_METRES = "Lengths are in m."
-SHAPES = "Bodies of a given shape are tan, joints and other links blue-grey."
+SHAPES = "Bodies of a given shape are tan, the rest of the arm is blue-grey."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
 _BOLD = {"x": "𝐱", "y": "𝐲", "z": "𝐳"}

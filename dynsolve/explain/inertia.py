@@ -267,7 +267,7 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         title=f"Orientation of {name_of(body)}",
         why=why,
         formula=None if formula is None else equation(rotation, formula),
-        source=GIVEN if body.axes.kind is AxesKind.BASE else spong("7.2.1"),
+        source=GIVEN if body.axes.kind is AxesKind.BASE else f"from {spong('7.2.1')}",
         working=_turned_back(context, body, rotation),
         result=(equation(rotation, context.form(f"R{body.name}")),),
         notes=notes,

@@ -13,7 +13,7 @@ from dynsolve.explain.signs import CONSTANTS_OF_SOLUTIONS
 from dynsolve.explain.writing import machine, side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Function, Letter, Node, Number, Row, Symbol, Words
+from dynsolve.notation.tree import Function, Letter, Node, Number, Row, Sum, Symbol, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import asked_stages
@@ -45,7 +45,9 @@ class Line:
             return shown[0]
         together = side_by_side(shown)
         if isinstance(shown[0], Function):  # sines, each with its cosine
-            pairs = (*side_by_side(shown[:2]).parts, Words(", …, "), *side_by_side(shown[-2:]).parts)
+            of_sums = [sign for sign in shown if isinstance(sign, Function) and _is_of_sum(sign)]
+            last = side_by_side((of_sums or shown)[-2:]).parts
+            pairs = (*side_by_side(shown[:2]).parts, Words(", …, "), *last)
             return together if len(shown) <= 4 else Row(pairs)
         if len(shown) > 3 and not self.each and Ruler().width(together) > WIDEST:
             counts = isinstance(shown[-1], Letter) and isinstance(shown[-2], Symbol)  # m_i, after m_1 to m_6
@@ -97,6 +99,10 @@ def textbook(robot: Robot, style: Style) -> Iterator[Line]:
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
         yield from _recursions(robot)
     yield from _dynamics(robot, style)
+
+
+def _is_of_sum(sign: Function) -> bool:
+    return isinstance(sign.argument, Sum)
 
 
 def _line(sign: Node | Sequence[Node], meaning: str, unit: str = "", *kinds: Kind) -> Line:

@@ -113,8 +113,9 @@ def laid_out(parts: Sequence[Piece], room: float) -> str:
     terms = min((part.depth for part in inside if part.level == 0), default=RELATION_BREAK)
     head = right.width + sum(part.width for part in takewhile(lambda part: part.depth > terms, inside))
     width = left.width + right.width
-    is_broken = inside and head > room - _INDENT and width <= room
-    if right.width > SCROLLED or is_broken or (inside and members > 2 and left.width + head <= room):
+    is_broken = inside and head > room >= width
+    is_scrolled = right.width > (room if left.width <= _SHORT_SIDE else SCROLLED)
+    if is_scrolled or is_broken or (inside and members > 2 and left.width + head <= room):
         parts = [replace(left, text=left.text + right.text, width=width), *rest]
     return _nested(parts, terms if members == 2 else RELATION_BREAK)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain
@@ -22,6 +22,7 @@ from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign
 from dynsolve.notation.tree import (
     ZERO,
+    Function,
     Letter,
     Negative,
     Node,
@@ -32,6 +33,7 @@ from dynsolve.notation.tree import (
     Symbol,
     equation,
 )
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 
 
@@ -116,15 +118,24 @@ def christoffel(model: LongModel, step: Step) -> Step:
     )
     entry = worked_entry(model)
     example = () if entry is None else christoffel_example(model, entry.row, entry.column)
+    written = (*symbols.values(), *(one.meaning for one in model.short.sums))
     return replace(
         step,
         why=_on_symbols(model),
         lines=example,
-        concluding=("The other symbols in the same way:",) if example else (),
+        concluding=(f"The other symbols in the same way{_identities(written)}:",) if example else (),
         result=rows,
         listed=True,
         notes=(note,),
     )
+
+
+def _identities(values: Iterable[Node]) -> str:
+    """By which identities the symbols are collected."""
+    angles = {node.argument for node in walk(*values) if isinstance(node, Function)}
+    kinds = {Sum: "sums", Product: "double angles"}
+    found = [name for kind, name in kinds.items() if any(type(angle) is kind for angle in angles)]
+    return f", with sines and cosines of {' and of '.join(found)}" if found else ""
 
 
 def _on_symbols(model: LongModel) -> Prose:
@@ -138,7 +149,7 @@ def _on_symbols(model: LongModel) -> Prose:
         why += ("Joint i moves the links from ", Symbol("i"), " on like one body, so ", entry)
         why += (" does not depend on ", coordinate, " where ", _ordered("i", "j"), " and ")
         why += (_ordered("i", "k"), "; there ", opposite, ". ")
-    return (*why, "Symbols that are equal, or each other's opposites, stand in one line.")
+    return (*why, "Symbols that are equal, or each other's opposites, stand in one equation.")
 
 
 def coriolis(model: LongModel, step: Step) -> Step:

@@ -104,7 +104,8 @@ def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:
     if rows is None:
         return ("A row of ", *found, " is 0 where one of its factors is:")
     if len(rows) == 1 and context.robot.n > 1:
-        return ("Of the entries of ", *found, " only ", letters.entry("g", rows[0].row + 1), " is not 0:")
+        only = letters.entry("g", rows[0].row + 1)
+        return ("Of the entries of ", *found, " only ", only, " is not identically 0:")
     if len(rows) == 1:
         return ("The only row of ", *found, ":")
     return ("The rows of ", *found, ", from the last row up, each result put into the row above:")

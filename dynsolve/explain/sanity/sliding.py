@@ -142,8 +142,10 @@ def _saddles(context: Context, slid: int, turned: int) -> Prose:
     rate = context.show(ring.diff(context.values["g"][slid, 0], place))
     det, value = (Negative(Power(x, Number(2))) for x in (Parenthesized(by_angle), without_signs(rate)))
     why: Prose = ("In both ", letters.P, " has a saddle point: as ", equation(by_d, ZERO))
-    why += (", the determinant of its second derivatives with respect to ", Symbol(names[1]), " and ")
+    why += (", the determinant of the symmetric matrix of its second derivatives with respect to ",)
     why += (
+        Symbol(names[1]),
+        " and ",
         Symbol(names[0]),
         " is ",
         equation(det, value),

@@ -54,7 +54,9 @@ def test_a_waist_is_balanced_in_any_pose() -> None:
 
 
 def test_one_second_derivative_tells_of_one_angle() -> None:
-    assert said("crustcrawler-2r", "equilibrium").endswith("Of the entries of g only g₂ is not 0:")
+    assert said("crustcrawler-2r", "equilibrium").endswith(
+        "Of the entries of g only g₂ is not identically 0:"
+    )
     assert rows("crustcrawler-2r", "equilibrium") == [
         ["θ₂ = 90°", "< 0", "maximum", "unstable"],
         ["θ₂ = -90°", "> 0", "minimum", "stable in θ₂"],
