@@ -44,7 +44,8 @@ STAGE = Stage.INERTIA
 
 _SOURCES = {
     "box": spong("7.2.1"),
-    **dict.fromkeys(("cylinder", "sphere"), LYNCH_PARK.section("8.2.1")),
+    "cylinder": LYNCH_PARK.section("8.2.1"),
+    "sphere": f"from {LYNCH_PARK.section('8.2.1')}",  # which has the ellipsoid
     **dict.fromkeys(("hollow_cylinder", "rod", "disk", "shell"), f"by the integrals of {spong('7.2.1')}"),
 }
 """Where the moments of a shape stand."""

@@ -61,7 +61,7 @@ _HENCE = ", so "
 
 _FINE = 6.0
 _FRACTION = 13.0
-_WHOLE, _WHOLE_IN_CELL = 13.0, 8.0
+_WHOLE = 13.0
 _FEWEST, _FEW, _COLUMN = 4, 12, 20.0
 """From how many equations on columns are made: of narrow ones, of any; and what a column holds, in em."""
 
@@ -208,7 +208,7 @@ class _Page(MarkupPage):
         """A row of a table; a formula is broken in a column of sentences alone."""
         for k, cell in enumerate(cells):
             if isinstance(cell, Node) and k not in prose:
-                *before, last = (self.inline(part, _WHOLE_IN_CELL) for part in _between_commas(cell))
+                *before, last = map(self.inline, _between_commas(cell))
                 text = " ".join([*(f'<span class="one">{each},</span>' for each in before), last])
             elif isinstance(cell, str) and (sign := _SIGN.fullmatch(cell)):
                 relation, minus, number = sign.groups()
@@ -256,11 +256,11 @@ class _Page(MarkupPage):
     def verbatim(self, text: str) -> str:
         return f'<code dir="auto">{escape(visible(text))}</code>'
 
-    def inline(self, node: Node, whole: float = _WHOLE) -> str:
-        """A formula in a sentence; a long one may be broken, not in what is up to `whole` em wide."""
+    def inline(self, node: Node) -> str:
+        """A formula in a sentence; a long one may be broken."""
         if self.ruler.width(node) <= 0.8 * PHONE:
             return self.whole(node)
-        return "<wbr>".join(in_sentence(together(self.splitter.pieces(node), whole, "".join)))
+        return "<wbr>".join(in_sentence(together(self.splitter.pieces(node), _WHOLE, "".join)))
 
     def whole(self, node: Node) -> str:
         """A formula that is not broken."""

@@ -15,7 +15,7 @@ from itertools import takewhile
 from dynsolve.notation.extent import FLAT
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.tree import Node
-from dynsolve.render.line_breaking import RELATION_BREAK, Notation, Piece
+from dynsolve.render.line_breaking import RELATION_BREAK, SUM_BREAK, Notation, Piece
 from dynsolve.render.parentheses import HEIGHTS, height_around
 
 PHONE = 16.5
@@ -110,7 +110,7 @@ def laid_out(parts: Sequence[Piece], room: float) -> str:
         return _nested(parts)
     left, right, *rest = parts
     inside = list(takewhile(lambda part: part.depth > RELATION_BREAK, rest))
-    terms = min((part.depth for part in inside if part.level == 0), default=RELATION_BREAK)
+    terms = min((part.depth for part in inside if _is_term(part)), default=RELATION_BREAK)
     head = right.width + sum(part.width for part in takewhile(lambda part: part.depth > terms, inside))
     width = left.width + right.width
     is_broken = inside and head > room >= width
@@ -118,6 +118,11 @@ def laid_out(parts: Sequence[Piece], room: float) -> str:
     if is_scrolled or is_broken or (inside and members > 2 and left.width + head <= room):
         parts = [replace(left, text=left.text + right.text, width=width), *rest]
     return _nested(parts, terms if members == 2 else RELATION_BREAK)
+
+
+def _is_term(part: Piece) -> bool:
+    """Whether a piece is a term of a member, or a factor that is a matrix; a unit is neither."""
+    return part.level == 0 and (part.depth == SUM_BREAK or bool(part.sign))
 
 
 def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK, room: float = LINE) -> str:
