@@ -186,7 +186,7 @@ def test_the_moments_of_a_shape_stand_where_they_are_said_to() -> None:
         "Lynch and Park §8.2.1",
         "§7.2.1",
         "by the integrals of §7.2.1",
-        "Lynch and Park §8.2.1",
+        "from Lynch and Park §8.2.1",  # of the ellipsoid
     ]
 
 
