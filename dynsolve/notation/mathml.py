@@ -22,6 +22,7 @@ _APPLY = "<mo>\u2061</mo>"
 _CAPITAL = re.compile("<mi>[B-KM-Z]</mi>")
 _COMMA = "<mo separator='true'>,</mo>"
 _FACTOR = re.compile(r"([\d.]+)·")
+"""Words that are a factor of a power of ten."""
 _OPERATOR = re.compile(r"(sin|cos|det)?(?:(?<=[a-z])( )|([()]))?")
 """Words that are signs of the formula: the name of a function, and the parentheses of what it is of."""
 _OPERATOR_PARTS = (

@@ -67,7 +67,8 @@ _FEWEST, _FEW, _COLUMN = 4, 12, 20.0
 
 _LEVELS = ("brief", "normal", "full")
 _COMMA, _AND_SO_ON = Words(","), Words(", …, ")
-_SIGN = re.compile(r"([<>=]?) ?([-\u2212]?)(\d+)")
+_SIGN = re.compile(r"(?:([<>=]) )?([-\u2212])?(\d+)")
+_SIGN_PARTS = ("<mo>{}</mo>".format, MINUS.format, "<mn>{}</mn>".format)
 """A cell of a table that is a number, or what one is compared with."""
 _DOUBLE_NAME = re.compile(r"\b[A-Z][a-z]+-[A-Z][a-z]+\b")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
@@ -205,23 +206,25 @@ class _Page(MarkupPage):
         )
 
     def cells(self, cells: Sequence[Inline], prose: Collection[int], tag: str = "td") -> Iterator[str]:
-        """A row of a table; a formula is broken in a column of sentences alone."""
+        """A row of a table."""
         for k, cell in enumerate(cells):
-            if isinstance(cell, Node) and k not in prose:
-                *before, last = map(self.inline, _between_commas(cell))
-                text = " ".join([*(f'<span class="one">{each},</span>' for each in before), last])
-            elif isinstance(cell, str) and (sign := _SIGN.fullmatch(cell)):
-                relation, minus, number = sign.groups()
-                text = math(
-                    f"<mo>{escape(relation)}</mo>" * bool(relation)
-                    + MINUS * bool(minus)
-                    + f"<mn>{number}</mn>"
-                )
+            if k in prose:
+                yield f'<{tag} class="words">{self.prose((cell,))}</{tag}>'
             else:
-                text = self.prose((cell,))
-                if isinstance(cell, str) and len(cell) <= _SHORT_CELL:
-                    text = f'<span class="one">{text}</span>'
-            yield f'<{tag} class="words">{text}</{tag}>' if k in prose else f"<{tag}>{text}</{tag}>"
+                yield f"<{tag}>{self.cell(cell)}</{tag}>"
+
+    def cell(self, cell: Inline) -> str:
+        """What is no sentence in a table: signs or units, a number, or words; few stay on one line."""
+        if isinstance(cell, Node):
+            *before, last = map(self.inline, _between_commas(cell))
+            return " ".join([*(f'<span class="one">{each},</span>' for each in before), last])
+        if isinstance(cell, str) and (sign := _SIGN.fullmatch(cell)):
+            parts = zip(_SIGN_PARTS, sign.groups(), strict=True)
+            return math("".join(write(escape(part)) for write, part in parts if part))
+        text = self.prose((cell,))
+        return (
+            f'<span class="one">{text}</span>' if isinstance(cell, str) and len(cell) <= _SHORT_CELL else text
+        )
 
     def picture(self, picture: Picture) -> Iterator[str]:
         caption = self.words(picture.caption)
