@@ -43,6 +43,7 @@ OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey; a
 RINGS = "A red arrow around an axis shows the positive sense of the angle."
 IN_METRES = "Lengths are in m."
 SHAPES = "Bodies of a given shape are tan, the rest of the arm is blue-grey."
+POINTS = "A black ball is a point mass."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
 _BOLD = {"x": "𝐱", "y": "𝐲", "z": "𝐳"}
@@ -110,6 +111,7 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (OFFSETS, has_offsets(pose)),
         (RINGS, has_rings(pose)),
         (SHAPES, bool(pose.bodies)),
+        (POINTS, any(mass.is_point for mass in pose.skeleton.masses)),
         (OFF_LINKS, annotate.has_masses_off_links(pose)),
         (SPRINGS, bool(joint_springs(robot, values, pose))),
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
