@@ -68,8 +68,8 @@ _FEWEST, _FEW, _COLUMN = 4, 12, 20.0
 _LEVELS = ("brief", "normal", "full")
 _COMMA, _AND_SO_ON = Words(","), Words(", …, ")
 _SIGN = re.compile(r"(?:([<>=]) )?([-\u2212])?(\d+)")
-_SIGN_PARTS = ("<mo>{}</mo>".format, MINUS.format, "<mn>{}</mn>".format)
 """A cell of a table that is a number, or what one is compared with."""
+_SIGN_PARTS = ("<mo>{}</mo>".format, MINUS.format, "<mn>{}</mn>".format)
 _DOUBLE_NAME = re.compile(r"\b[A-Z][a-z]+-[A-Z][a-z]+\b")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
 
@@ -137,7 +137,7 @@ class _Page(MarkupPage):
             if isinstance(block, Heading) and block.level > 1:
                 yield "</section>\n" if is_open else ""
                 anchor = f"part-{len(self.entries) + 1}"
-                self.entries.append(_Entry(anchor, self.words(block.text)))
+                self.entries.append(_Entry(anchor, self.title(block.text)))
                 yield f'<section id="{anchor}">\n'
                 is_open = True
             yield from self.block(block)
@@ -145,8 +145,11 @@ class _Page(MarkupPage):
 
     def heading(self, heading: Heading) -> Iterator[str]:
         level = heading.level
-        words = _DOUBLE_NAME.sub(r'<span class="one">\g<0></span>', self.words(heading.text))
-        yield f'<h{level} dir="auto">{words}</h{level}>\n'
+        yield f'<h{level} dir="auto">{self.title(heading.text)}</h{level}>\n'
+
+    def title(self, text: str) -> str:
+        """The words of a heading, in which no line ends within a double name."""
+        return _DOUBLE_NAME.sub(r'<span class="one">\g<0></span>', self.words(text))
 
     def prose(self, parts: Prose) -> str:
         """A sentence, in which no line begins with the comma or the stop after a formula."""
