@@ -107,6 +107,10 @@ class ClusterPool:
         self._client.close()
 
 
+_LOST = ("CommClosedError", "FutureCancelledError")
+"""What is raised where a connection is lost: by what waits on it, and by what was computed there."""
+
+
 def _quiet() -> None:
     """Silence Dask's own logging: faults of a cluster are reported as one line by this module."""
     for name in [name for name in logging.root.manager.loggerDict if name.startswith("distributed")]:
@@ -118,7 +122,7 @@ def _quiet() -> None:
 def _is_ours(record: logging.LogRecord) -> bool:
     """Whether a log record is about something else than a lost connection of Dask."""
     kind = record.exc_info[0] if record.exc_info else None
-    return kind is None or kind.__name__ != "CommClosedError"
+    return kind is None or kind.__name__ not in _LOST
 
 
 def run_bounded(payload: Data, seconds: float, memory: int, version: str) -> Data:

@@ -163,10 +163,12 @@ def test_a_cluster_without_workers_is_given_up() -> None:
 
 
 def test_a_connection_that_is_lost_is_no_page_of_traceback(caplog: pytest.LogCaptureFixture) -> None:
+    from distributed.client import FutureCancelledError
     from distributed.comm import CommClosedError
 
     _quiet()
-    for error in (CommClosedError("in: closed"), ValueError("another")):
+    lost = (CommClosedError("in: closed"), FutureCancelledError("run", "scheduler-connection-lost"))
+    for error in (*lost, ValueError("another")):
         for name in ("asyncio", "tornado.application"):
             logging.getLogger(name).error("Task exception was never retrieved", exc_info=error)
     assert [record.exc_info[0] for record in caplog.records if record.exc_info] == 2 * [ValueError]
