@@ -85,7 +85,7 @@ def _verify_multipliers(robot: Robot, results: Mapping[str, Node], states: int) 
             abs(_dot(row, qdd) + _dot(moved, rates))
             for row, moved in zip(ours["Ac"], ours["Ac_dot"], strict=True)
         ]
-        if not max(gaps) <= TOLERANCE * max(1.0, *map(abs, qdd)):
+        if not max(gaps) <= TOLERANCE * max((1.0, *map(abs, qdd))):
             raise VerificationError("lambda does not keep the constraint; this is a fault of dynsolve")
 
 

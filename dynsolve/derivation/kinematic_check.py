@@ -203,6 +203,6 @@ def _times(rows: Any, rates: Sequence[float]) -> list[float]:
 
 def _distance(mine: Entries, theirs: Entries) -> float:
     """The largest difference, relative to the size of what is compared."""
-    size = max(1.0, *(abs(x) for x in theirs))
+    size = max((1.0, *(abs(x) for x in theirs)))
     gaps = [abs(a - b) / size for a, b in zip(mine, theirs, strict=True)]
     return max((gap if gap == gap else float("inf") for gap in gaps), default=0.0)

@@ -59,7 +59,7 @@ def verify_linear(robot: Robot, results: Mapping[str, Node], states: int = 5) ->
 
 
 def _compare(name: str, ours: Sequence[Sequence[float]], theirs: Sequence[Sequence[float]]) -> None:
-    size = max(1.0, *(abs(x) for row in theirs for x in row))
+    size = max((1.0, *(abs(x) for row in theirs for x in row)))
     gaps = (abs(a - b) for r, s in zip(ours, theirs, strict=True) for a, b in zip(r, s, strict=True))
     if not all(gap <= TOLERANCE * size for gap in gaps):
         raise VerificationError(f"{name} differs from elimination on numbers; this is a fault of dynsolve")

@@ -109,7 +109,7 @@ def _force(robot: Robot, Y: str, ours: Mapping[str, Any], values: Mapping[str, f
 def _is_product(Y: Sequence[Sequence[float]], a: Sequence[Sequence[float]], forces: Sequence[float]) -> bool:
     for row, force in zip(Y, forces, strict=True):
         terms = [y * x for y, (x,) in zip(row, a, strict=True)]
-        if not abs(sum(terms) - force) <= TOLERANCE * max(1.0, *map(abs, terms)):
+        if not abs(sum(terms) - force) <= TOLERANCE * max((1.0, *map(abs, terms))):
             return False
     return True
 

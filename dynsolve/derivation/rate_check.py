@@ -108,13 +108,13 @@ def _spaces(ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
         vectors = orthonormal(_transposed(ours[name]))
         gap = 0.0 if len(vectors) == dimension[name] else float("inf")
         for vector in vectors if name in inside else ():
-            gap = max(gap, *map(abs, _times(inside[name], vector)))
+            gap = max((gap, *map(abs, _times(inside[name], vector))))
         for column in _transposed(J) if name == "rangespace" else ():
             rest = list(column)
             for vector in vectors:
                 along = sum(a * b for a, b in zip(vector, rest, strict=True))
                 rest = [a - along * b for a, b in zip(rest, vector, strict=True)]
-            gap = max(gap, *map(abs, rest))
+            gap = max((gap, *map(abs, rest)))
         yield name, gap
 
 
@@ -129,7 +129,7 @@ def _gap(J: Rows, x: Vector, wanted: Vector, weights: Rows | None) -> float:
     for row in orthonormal(J):
         along = sum(a * b for a, b in zip(row, across, strict=True))
         across = [a - along * b for a, b in zip(across, row, strict=True)]
-    size = max(1.0, *map(abs, x), *map(abs, wanted)) * max(1.0, *(abs(e) for row in J for e in row)) ** 2
+    size = max((1.0, *map(abs, x), *map(abs, wanted))) * max((1.0, *(abs(e) for row in J for e in row))) ** 2
     return max(map(abs, (*_times(_transposed(J), left), *across))) / size
 
 

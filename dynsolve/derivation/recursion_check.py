@@ -55,7 +55,7 @@ def verify_recursions(robot: Robot, results: Mapping[str, Node], states: int = 5
         links = _Links(robot, values, arm)
         for name, mine in zip(results, program.run(values), strict=True):
             theirs = links.value(name)
-            size = max(1.0, *map(abs, theirs))
+            size = max((1.0, *map(abs, theirs)))
             if not _gap(mine, theirs) <= TOLERANCE * size:
                 raise VerificationError(
                     f"{name} differs from the motion of the arm; this is a fault of dynsolve"

@@ -47,7 +47,7 @@ def verify_statics(robot: Robot, results: Mapping[str, Node], states: int = 5) -
         weight = inverse_dynamics(arm, still, still, arm.gravity)
         held = [a + b for a, b in zip(weight, acting_forces(robot, values).springs, strict=True)]
         theirs = {"Q": Q, "tau_static": [a - b for a, b in zip(held, Q, strict=True)]}
-        size = max(1.0, *map(abs, Q), *map(abs, held))
+        size = max((1.0, *map(abs, Q), *map(abs, held)))
         for name, mine in zip(results, program.run(values), strict=True):
             if not _gap(mine, theirs[name]) <= TOLERANCE * size:
                 raise VerificationError(

@@ -175,7 +175,7 @@ def _dynamic_errors(state: _Independent, ours: Results) -> Iterator[tuple[str, f
         "friction": _column(acting.friction),
         "tau": _column(state.forces(state.qd, state.qdd, True), acting.springs, acting.friction),
     }
-    size = max(state.negligible, *(_size(matrix) for matrix in theirs.values())) or 1.0
+    size = max((state.negligible, *(_size(matrix) for matrix in theirs.values()))) or 1.0
     mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, state.qd, strict=True))] for row in ours["C"]]}
     for name, matrix in theirs.items():
         if name in mine:

@@ -140,7 +140,7 @@ class OwnConstraint:
         ours, keys = self._numbers(mine, at), self._numbers(theirs, at)
         if ours is None or keys is None:
             return float("inf")
-        size = max(1.0, *(abs(x) for row in keys for x in row))
+        size = max((1.0, *(abs(x) for row in keys for x in row)))
         return (
             max(
                 abs(a - b)
