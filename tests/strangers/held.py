@@ -1,0 +1,100 @@
+"""What is held of every mechanism: it is solved in every form, and nothing that is printed is false.
+
+`faults(problem)` gives the faults of one file; none where it is refused with its place and the remedy.
+"""
+
+from __future__ import annotations
+
+import re
+import traceback
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from time import process_time
+
+import dynsolve
+from dynsolve.errors import InputError
+from dynsolve.explain.abbreviations import Abbreviate
+from dynsolve.explain.step import Detail
+from dynsolve.problem import read_problem
+from dynsolve.render.formats import Format
+from dynsolve.solution.reports import report
+
+SECONDS = 30
+"""Processor time that a mechanism of up to four joints may take, all its forms together."""
+
+TEXTS = (Format.TEXT, Format.LATEX, Format.HTML, Format.MARKDOWN)
+
+PROGRAM_TEXT = re.compile(
+    r"\b(?:Row|Letter|Symbol|Sum|Product|Number|Power|Quotient|Negative|Function|Words|Fraction|Expr|Matrix)\("
+    r"|<[a-z]+(?:\.\w+)+ |object at 0x|\bNone\b|\bTrue\b|\bFalse\b|\bnan\b|\binf\b|\d\.\d{13,}"
+)
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What is wrong: its kind in a word, and where."""
+
+    kind: str
+    text: str
+
+
+class Refused(Exception):
+    """The file is no problem that dynsolve takes; the message is what it says."""
+
+
+def faults(text: str, which: int = 0) -> list[Fault]:
+    """The faults of a problem file; `which` chooses the form in which everything but text is looked at.
+
+    Raises Refused.
+    """
+    started = process_time()
+    found: list[Fault] = []
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        try:
+            found += _faults(text, which)
+        except Refused:
+            raise
+        except Exception as error:  # noqa: BLE001 - whatever it is, it is the fault that is looked for
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            where = f"{place.filename.rsplit('dynsolve/', 1)[-1]}:{place.lineno}"
+            found.append(Fault("crash", f"{type(error).__name__} at {where}: {error}"))
+    found += [Fault("warning", str(warning.message)) for warning in told]
+    if (spent := process_time() - started) > SECONDS:
+        found.append(Fault("slow", f"{spent:.0f} s"))
+    return found
+
+
+def _faults(text: str, which: int) -> Iterator[Fault]:
+    try:
+        problem = read_problem(text)
+    except InputError as error:
+        if all(finding.line and finding.message for finding in error.findings):
+            raise Refused(str(error)) from None
+        yield Fault("refusal", f"without a place: {error}")
+        return
+    try:
+        solution = dynsolve.solve(problem)
+    except InputError as error:
+        raise Refused(str(error)) from None
+    report(solution, Format.JSON)
+    ways = list(product(Detail, Abbreviate))
+    for place, (detail, abbreviate) in enumerate(ways):
+        formats = (Format.TEXT, *([TEXTS[1 + place % 3]] if place == which % len(ways) else []))
+        for format in formats:
+            page = report(solution, format, detail=detail, abbreviate=abbreviate).decode()
+            for match in PROGRAM_TEXT.finditer(_words(page, format)):
+                yield Fault("program text", f"{format.value}: {_around(page, match)}")
+
+
+def _words(page: str, format: Format) -> str:
+    """A page without what is no text of it: styles, scripts, drawings and tags of HTML."""
+    if format is not Format.HTML:
+        return page
+    return re.sub(r"<(style|script|svg)\b.*?</\1>|<[^>]*>", "", page, flags=re.S)
+
+
+def _around(text: str, match: re.Match[str]) -> str:
+    return " ".join(text[max(match.start() - 40, 0) : match.end() + 40].split())
