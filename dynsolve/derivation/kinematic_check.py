@@ -128,15 +128,13 @@ class _Motion:
 
     def _task(self, ours: Mapping[str, Any]) -> Iterator[Compared]:
         task, last = self.robot.questions.task, self.frames[-1]
-        if task is not None and task.is_twist:
-            first: Entries = (*last.v, *last.w)
-            second: Entries = (*last.dv, *last.dw)
-        else:
-            if "r" in ours:
-                yield "r", _flat(ours["r"]), self._task_at(0.0)
-            if "Jr" not in ours:
-                return
-            first, second = self._slopes
+        is_twist = task is not None and task.is_twist
+        if "r" in ours and not is_twist:
+            yield "r", _flat(ours["r"]), self._task_at(0.0)
+        if "Jr" not in ours:
+            return
+        rates: tuple[Entries, Entries] = (*last.v, *last.w), (*last.dv, *last.dw)
+        first, second = rates if is_twist else self._slopes
         yield "Jr", _times(ours["Jr"], self.arm.qd), first
         if "Jr_dot" in ours:
             yield "Jr_dot", self._acceleration(ours["Jr"], ours["Jr_dot"]), second

@@ -15,6 +15,7 @@ from dynsolve.explain.definition_units import units_of
 from dynsolve.explain.parameter_meanings import meanings, told_together
 from dynsolve.explain.recurring import Definition
 from dynsolve.explain.roles import Role
+from dynsolve.explain.shapes import shape_letters
 from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.signs import shorthands
 from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
@@ -210,13 +211,13 @@ def _in_a_section(robot: Robot, short: Abbreviated) -> Iterator[Line]:
 
 def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
     """The letters of the formulas of this robot's uniform shapes, which those formulas alone have."""
-    shapes = [body.shape for body in robot.bodies if body.shape is not None]
-    used = {letter for shape in shapes for letter, _ in shape.letters} | ({MASS} if shapes else set())
-    names = [name for name in SHAPES if name in used and ("", "name", name) in occurring]
+    signs = {letter: sign.name for letter, sign in shape_letters(robot).items()}
+    used = [letter for letter in SHAPES if ("", "name", signs.get(letter, "")) in occurring]
     for unit in ("kg", "m"):
-        own = [name for name in names if (name == MASS) == (unit == "kg")]
+        own = [letter for letter in used if (letter == MASS) == (unit == "kg")]
         if own:
-            yield _named(own, f"{', '.join(SHAPES[name] for name in own)} of a uniform shape", unit)
+            meaning = f"{', '.join(SHAPES[letter] for letter in own)} of a uniform shape"
+            yield _named([signs[letter] for letter in own], meaning, unit)
 
 
 def _counting(occurring: set[Kind]) -> Iterator[Inline]:
