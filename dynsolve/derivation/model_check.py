@@ -16,6 +16,7 @@ from typing import Any
 
 from dynsolve.derivation.arm_values import draw_values
 from dynsolve.derivation.elimination import rank
+from dynsolve.derivation.regressor import known_names
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
@@ -118,7 +119,7 @@ def rank_of_forces(robot: Robot, Y: str, forces: Node, expected: int) -> int:
     """The rank of the forces over motions and unknown parameters, looked for a little beyond `expected`."""
     program = compile_trees([forces])
     random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    known = robot.questions.model.known
+    known = known_names(robot)
     fixed = {
         name: value for name, value in draw_values(robot, random, program.run)[0].items() if name in known
     }

@@ -156,7 +156,7 @@ def bare_steps(stage: Stage, context: Context) -> Iterator[Step]:
     robot = context.robot
     for name, quantity in quantities(robot).items():
         family = quantity.family
-        if family.stage is not stage or family.kind not in FORMED or quantity.is_read_off:
+        if family.stage is not stage or family.kind not in FORMED or quantity.is_read_off or not family.json:
             continue
         if quantity.rule in context.values.rules and quantity.rule != "christoffel":  # they stand in C
             letter = quantity.letter(robot) if family.has_letter else Words(name)

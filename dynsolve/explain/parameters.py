@@ -10,7 +10,7 @@ from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Skipped
-from dynsolve.derivation.regressor import combinations
+from dynsolve.derivation.regressor import combinations, known_names
 from dynsolve.document import Prose
 from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.context import Context
@@ -105,7 +105,7 @@ def _title(linear: _Linear) -> str:
 
 
 def _known(context: Context) -> Prose:
-    known = sorted(context.robot.questions.model.known)
+    known = sorted(known_names(context.robot))
     if not known:
         return ()
     return (*listed([Symbol(name) for name in known]), f" count{'s' * (len(known) == 1)} as known. ")
