@@ -14,16 +14,27 @@ from itertools import product
 from time import process_time
 
 import dynsolve
+from dynsolve import Solution
+from dynsolve.document import Block, Document
 from dynsolve.errors import InputError
 from dynsolve.explain.abbreviations import Abbreviate
+from dynsolve.explain.notation_list import COUNTING, notation
+from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.step import Detail
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Letter, Node
+from dynsolve.notation.unicode import UnicodePrinter, to_unicode
+from dynsolve.notation.walk import children
 from dynsolve.problem import read_problem
 from dynsolve.render.formats import Format
+from dynsolve.solution.documents import solution_document
 from dynsolve.solution.reports import report
+from tests.strangers.oracle import random_point, untrue
 
 SECONDS = 30
 """Processor time that a mechanism of up to four joints may take, all its forms together."""
 
+TOLD_IN_WORDS = {TRANSPOSED, *(("", "name", name) for name in COUNTING)}
 TEXTS = (Format.TEXT, Format.LATEX, Format.HTML, Format.MARKDOWN)
 
 PROGRAM_TEXT = re.compile(
@@ -82,11 +93,47 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
     report(solution, Format.JSON)
     ways = list(product(Detail, Abbreviate))
     for place, (detail, abbreviate) in enumerate(ways):
+        document = solution_document(solution, detail, None, abbreviate)
+        for one in untrue(document.blocks, random_point(solution, which)):
+            yield Fault(
+                "untrue", f"{one.where}: {to_unicode(one.left)} = {to_unicode(one.right)}: {one.numbers}"
+            )
+        yield from _unknown_letters(solution, document, abbreviate)
         formats = (Format.TEXT, *([TEXTS[1 + place % 3]] if place == which % len(ways) else []))
         for format in formats:
             page = report(solution, format, detail=detail, abbreviate=abbreviate).decode()
             for match in PROGRAM_TEXT.finditer(_words(page, format)):
                 yield Fault("program text", f"{format.value}: {_around(page, match)}")
+
+
+def _unknown_letters(solution: Solution, document: Document, abbreviate: Abbreviate) -> Iterator[Fault]:
+    """Signs that are printed and not introduced, or have two meanings."""
+    style, blocks = solution.style, document.blocks
+    told = notation(solution.robot, style, blocks, solution.abbreviated(abbreviate))
+    known = {kind for line in told.lines for kind in line.kinds} | TOLD_IN_WORDS
+    for kind in kinds_in(formulas_in(blocks), style) - known:
+        yield Fault("letter", f"{kind} is not in the list of notation")
+    printer, meanings = UnicodePrinter(style), dict[str, set[Kind]]()
+    for node in signs_in(blocks, style):
+        kind = kind_of(node, style)
+        assert kind is not None
+        meanings.setdefault(printer.text(node), set()).add(kind)
+    for text, kinds in meanings.items():
+        if len(kinds) > 1:
+            yield Fault("letter", f"{text} stands for {kinds}")
+
+
+def signs_in(blocks: tuple[Block, ...], style: Style) -> set[Node]:
+    """Every name, letter and shorthand of a report, without the letters inside indices."""
+    found: set[Node] = set()
+    pending = list(formulas_in(blocks))
+    while pending:
+        node = pending.pop()
+        if kind_of(node, style):
+            found.add(node)
+        elif not isinstance(node, Letter):
+            pending += children(node)
+    return found
 
 
 def _words(page: str, format: Format) -> str:
