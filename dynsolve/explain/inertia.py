@@ -227,10 +227,10 @@ def _parallel_axis(context: Context, body: Body) -> Step:
     b = body.name
     tensor = letters.tensor(context.robot, body)
     given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
-    r = Letter("r", style="bold")
+    d = letters.bold("d")
     mass = context.mass(body)
-    square = Product((Transpose(r), r, letters.bold("E")))
-    shift = Product((mass, Sum((square, Negative(Product((r, Transpose(r))))))))
+    square = Product((Transpose(d), d, letters.bold("E")))
+    shift = Product((mass, Sum((square, Negative(Product((d, Transpose(d))))))))
     H = context.values[f"H{body.link}"]
     relative = inertia.axes_in_link(context.robot, body, H)
     assert body.about_point is not None
@@ -241,12 +241,12 @@ def _parallel_axis(context: Context, body: Body) -> Step:
         title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
         why=(
             "The given tensor is about another point, but the kinetic energy needs the one about the mass "
-            "centre. r goes from the given point to the mass centre, in the body's axes; E is the identity.",
+            "centre. d goes from the given point to the mass centre, in the body's axes; E is the identity.",
         ),
         formula=equation(tensor, Sum((given, Negative(shift)))),
         source="parallel-axis theorem; Craig 6.3",
         working=(
-            equation(r, context.show(offset)),
+            equation(d, context.show(offset)),
             equation(shift, context.show(inertia.steiner(body.mass, offset))),
         ),
         result=(equation(tensor, context.form(f"I_body{b}")),),

@@ -24,6 +24,8 @@ from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Function, Letter, Node, Product, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
+from dynsolve.quantities.robot_stages import stages_of
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
@@ -143,6 +145,7 @@ def notation(
         *general,
         *_of_shapes(robot, occurring - own),
     ]
+    lines += _of_drawing(robot, occurring.difference(*(line.kinds for line in lines)))
     shown = _merged(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
@@ -218,6 +221,13 @@ def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
         if own:
             meaning = f"{', '.join(SHAPES[letter] for letter in own)} of a uniform shape"
             yield _named([signs[letter] for letter in own], meaning, unit)
+
+
+def _of_drawing(robot: Robot, unknown: set[Kind]) -> Iterator[Line]:
+    """The lengths of a drawing on which the table does not depend."""
+    names = sorted(name for _, kind, name in unknown if kind == "name" and name not in COUNTING)
+    if names and Stage.FRAMES in stages_of(robot):
+        yield _named(names, "lengths in the drawing alone", "m")
 
 
 def _counting(occurring: set[Kind]) -> Iterator[Inline]:

@@ -162,10 +162,10 @@ def _questions(robot: Robot) -> Iterator[Line]:
         yield from _pose(robot)
     tip = [Letter(axis, Words("tip")) for axis in "xyz"]
     yield _line(tip, "coordinates of the origin of the last frame", "m")
-    if robot.questions.task is not None:
-        yield _line(letters.TASK, "task")
-    else:
-        yield _line(letters.bold("r"), "from the point of a given tensor to its mass centre", "m")
+    if robot.questions.points:
+        yield _line([_entry(axis, Symbol("P")) for axis in "xyz"], "coordinates of a named point", "m")
+    yield _line(letters.TASK, "task")
+    yield _line(letters.bold("d"), "from the point of a given tensor to its mass centre", "m")
     yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
     yield _line(letters.WEIGHTS, "weights of the joint rates")
     yield _line(Letter("N", style="script"), "null space of a matrix")
@@ -395,6 +395,7 @@ def _linear(robot: Robot) -> Iterator[Line]:
     near = [(letters.LINEAR_A, "matrix of the state"), (letters.LINEAR_B, "matrix of the inputs")]
     yield _each(near, " of the motion near the equilibrium")
     yield _line(letters.bold("q", Words("e")), "the equilibrium")
+    yield _line(letters.STEADY_ENERGY, "potential energy less the kinetic energy of a steady motion", "J")
     yield _each(
         [
             (letters.bold("F"), "factors of the rates in the friction"),

@@ -117,6 +117,7 @@ NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r"
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
 LOST = Row((Letter("N", style="script"), Parenthesized(Transpose(bold("J", Symbol("r"))))))
 TASK = bold("r")
+STEADY_ENERGY = Letter("V")
 TASK_OF_Q = Row((TASK, Parenthesized(Q)))
 FRAME_OF_Q = Row((bold("H"), Parenthesized(Q)))
 J_TASK = bold("J", Symbol("r"))
