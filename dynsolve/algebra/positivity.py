@@ -22,7 +22,7 @@ def is_nonnegative(expr: Expr) -> bool:
     free = _parameters(expr)
     return all(
         factor > 0 and all(e % 2 == 0 or i in free for i, e in enumerate(exponents))
-        for exponents, factor in expr.poly.to_dict().items()
+        for exponents, factor in expr.poly.terms()
     )
 
 
