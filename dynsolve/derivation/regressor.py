@@ -43,7 +43,6 @@ MOST_COEFFICIENTS = 4000
 """With more different coefficients no parameters are looked for."""
 
 TOO_MANY = "the forces have too many different coefficients"
-NO_FORCES = "these forces are 0 in every state, so that there are no parameters in them"
 NOT_LINEAR = "the forces are not linear in the given parameters"
 
 
@@ -92,8 +91,6 @@ def minimal_parameters(robot: Robot, forces: Matrix) -> Matrix | Skipped:
     found = coefficients(vector for row in split for _, vector in row)
     if len(found) > MOST_COEFFICIENTS:
         return Skipped(TOO_MANY)
-    if not found:
-        return Skipped(NO_FORCES)
     span, chosen = ParameterSpan(robot.ring), list[Vector]()
     for vector in found:
         if not span.has(vector):

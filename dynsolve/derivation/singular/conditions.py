@@ -29,14 +29,15 @@ class Condition:
         return value
 
     def reduced_together(self, others: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Several expressions where this holds, up to a factor that all of them share and is never 0."""
+        """Several expressions where this holds, up to a positive factor that all of them share."""
         for pair, sine, cosine in self._turn:
             return tuple(_at_angle(other, pair, sine, cosine) for other in others)
         for index, factor, rest in self._length:
             highest = max(
                 (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
             )
-            return tuple(_at_length(other, index, factor, rest, highest) for other in others)
+            even = highest + highest % 2
+            return tuple(_at_length(other, index, factor, rest, even) for other in others)
         return tuple(other.ring.zero if self._divides(other) else other for other in others)
 
     def _divides(self, other: Expr) -> bool:
