@@ -10,21 +10,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from math import hypot
 from operator import mul
-from random import Random
 from typing import Any
 
-from dynsolve.derivation.arm_values import draw
+from dynsolve.algebra.sampling import ENOUGH
+from dynsolve.derivation.arm_values import arms
 from dynsolve.derivation.elimination import rank
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees, evaluate
 from dynsolve.robot.model import Robot
 
-STATES = 8
 NEWTON_STEPS = 60
 DIFFERENCE = 1e-6
 SMALL = 1e-9
@@ -124,10 +123,8 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
 
 
 def states_of(robot: Robot) -> Iterator[dict[str, float]]:
-    """Random configurations with values for the parameters, the same ones every time."""
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(STATES):
-        yield dict(draw(robot, random)[0])
+    """Configurations in all quadrants with values for the parameters."""
+    return (values for values, _ in islice(arms(robot), ENOUGH))
 
 
 def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import islice
 from math import degrees, pi, remainder
-from random import Random
 
+from dynsolve.algebra.sampling import numbered
 from dynsolve.answers.judging.mechanism.chains import Chain, NumberRow, chain_of
 from dynsolve.answers.judging.mechanism.matching import Match, Matching, Mismatch, is_seen
 from dynsolve.answers.judging.mechanism.tables import Table, TableError, TableRow, key_table, read_table
@@ -26,7 +27,6 @@ ROUNDED = 2e-3
 NO_VALUE = (ArithmeticError, ValueError, KeyError, TypeError)
 """What a cell raises that has no value: a root of -1, a name that the problem does not have."""
 
-_SEED = 20_060_302
 _DRAWS = 3
 _TRIES = 200
 
@@ -252,11 +252,10 @@ def _base_is_free(problem: Problem) -> bool:
 
 def _draws(problem: Problem, key: Table) -> Iterator[dict[str, float]]:
     """Values of the letters at which the key has one: lengths and angles between 0.4 and 1.6."""
-    random = Random(_SEED)  # noqa: S311 - the same values every time are wanted
     names = (*problem.robot.ring.parameters, *sorted(names_in(*(c for row in key for c in row.constants))))
     found = 0
-    for _ in range(_TRIES):
-        letters = {name: random.uniform(0.4, 1.6) for name in dict.fromkeys(names)} | {"pi": pi}
+    for sample in islice(numbered(), _TRIES):
+        letters = {name: sample.positive() for name in dict.fromkeys(names)} | {"pi": pi}
         try:
             for row in key:
                 row.numbers(letters)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from random import Random
+from itertools import islice
 
 import pytest
 
-from dynsolve.derivation.inverse.branches import branches, configuration, random_state, reach_of, solves_task
+from dynsolve.algebra.sampling import ENOUGH, samples
+from dynsolve.derivation.inverse.branches import branches, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.search import solve_task
 from dynsolve.derivation.inverse.solving import Solving
 from dynsolve.derivation.rules import derive
@@ -55,9 +56,7 @@ def test_every_branch_solves_the_task(table: str, task: str, steps: str, count: 
     assert found is not None
     kept = branches(found)
     assert kept is not None
-    random = Random(7)
-    for _ in range(20):
-        state = random_state(found, random)
+    for state in islice(samples(found.ring), ENOUGH, ENOUGH + 20):
         reached = reach_of(found, state)
         there = [q for q in (configuration(found, b, {**state, **reached}) for b in kept) if q is not None]
         assert there
