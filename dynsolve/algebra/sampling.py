@@ -28,8 +28,8 @@ ENOUGH = 16
 _MASKS = (1, 3, 5, 15, 9, 7, 13, 11)
 """Those of the first eight sides; of the next ones the same with a higher bit."""
 
-_END = 0.1
-"""Values keep so far from 0 and from right angles, near which formulas lose digits."""
+_END, WIDEST = 0.1, 1.5
+"""How near values come to 0 and to right angles, where formulas lose digits, and how far lengths go."""
 
 
 class Sample:
@@ -47,7 +47,9 @@ class Sample:
     def signed(self) -> float:
         """A number of either sign."""
         sign = self._side()
-        return sign * (self.random.uniform(_END, 0.8) if self._side() < 0 else self.random.uniform(0.8, 1.5))
+        return sign * (
+            self.random.uniform(_END, 0.8) if self._side() < 0 else self.random.uniform(0.8, WIDEST)
+        )
 
     def positive(self) -> float:
         """The value of a parameter."""

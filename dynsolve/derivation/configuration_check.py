@@ -8,7 +8,7 @@ random configurations it has that rank.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from math import hypot
@@ -16,12 +16,12 @@ from operator import mul
 from typing import Any
 
 from dynsolve.algebra.sampling import ENOUGH
-from dynsolve.derivation.arm_values import arms
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import rank
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
-from dynsolve.notation.tree_values import Program, compile_trees, evaluate
+from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.robot.model import Robot
 
 NEWTON_STEPS = 60
@@ -41,11 +41,11 @@ def verify_inverse(
 
     Raises VerificationError where one is none, or one is missing.
     """
-    task = compile_trees([r])
-    for values in states_of(robot):
+    task, solutions = compile_trees([r]), [solution_of(branch) for branch in branches]
+    for values in states_of(robot, task):
         reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
-        found = [q for q in (on_branch(branch, given) for branch in branches) if q is not None]
+        found = [q for q in (solution(given) for solution in solutions) if q is not None]
         if not all(near(reaches(task, q), reached, angles) for q in found):
             raise VerificationError("a branch of the inverse kinematics does not reach what it should")
         if not any(same_configuration(robot.ring, q, values) for q in found):
@@ -81,13 +81,26 @@ def reaches(task: Program, q: Values) -> list[float]:
 
 def on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | None:
     """The configuration; None where the branch does not exist, or a formula lacks a value."""
-    q = dict(given)
-    for name, formula in branch.items():
-        try:
-            q[name] = evaluate(formula, q)
-        except NO_VALUE:
-            return None
-    return q
+    return solution_of(branch)(given)
+
+
+def solution_of(branch: Mapping[str, Node]) -> Callable[[Values], dict[str, float] | None]:
+    """The same for many places."""
+    try:
+        programs = {name: compile_trees([formula]) for name, formula in branch.items()}
+    except NO_VALUE:
+        return lambda given: None
+
+    def at(given: Values) -> dict[str, float] | None:
+        q = dict(given)
+        for name, program in programs.items():
+            try:
+                (q[name],) = program.run(q)
+            except NO_VALUE:
+                return None
+        return q
+
+    return at
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,12 +118,13 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
     Raises VerificationError where it is not what it should be, or a lost direction is none.
     """
     program = compile_trees([jacobian])
-    for values in states_of(robot):
+    states = states_of(robot, program)
+    for values in states:
         if rank_of(program.run(values)[0]) != rank:
             raise VerificationError("the rank of the Jacobian is not what it should be")
     for case in cases:
         zeros, lost = compile_trees(case.zeros), compile_trees(case.lost)
-        found = (zero_near(robot, zeros, values) for values in states_of(robot))
+        found = (zero_near(robot, zeros, values) for values in states)
         ranks: list[int] = []
         for at in (values for values in found if values is not None):
             J = program.run(at)[0]
@@ -122,9 +136,9 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
             raise VerificationError("the rank at a singular configuration is not what it should be")
 
 
-def states_of(robot: Robot) -> Iterator[dict[str, float]]:
-    """Configurations in all quadrants with values for the parameters."""
-    return (values for values, _ in islice(arms(robot), ENOUGH))
+def states_of(robot: Robot, program: Program) -> list[dict[str, float]]:
+    """Configurations in all quadrants with parameters for which formulas have a value."""
+    return [values for values, _ in islice(states_with(robot, program.run), ENOUGH)]
 
 
 def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
