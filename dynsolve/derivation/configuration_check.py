@@ -8,10 +8,10 @@ random configurations it has that rank.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import islice
-from math import hypot
+from itertools import islice, product
+from math import hypot, pi
 from operator import mul
 from typing import Any
 
@@ -25,6 +25,7 @@ from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.robot.model import Robot
 
 NEWTON_STEPS = 60
+MOST_TURNS = 128
 DIFFERENCE = 1e-6
 SMALL = 1e-9
 
@@ -147,6 +148,31 @@ def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] |
         return _newton(robot, zeros, start)
     except NO_VALUE:
         return None
+
+
+def with_half_turns(
+    robot: Robot, zeros: Program, points: Iterable[dict[str, float]]
+) -> Iterator[dict[str, float]]:
+    """Points at which everything is 0, and those that are the first of them with angles half a turn on.
+
+    Which of q = 0 and q = π Newton's method finds of sin q = 0 is chance; these are all.
+    """
+    turning = [name for name, kind in robot.ring.coordinates if kind == "revolute"]
+    for number, q in enumerate(points):
+        yield q
+        ways = product((0.0, pi), repeat=len(turning)) if number == 0 else ()
+        for turns in islice(ways, 1, MOST_TURNS):
+            turned = q | {name: q[name] + turn for name, turn in zip(turning, turns, strict=True)}
+            if is_zero(zeros, turned):
+                yield turned
+
+
+def is_zero(program: Program, at: Values) -> bool:
+    """Whether everything is 0, and has a value."""
+    try:
+        return all(abs(value) < CLOSE for value in program.run(at))
+    except NO_VALUE:
+        return False
 
 
 def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:

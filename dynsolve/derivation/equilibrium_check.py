@@ -17,7 +17,7 @@ from math import atan2
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.sampling import ENOUGH
 from dynsolve.derivation.arm_values import states_with
-from dynsolve.derivation.configuration_check import NO_VALUE
+from dynsolve.derivation.configuration_check import NO_VALUE, is_zero
 from dynsolve.derivation.elimination import is_positive_definite, solved
 from dynsolve.derivation.equilibria import wanted_rows
 from dynsolve.derivation.reached import CLOSE
@@ -71,11 +71,6 @@ def in_balance(robot: Robot, forces: Node) -> Program:
     """The forces that must be 0: those of all coordinates that no motor holds."""
     assert isinstance(forces, Matrix)
     return compile_trees([forces.rows[k][0] for k in wanted_rows(robot)])
-
-
-def is_zero(program: Program, at: Mapping[str, float]) -> bool:
-    """Whether everything is 0."""
-    return all(abs(value) < CLOSE for value in program.run(at))
 
 
 def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:

@@ -15,6 +15,7 @@ from dynsolve.answers.submission import Part
 from dynsolve.derivation.configuration_check import reaches, solution_of
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.notation.tokens import ARCS
 from dynsolve.notation.tree import Function, Node
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.notation.walk import names_in, walk, with_atan2_exchanged
@@ -94,7 +95,7 @@ class BranchKey:
 def _has_half_a_turn(branch: Formulas) -> bool:
     """Whether an angle comes from a function whose values go half way round."""
     parts = (part for node in branch.values() for part in walk(node))
-    return any(isinstance(part, Function) and part.name in ("atan", "asin", "acos") for part in parts)
+    return any(isinstance(part, Function) and part.name in {*ARCS} - {"atan2"} for part in parts)
 
 
 def branches_of(alternatives: Sequence[Sequence[Part]]) -> list[dict[str, Node]]:

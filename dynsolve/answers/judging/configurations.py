@@ -24,6 +24,7 @@ from dynsolve.derivation.balance_check import balanced_points, is_balanced
 from dynsolve.derivation.configuration_check import (
     rank_of,
     states_of,
+    with_half_turns,
     zero_near,
 )
 from dynsolve.derivation.equilibrium_check import balanced_forces
@@ -185,4 +186,4 @@ class ConfigurationKey:
     def _points(self, zeros: Program) -> Iterator[dict[str, float]]:
         """Configurations at which everything is 0, looked for from all quadrants."""
         found = (zero_near(self.robot, zeros, start) for start in self._starts)
-        return (q for q in found if q is not None)
+        return with_half_turns(self.robot, zeros, (q for q in found if q is not None))
