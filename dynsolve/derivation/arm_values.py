@@ -12,6 +12,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.newton_euler import (
     ZERO,
@@ -39,15 +40,15 @@ Made = TypeVar("Made")
 
 def arms(robot: Robot) -> Iterator[tuple[dict[str, float], Arm]]:
     """States, with parameters for which every root and quotient has a value, and the arm there."""
-    return states_with(robot, partial(arm_at, robot))
+    return states_with(robot.ring, partial(arm_at, robot))
 
 
 def states_with(
-    robot: Robot, at: Callable[[Mapping[str, float]], Made], signed: Iterable[str] = ()
+    ring: Ring, at: Callable[[Mapping[str, float]], Made], signed: Iterable[str] = ()
 ) -> Iterator[tuple[dict[str, float], Made]]:
     """The samples where `at` has a value, without end, and what it makes of them."""
     missed = 0
-    for values in samples(robot.ring, signed):
+    for values in samples(ring, signed):
         try:
             made = at(values)
         except (ValueError, ZeroDivisionError):

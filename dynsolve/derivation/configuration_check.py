@@ -139,7 +139,7 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
 
 def states_of(robot: Robot, program: Program) -> list[dict[str, float]]:
     """Configurations in all quadrants with parameters for which formulas have a value."""
-    return [values for values, _ in islice(states_with(robot, program.run), ENOUGH)]
+    return [values for values, _ in islice(states_with(robot.ring, program.run), ENOUGH)]
 
 
 def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:

@@ -48,7 +48,7 @@ def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator
         if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
             raise ValueError  # the next sample is taken
 
-    for found, _ in islice(states_with(robot, assumed), ENOUGH):
+    for found, _ in islice(states_with(robot.ring, assumed), ENOUGH):
         values = {**found, **(numbers or {})}
         yield values | _moving(robot, values)
 

@@ -26,7 +26,7 @@ def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -
     """
     found, left = compile_trees([results["qdd_forward"]]), compile_trees([results["tau"]])
     outside = compile_trees([results["Q"]]) if "Q" in results else None
-    for values, (rows,) in islice(states_with(robot, found.run), states):
+    for values, (rows,) in islice(states_with(robot.ring, found.run), states):
         moved = {q.acceleration: row[0] for q, row in zip(robot.coordinates, rows, strict=True)}
         (theirs,) = left.run({**values, **moved})
         loads = outside.run(values)[0] if outside else [(0.0,)] * robot.n

@@ -47,7 +47,7 @@ def verify_linear(robot: Robot, results: Mapping[str, Node], states: int = 5) ->
     program = compile_trees(list(results.values()))
     near = {name: results[name] for name in _NEAR if name in results}  # where Lambda may be singular
     near_program = compile_trees(list(near.values()))
-    for values, found in islice(states_with(robot, program.run), states):
+    for values, found in islice(states_with(robot.ring, program.run), states):
         here = dict(zip(results, found, strict=True))
         if "Lambda" in here:
             _compare("Lambda", _products(here["Lambda"], _mobility(here)), _identity(len(here["Jr"])))

@@ -252,4 +252,4 @@ def mechanisms(robot: Robot) -> Iterator[tuple[dict[str, float], Mechanism]]:
         mechanism.energies()
         return mechanism
 
-    return states_with(robot, at)
+    return states_with(robot.ring, at)

@@ -54,7 +54,7 @@ def verify_references(robot: Robot, results: Mapping[str, Node], states: int = 5
     program = compile_trees([results[name] for name in ("Yr", "a", "D", "C", "g")])
     names = [reference(q.name) for q in robot.coordinates]
     rates = [f"{name}_{dots}" for name in names for dots in ("dot", "ddot")]
-    for own, (Y, a, D, C, g) in islice(states_with(robot, program.run, rates), states):
+    for own, (Y, a, D, C, g) in islice(states_with(robot.ring, program.run, rates), states):
         forces = [
             sum(
                 d * own[f"{name}_ddot"] + c * own[f"{name}_dot"]
@@ -73,7 +73,7 @@ def verify_model(robot: Robot, results: Mapping[str, Node], states: int = 5) -> 
     Raises VerificationError where a product differs from the forces, or a is not of minimal length.
     """
     program = compile_trees(list(results.values()))
-    for values, found in islice(states_with(robot, program.run), states if results else 0):
+    for values, found in islice(states_with(robot.ring, program.run), states if results else 0):
         here = dict(zip(results, found, strict=True))
         for Y in FORCES:
             if Y in here and not _is_product(here[Y], here[PARAMETERS[Y]], _force(robot, Y, here, values)):
@@ -106,7 +106,7 @@ def _is_product(Y: Sequence[Sequence[float]], a: Sequence[Sequence[float]], forc
 def rank_of_forces(robot: Robot, Y: str, forces: Node, expected: int) -> int:
     """The rank of the forces over motions and unknown parameters, looked for a little beyond `expected`."""
     program = compile_trees([forces])
-    motions = [at for at, _ in islice(states_with(robot, program.run), expected + _MARGIN)]
+    motions = [at for at, _ in islice(states_with(robot.ring, program.run), expected + _MARGIN)]
     known, names = robot.questions.model.known, robot.ring.parameters
     choices = [{name: (motions[0] if name in known else at)[name] for name in names} for at in motions]
 
