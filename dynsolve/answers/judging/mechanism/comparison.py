@@ -1,7 +1,7 @@
 """A student's table against the key's, by the mechanism: at values of the letters drawn from a fixed seed.
 
 An equality of two tables is an equality of polynomials in sines, cosines and lengths; what holds at
-several random points to nine digits holds.
+several such points to nine digits holds.
 """
 
 from __future__ import annotations
@@ -251,11 +251,13 @@ def _base_is_free(problem: Problem) -> bool:
 
 
 def _draws(problem: Problem, key: Table) -> Iterator[dict[str, float]]:
-    """Values of the letters at which the key has one: lengths and angles between 0.4 and 1.6."""
+    """Values of the letters at which the key has one: rising, falling, and as they are drawn."""
     names = (*problem.robot.ring.parameters, *sorted(names_in(*(c for row in key for c in row.constants))))
-    found = 0
+    names, found = tuple(dict.fromkeys(names)), 0
     for sample in islice(numbered(), _TRIES):
-        letters = {name: sample.positive() for name in dict.fromkeys(names)} | {"pi": pi}
+        drawn = [sample.positive() for _ in names]
+        values = (sorted(drawn), sorted(drawn, reverse=True), drawn)[sample.k % 3]
+        letters = dict(zip(names, values, strict=True)) | {"pi": pi}
         try:
             for row in key:
                 row.numbers(letters)
