@@ -1,9 +1,9 @@
 """Branches of the inverse kinematics and singular configurations as they are printed, held in numbers.
 
-A branch is put into r(q) at values of the task that a random configuration reaches; one of the
+A branch is put into r(q) at values of the task that a configuration of a sample reaches; one of the
 branches must be that configuration.  Where an alternative of a singular set holds, found by
-Newton's method from random configurations, the Jacobian has less than its greatest rank; at
-random configurations it has that rank.
+Newton's method from samples, the Jacobian has less than its greatest rank; at the samples it has
+that rank.
 """
 
 from __future__ import annotations

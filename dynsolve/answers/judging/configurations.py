@@ -1,7 +1,7 @@
 """Verdicts on sets of configurations: singular ones, and the branches of the inverse kinematics.
 
 They are held in numbers, at points of a fixed seed.  A branch is put into r(q) at values that
-random configurations reach; it is right where it gives them back, whatever its formula.  Of a set
+configurations of samples reach; it is right where it gives them back, whatever its formula.  Of a set
 of equations, points on each alternative are found by Newton's method: at every point of the key
 the student's set must hold, and at every point of the student's the Jacobian must lose rank.
 """

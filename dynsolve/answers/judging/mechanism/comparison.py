@@ -1,4 +1,4 @@
-"""A student's table against the key's, by the mechanism: at values of the letters drawn from a fixed seed.
+"""A student's table against the key's, by the mechanism: at values of its letters in either order.
 
 An equality of two tables is an equality of polynomials in sines, cosines and lengths; what holds at
 several such points to nine digits holds.
