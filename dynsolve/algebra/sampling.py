@@ -53,7 +53,7 @@ class Sample:
 
     def positive(self) -> float:
         """The value of a parameter."""
-        return self.random.uniform(0.4, 1.0) if self._side() < 0 else self.random.uniform(1.0, 1.6)
+        return self.random.uniform(0.2, 0.7) if self._side() < 0 else self.random.uniform(1.0, 1.8)
 
     def _side(self) -> int:
         """+1 or -1; half of the sides begin with each."""
@@ -64,16 +64,19 @@ class Sample:
         return 1 - 2 * (ones % 2)
 
 
-def numbered() -> Iterator[Sample]:
+def numbered(first: int = 0) -> Iterator[Sample]:
     """One sample after the other, without end."""
-    random = Random(SEED)  # noqa: S311 - the same samples every time are wanted
-    return (Sample(k, random) for k in count())
+    random = Random(SEED + first)  # noqa: S311 - the same samples every time are wanted
+    return (Sample(k, random) for k in count(first))
 
 
-def samples(ring: Ring, signed: Iterable[str] = ()) -> Iterator[dict[str, float]]:
-    """Values of coordinates, positive parameters and rates, by plain names, and of further `signed` names."""
+def samples(ring: Ring, signed: Iterable[str] = (), first: int = 0) -> Iterator[dict[str, float]]:
+    """Values of coordinates, positive parameters and rates, by plain names, and of further `signed` names.
+
+    Those from another `first` sample on are others.
+    """
     rates = [f"{name}_{dots}" for dots in ("dot", "ddot") for name in ring.names]
-    for sample in numbered():
+    for sample in numbered(first):
         values = {"pi": pi}
         for name, kind in ring.coordinates:
             values[name] = sample.angle() if kind == "revolute" else sample.signed()

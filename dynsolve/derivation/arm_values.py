@@ -44,11 +44,11 @@ def arms(robot: Robot) -> Iterator[tuple[dict[str, float], Arm]]:
 
 
 def states_with(
-    ring: Ring, at: Callable[[Mapping[str, float]], Made], signed: Iterable[str] = ()
+    ring: Ring, at: Callable[[Mapping[str, float]], Made], signed: Iterable[str] = (), first: int = 0
 ) -> Iterator[tuple[dict[str, float], Made]]:
     """The samples where `at` has a value, without end, and what it makes of them."""
     missed = 0
-    for values in samples(ring, signed):
+    for values in samples(ring, signed, first):
         try:
             made = at(values)
         except (ValueError, ZeroDivisionError):

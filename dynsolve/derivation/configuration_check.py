@@ -18,6 +18,7 @@ from typing import Any
 from dynsolve.algebra.sampling import ENOUGH
 from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import rank
+from dynsolve.derivation.inverse.branches import MOST
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
@@ -43,7 +44,7 @@ def verify_inverse(
     Raises VerificationError where one is none, or one is missing.
     """
     task, solutions = compile_trees([r]), [solution_of(branch) for branch in branches]
-    for values in states_of(robot, task):
+    for values in states_of(robot, task, MOST):  # not those that the branches were found with
         reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
         found = [q for q in (solution(given) for solution in solutions) if q is not None]
@@ -137,9 +138,10 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
             raise VerificationError("the rank at a singular configuration is not what it should be")
 
 
-def states_of(robot: Robot, program: Program) -> list[dict[str, float]]:
+def states_of(robot: Robot, program: Program, first: int = 0) -> list[dict[str, float]]:
     """Configurations in all quadrants with parameters for which formulas have a value."""
-    return [values for values, _ in islice(states_with(robot.ring, program.run), ENOUGH)]
+    found = states_with(robot.ring, program.run, first=first)
+    return [values for values, _ in islice(found, ENOUGH)]
 
 
 def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:

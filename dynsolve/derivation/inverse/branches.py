@@ -17,6 +17,9 @@ from dynsolve.algebra.sampling import ENOUGH, samples
 from dynsolve.derivation.inverse.solving import Solving
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 
+MOST = 8 * ENOUGH
+"""So many samples are tried for a branch that exists at few of them, as where a3 > a1 + a2."""
+
 Choice = tuple[int, ...]
 """Of each step of a solving which of its solutions is taken, from 0."""
 
@@ -32,7 +35,9 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
     """The branches that solve the task; None where some solve it at some points only, or one is not found."""
     candidates = [Branch(choice) for choice in product(*(range(step.count) for step in solving.solved))]
     verdicts: dict[Branch, set[bool]] = {branch: set() for branch in candidates}
-    for state in islice(samples(solving.ring), ENOUGH):
+    for number, state in enumerate(islice(samples(solving.ring), MOST)):
+        if number >= ENOUGH and all(verdicts.values()):
+            break
         reached = reach_of(solving, state)
         found = False
         for branch in candidates:

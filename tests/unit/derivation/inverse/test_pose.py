@@ -7,8 +7,8 @@ from itertools import islice
 
 import pytest
 
-from dynsolve.algebra.sampling import ENOUGH, samples
-from dynsolve.derivation.inverse.branches import branches, configuration, reach_of, solves_task
+from dynsolve.algebra.sampling import samples
+from dynsolve.derivation.inverse.branches import MOST, branches, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.pose import solve_pose
 from dynsolve.derivation.inverse.solving import Solving
 from dynsolve.derivation.inverse.subproblems import TwoLines
@@ -106,7 +106,7 @@ def test_the_parts_and_the_branches(name: str) -> None:
     kept = branches(solving(name))
     assert kept is not None
     assert len(kept) == count
-    for state in islice(samples(solving(name).ring), ENOUGH, ENOUGH + 3):
+    for state in islice(samples(solving(name).ring, first=MOST), 3):
         reached = reach_of(solving(name), state)
         found = [configuration(solving(name), branch, {**state, **reached}) for branch in kept]
         there = [q for q in found if q is not None]
