@@ -10,6 +10,7 @@ Arrows run one way, from the first of these files to the last:
   its derivatives; `floats`: values in floating point;
 - `fraction`, `ring_values`, `build`, `matrix`: fractions, the value of a formula, making a
   ring, matrices; `transfer`: from one ring into another; `at_state`: values for coordinates;
+- `sampling`: the values at which formulas are compared in numbers;
 - `parameter_span`: combinations of unknown parameters over the fractions in known ones;
 - `fraction_matrix`, `pseudoinverse`, `spans`: matrices of fractions, systems of linear
   equations, spaces;

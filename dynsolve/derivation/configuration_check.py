@@ -1,31 +1,32 @@
 """Branches of the inverse kinematics and singular configurations as they are printed, held in numbers.
 
-A branch is put into r(q) at values of the task that a random configuration reaches; one of the
+A branch is put into r(q) at values of the task that a configuration of a sample reaches; one of the
 branches must be that configuration.  Where an alternative of a singular set holds, found by
-Newton's method from random configurations, the Jacobian has less than its greatest rank; at
-random configurations it has that rank.
+Newton's method from samples, the Jacobian has less than its greatest rank; at the samples it has
+that rank.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
+from itertools import islice, product
+from math import hypot, pi
 from operator import mul
-from random import Random
 from typing import Any
 
-from dynsolve.derivation.arm_values import draw
+from dynsolve.algebra.sampling import ENOUGH
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import rank
+from dynsolve.derivation.inverse.branches import MOST
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
-from dynsolve.notation.tree_values import Program, compile_trees, evaluate
+from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.robot.model import Robot
 
-STATES = 8
 NEWTON_STEPS = 60
+MOST_TURNS = 128
 DIFFERENCE = 1e-6
 SMALL = 1e-9
 
@@ -42,11 +43,11 @@ def verify_inverse(
 
     Raises VerificationError where one is none, or one is missing.
     """
-    task = compile_trees([r])
-    for values in states_of(robot):
+    task, solutions = compile_trees([r]), [solution_of(branch) for branch in branches]
+    for values in states_of(robot, task, MOST):  # not those that the branches were found with
         reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
-        found = [q for q in (on_branch(branch, given) for branch in branches) if q is not None]
+        found = [q for q in (solution(given) for solution in solutions) if q is not None]
         if not all(near(reaches(task, q), reached, angles) for q in found):
             raise VerificationError("a branch of the inverse kinematics does not reach what it should")
         if not any(same_configuration(robot.ring, q, values) for q in found):
@@ -82,13 +83,26 @@ def reaches(task: Program, q: Values) -> list[float]:
 
 def on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | None:
     """The configuration; None where the branch does not exist, or a formula lacks a value."""
-    q = dict(given)
-    for name, formula in branch.items():
-        try:
-            q[name] = evaluate(formula, q)
-        except NO_VALUE:
-            return None
-    return q
+    return solution_of(branch)(given)
+
+
+def solution_of(branch: Mapping[str, Node]) -> Callable[[Values], dict[str, float] | None]:
+    """The same for many places."""
+    try:
+        programs = {name: compile_trees([formula]) for name, formula in branch.items()}
+    except NO_VALUE:
+        return lambda given: None
+
+    def at(given: Values) -> dict[str, float] | None:
+        q = dict(given)
+        for name, program in programs.items():
+            try:
+                (q[name],) = program.run(q)
+            except NO_VALUE:
+                return None
+        return q
+
+    return at
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,12 +120,13 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
     Raises VerificationError where it is not what it should be, or a lost direction is none.
     """
     program = compile_trees([jacobian])
-    for values in states_of(robot):
+    states = states_of(robot, program)
+    for values in states:
         if rank_of(program.run(values)[0]) != rank:
             raise VerificationError("the rank of the Jacobian is not what it should be")
     for case in cases:
         zeros, lost = compile_trees(case.zeros), compile_trees(case.lost)
-        found = (zero_near(robot, zeros, values) for values in states_of(robot))
+        found = (zero_near(robot, zeros, values) for values in states)
         ranks: list[int] = []
         for at in (values for values in found if values is not None):
             J = program.run(at)[0]
@@ -123,11 +138,10 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
             raise VerificationError("the rank at a singular configuration is not what it should be")
 
 
-def states_of(robot: Robot) -> Iterator[dict[str, float]]:
-    """Random configurations with values for the parameters, the same ones every time."""
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(STATES):
-        yield dict(draw(robot, random)[0])
+def states_of(robot: Robot, program: Program, first: int = 0) -> list[dict[str, float]]:
+    """Configurations in all quadrants with parameters for which formulas have a value."""
+    found = states_with(robot.ring, program.run, first=first)
+    return [values for values, _ in islice(found, ENOUGH)]
 
 
 def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
@@ -136,6 +150,31 @@ def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] |
         return _newton(robot, zeros, start)
     except NO_VALUE:
         return None
+
+
+def with_half_turns(
+    robot: Robot, zeros: Program, points: Iterable[dict[str, float]]
+) -> Iterator[dict[str, float]]:
+    """Points at which everything is 0, and those that are the first of them with angles half a turn on.
+
+    Which of q = 0 and q = π Newton's method finds of sin q = 0 is chance; these are all.
+    """
+    turning = [name for name, kind in robot.ring.coordinates if kind == "revolute"]
+    for number, q in enumerate(points):
+        yield q
+        ways = product((0.0, pi), repeat=len(turning)) if number == 0 else ()
+        for turns in islice(ways, 1, MOST_TURNS):
+            turned = q | {name: q[name] + turn for name, turn in zip(turning, turns, strict=True)}
+            if is_zero(zeros, turned):
+                yield turned
+
+
+def is_zero(program: Program, at: Values) -> bool:
+    """Whether everything is 0, and has a value."""
+    try:
+        return all(abs(value) < CLOSE for value in program.run(at))
+    except NO_VALUE:
+        return False
 
 
 def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
