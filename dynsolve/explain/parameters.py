@@ -52,11 +52,15 @@ def steps(context: Context) -> Iterator[Step]:
     """The parameters and the regressor of the forces, and of a part of them where that is asked for."""
     wanted = context.wanted
     for linear in _ALL:
+        if {linear.a, linear.Y} & wanted and _forces(context, linear).is_zero:
+            why: Prose = (linear.forces, " is 0 in every state, so that there are no parameters in it.")
+            yield Step(linear.a, STAGE, _title(linear), why, detail=Detail.BRIEF)
+            continue
         if linear.a in wanted:
             yield _parameters(context, linear)
         if linear.Y in wanted:
             yield _regressor(context, linear)
-    if "Yr" in wanted:
+    if "Yr" in wanted and not context.values["tau"].is_zero:
         yield _with_references(context)
 
 
