@@ -22,16 +22,17 @@ from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.root_factor import factors
 
 MOST_TERMS = 20_000
 """A polynomial that may have more terms in half angles is not taken apart."""
 
 
 def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
-    """(factor, multiplicity) of an expression, up to a rational number; those without an angle too.
+    """(factor, multiplicity) of an expression, up to a number; those without an angle too.
 
     A factor of its own is what is irreducible in sines and cosines of whole angles.  An
-    expression that is too long, or has roots or inverses, is its own only factor.
+    expression that is too long, or has inverses or roots of letters, is its own only factor.
 
     >>> from dynsolve.algebra.angles import Angle
     >>> from dynsolve.algebra.build import build_ring
@@ -40,14 +41,13 @@ def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
     >>> sorted(map(str, trig_factors(s * (c + s))))[1]
     "(Expr(1*sin(1*(('q1', 1),))), 1)"
     """
-    if expr.is_number:
+    if len(expr) == 0 or leading(expr) == expr:
         return ()
     halves = _HalfAngles(expr.ring)
     if not halves.can_hold(expr):
         return ((expr, 1),)
     found: Counter[Expr] = Counter()
-    _, factors = halves.homogeneous(expr).factor()
-    for factor, times in halves.whole((factor, int(times)) for factor, times in factors):
+    for factor, times in halves.factors(halves.homogeneous(expr)):
         found[factor] += times
     return tuple(found.items())
 
@@ -58,13 +58,16 @@ class _HalfAngles:
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self.pairs: tuple[Pair, ...] = ring.pairs
+        self.roots = numeric_roots(ring)
         self.ctx: Any = fmpq_mpoly_ctx.get(("h", ring.ctx.nvars()), Ordering.lex)
         self.gens: tuple[fmpq_mpoly, ...] = self.ctx.gens()
 
     def can_hold(self, expr: Expr) -> bool:
         """Whether the expression is a polynomial in sines, cosines and symbols, and not too long."""
         degrees = expr.poly.degrees()
-        if any(degrees[g.index] > 0 for g in self.ring.generators if g.kind not in ("sin", "cos", "symbol")):
+        plain = ("sin", "cos", "symbol")
+        others = (g.index for g in self.ring.generators if g.kind not in plain and g.index not in self.roots)
+        if any(degrees[index] > 0 for index in others):
             return False
         size = len(expr)
         for pair in self.pairs:
@@ -99,6 +102,10 @@ class _HalfAngles:
         S, C = self.gens[pair.sine], self.gens[pair.cosine]
         one: fmpq_mpoly = (C * C + S * S) ** (degree - sines - cosines)
         return (2 * S * C) ** sines * (C * C - S * S) ** cosines * one
+
+    def factors(self, poly: fmpq_mpoly) -> Iterator[tuple[Expr, int]]:
+        """Those of a polynomial in S and C, in sines and cosines of whole angles."""
+        return self.whole(factors(poly, self.roots, [(pair.sine, pair.cosine) for pair in self.pairs]))
 
     # -- back to whole angles ----------------------------------------------------------------------
 
@@ -162,6 +169,33 @@ class _HalfAngles:
         return _primitive(total)
 
 
+def numeric_roots(ring: Ring) -> dict[int, int]:
+    """The generators that are square roots of whole numbers, with these."""
+    found = {index: square for index, square in ring.radicands.items() if square.is_constant()}
+    return {index: int(square.leading_coefficient().p) for index, square in found.items()}
+
+
+def leading(expr: Expr) -> Expr:
+    """The number, with the roots in it, that stands before the first term."""
+    roots = numeric_roots(expr.ring)
+    split = [
+        (tuple(0 if i in roots else int(e) for i, e in enumerate(exponents)), exponents, number)
+        for exponents, number in expr.poly.to_dict().items()
+    ]
+    first = max(plain for plain, _, _ in split)
+    terms = {
+        tuple(e if i in roots else 0 for i, e in enumerate(exponents)): number
+        for plain, exponents, number in split
+        if plain == first
+    }
+    return Expr(expr.ring, expr.ring.ctx.from_dict(terms))
+
+
+def ratio(expr: Expr, other: Expr) -> Expr:
+    """The number that an expression is of another, where it is one."""
+    return leading(expr) * expr.ring.inverse(leading(other))
+
+
 def _primitive(expr: Expr) -> Expr:
     """The expression with leading coefficient 1."""
-    return Expr(expr.ring, expr.poly / expr.poly.leading_coefficient())
+    return expr * expr.ring.inverse(leading(expr))

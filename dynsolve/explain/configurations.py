@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import cached_property
 from math import lcm
 from typing import TYPE_CHECKING, Any
@@ -10,9 +11,8 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.positivity import is_positive
-from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.trig_factor import ratio, trig_factors
 from dynsolve.derivation.configurations import Inverse, without_number
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.inverse.subproblems import Solved
@@ -130,8 +130,10 @@ class ConfigurationForms:
             node, signed = self._signed(factor)
             shown.append((node, power))
             product = product * signed**power
-        number = value.poly.leading_coefficient() / product.poly.leading_coefficient()
-        return times(fraction(number), sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))))
+        number = ratio(value, product)
+        if not number.is_number:
+            shown.append((self.compactor(value.ring).form(number), 1))
+        return times(number.number if number.is_number else Fraction(1), sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))))
 
     def _signed(self, expr: Expr) -> tuple[Node, Expr]:
         """±expr with the sign that leaves fewer minus signs, as a formula and as it is."""

@@ -3,86 +3,154 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import minors
+from dynsolve.algebra.minors import minors, parts, work
 from dynsolve.algebra.positivity import is_positive
 from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.derivation.existence import conditions
+from dynsolve.derivation.parameter_signs import ParameterSigns
 from dynsolve.derivation.singular.conditions import Condition
+from dynsolve.derivation.singular.core import core
 from dynsolve.derivation.singular.losses import Loss, loss
+from dynsolve.derivation.singular.zeros import can_hold, follows
 
 Alternative = tuple[Condition, ...]
 """Conditions that hold together."""
 
-MOST_ALTERNATIVES = 64
-"""So many alternatives are looked at."""
+MOST_CASES = 200
+"""So many choices of factors are looked at; of more nothing is said."""
 
-MOST_TERMS = 200
+MOST_TERMS = 1000
 """A Jacobian with more terms is not looked at."""
 
-MOST_MINOR_TERMS = 1500
-"""Nor are minors with more terms together."""
+MOST_WORK = 3000
+"""The products of terms that the minors of a Jacobian may come to; of more those of its core are taken."""
+
+MOST_CORE_WORK = 30_000
+"""Nor is a core whose minors may come to more."""
+
+
+class TooLong(Exception):
+    """There are more cases than are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
 class SingularSet:
     """Where a matrix of greatest rank `rank` has less: at any of the `alternatives`.
 
-    `minors` are the expressions that vanish there, all in one ring.  `losses` are the rank and
-    what is lost at each alternative.
+    `minors` are the expressions that vanish there, all in one ring: those of the Jacobian, or of its
+    `core`, whose rank is less by `pivots`.  `losses` are the rank and what is lost at each alternative,
+    `exist` what the parameters must satisfy for it to be there.
     """
 
     rank: int
     minors: tuple[Expr, ...]
     alternatives: tuple[Alternative, ...]
     losses: tuple[Loss, ...] = ()
+    exist: tuple[tuple[Bound, ...], ...] = ()
+    pivots: int = 0
+    core: Matrix | None = None
 
 
 def singular_set(jacobian: Matrix) -> SingularSet | None:
     """Where a Jacobian loses rank; `jacobian` is in a ring of one angle a coordinate.
 
     Parameters count as positive: no alternative is a condition on them.  None where the
-    Jacobian or its minors are too long.
+    Jacobian, its minors or the cases are too long.
     """
     if sum(map(len, jacobian.entries)) > MOST_TERMS:
         return None
-    for rank in range(min(jacobian.shape), 0, -1):
-        found = tuple(minors(jacobian, rank))
-        if found:
-            if sum(map(len, found)) > MOST_MINOR_TERMS:
-                return None
-            alternatives = common_zeros(found)
-            losses = tuple(loss(jacobian, conditions, rank) for conditions in alternatives)
-            return SingularSet(rank, found, alternatives, losses)
-    return SingularSet(0, (), ())
+    pivots, rest = core(jacobian)
+    rank = _rank(rest)
+    if rank is None:
+        return None
+    is_full = pivots + rank == min(jacobian.shape)
+    if is_full and minors_work(jacobian, pivots + rank) <= MOST_WORK:
+        shown, found = None, tuple(minors(jacobian, pivots + rank))
+    else:
+        shown, found = rest, tuple(minors(rest, rank)) if rank else ()
+    try:
+        alternatives = common_zeros(found) if found else ()
+    except TooLong:
+        return None
+    exist = {one: bounds for one in alternatives if (bounds := existence(one)) is not None}
+    losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank) for one in exist)
+    return SingularSet(
+        pivots + rank, found, tuple(exist), losses, tuple(exist.values()), 0 if shown is None else pivots, shown
+    )
+
+
+def _rank(matrix: Matrix) -> int | None:
+    """The greatest rank; None where its minors are too long."""
+    for size in range(min(matrix.shape), 0, -1):
+        if minors_work(matrix, size) > MOST_CORE_WORK:
+            return None
+        if any(True for _ in minors(matrix, size)):
+            return size
+    return 0
+
+
+def existence(alternative: Alternative) -> tuple[Bound, ...] | None:
+    """What the parameters must satisfy for an alternative to be there; None where it never is."""
+    return conditions([condition.expr for condition in alternative], ParameterSigns())
 
 
 def common_zeros(values: Sequence[Expr]) -> tuple[Alternative, ...]:
-    """Where expressions are all 0, the alternatives with the fewest conditions alone."""
-    found: list[Alternative] = []
-    for alternative in _alternatives(tuple(values), ()):
-        if not any(set(known) <= set(alternative) for known in found):
-            found = [known for known in found if not set(alternative) <= set(known)]
-            found.append(alternative)
-        if len(found) >= MOST_ALTERNATIVES:
-            break
-    found = [one for one in found if not any(other is not one and _implies(one, other) for other in found)]
+    """Where expressions are all 0: alternatives of as few conditions as say it, none within another.
+
+    Raises TooLong.
+    """
+    found = list(dict.fromkeys(map(_without_repeated, _Cases().of(tuple(values), ()))))
+    for one in list(found):
+        if any(other is not one and _implies(one, other) for other in found):
+            found.remove(one)
     return tuple(_merged(found))
 
 
-def _alternatives(values: tuple[Expr, ...], held: Alternative) -> Iterator[Alternative]:
-    left = [value for value in dict.fromkeys(values) if not value.is_zero]
-    if not left:
-        yield held
-        return
-    choices = [[factor for factor, _ in trig_factors(value) if _may_vanish(factor, held)] for value in left]
-    for factor in min(choices, key=_effort):
-        condition = Condition(factor)
-        rest = tuple(condition.reduced(value) for value in left)
-        yield from _alternatives(rest, (*held, condition))
+@dataclass
+class _Cases:
+    """The choices of a factor of each expression, and how many of them were looked at."""
+
+    number: int = field(default=0)
+
+    def of(self, values: tuple[Expr, ...], held: Alternative) -> Iterator[Alternative]:
+        """The choices with which all values are 0, where some conditions hold already."""
+        self.number += 1
+        if self.number > MOST_CASES:
+            raise TooLong
+        known = [condition.expr for condition in held]
+        left = [value for value in dict.fromkeys(values) if not follows(value, known)]
+        if not left:
+            yield held
+            return
+        choices = [
+            [factor for factor, _ in trig_factors(value) if _may_vanish(factor, held)] for value in left
+        ]
+        for factor in min(choices, key=_effort):
+            condition = Condition(factor)
+            if not held or can_hold([*known, factor]):
+                rest = tuple(condition.reduced(value) for value in left)
+                yield from self.of(rest, (*held, condition))
+
+
+def _without_repeated(alternative: Alternative) -> Alternative:
+    """An alternative without the conditions that follow from its others, the longest left out first."""
+    kept = list(alternative)
+    for condition in sorted(alternative, key=lambda one: -len(one.expr)):
+        others = [other.expr for other in kept if other is not condition]
+        if follows(condition.expr, others):
+            kept.remove(condition)
+    return tuple(kept)
+
+
+def minors_work(matrix: Matrix, size: int) -> int:
+    """The products of terms that all minors of a size may come to."""
+    return sum(map(work, parts(matrix, size)))
 
 
 def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
@@ -105,13 +173,8 @@ def _may_vanish(factor: Expr, held: Alternative) -> bool:
 
 def _implies(one: Alternative, other: Alternative) -> bool:
     """Whether `other` holds wherever `one` does."""
-    for wanted in other:
-        value = wanted.expr
-        for condition in one:
-            value = condition.reduced(value)
-        if not value.is_zero:
-            return False
-    return not all(condition in one for condition in other) or len(other) < len(one)
+    known = [condition.expr for condition in one]
+    return all(condition in one or follows(condition.expr, known) for condition in other)
 
 
 def _merged(alternatives: list[Alternative]) -> Iterator[Alternative]:
