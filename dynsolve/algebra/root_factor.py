@@ -39,6 +39,16 @@ def factors(poly: fmpq_mpoly, roots: Mapping[int, int], pairs: Pairs) -> list[tu
     return found if field.is_number(poly) else [*found, (poly, 1)]
 
 
+def quotient(poly: fmpq_mpoly, divisor: fmpq_mpoly, roots: Mapping[int, int]) -> fmpq_mpoly | None:
+    """poly / divisor; None where a rest is left."""
+    degrees = divisor.degrees()
+    used = {index: square for index, square in roots.items() if degrees[index] > 0}
+    if used:
+        return _Field(poly.context(), used, ()).divided(poly, divisor)
+    found, rest = divmod(poly, divisor)
+    return None if rest else found
+
+
 class _Field:
     """Polynomials in generators of which some are square roots of numbers."""
 

@@ -22,7 +22,7 @@ from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.root_factor import factors
+from dynsolve.algebra.root_factor import factors, quotient
 
 MOST_TERMS = 20_000
 """A polynomial that may have more terms in half angles is not taken apart."""
@@ -50,6 +50,15 @@ def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
     for factor, times in halves.factors(halves.homogeneous(expr)):
         found[factor] += times
     return tuple(found.items())
+
+
+def trig_quotient(expr: Expr, divisor: Expr) -> Expr | None:
+    """expr / divisor, where the divisor is seen to be a factor of it."""
+    halves = _HalfAngles(expr.ring)
+    if expr.is_zero or expr == divisor or not (halves.can_hold(expr) and halves.can_hold(divisor)):
+        return expr if expr.is_zero else expr.ring.one if expr == divisor else None
+    found = quotient(halves.homogeneous(expr), halves.homogeneous(divisor), halves.roots)
+    return None if found is None else halves.expr(found)
 
 
 class _HalfAngles:
@@ -115,7 +124,7 @@ class _HalfAngles:
         for factor, times in factors:
             if self._is_even(factor):
                 if not self._is_one(factor):
-                    yield self._expr(factor), times
+                    yield self.expr(factor), times
             else:
                 odd += [factor] * times
         for expr in self._paired(odd):
@@ -128,7 +137,7 @@ class _HalfAngles:
                 (len(value), i, j, value)
                 for i, j in combinations(range(len(odd)), 2)
                 if self._is_even(odd[i] * odd[j])
-                for value in (self._expr(odd[i] * odd[j]),)
+                for value in (self.expr(odd[i] * odd[j]),)
             ]
             if not products:
                 break
@@ -139,7 +148,7 @@ class _HalfAngles:
         for factor in odd:
             rest = rest * factor
         if not rest.is_constant():
-            yield self._expr(rest)
+            yield self.expr(rest)
 
     def _is_one(self, factor: fmpq_mpoly) -> bool:
         """Whether a factor is some C² + S² = 1."""
@@ -150,7 +159,7 @@ class _HalfAngles:
             (int(e[pair.sine]) + int(e[pair.cosine])) % 2 == 0 for pair in self.pairs for e in factor.monoms()
         )
 
-    def _expr(self, poly: fmpq_mpoly) -> Expr:
+    def expr(self, poly: fmpq_mpoly) -> Expr:
         """A polynomial of even degree in each pair, by S² = (1 - c)/2, C² = (1 + c)/2, S C = s/2."""
         ring = self.ring
         total = ring.zero

@@ -25,6 +25,7 @@ Array = npt.NDArray[np.float64]
 TWISTS = ["0", "0", "90deg", "-90deg", "90deg", "-90deg", "180deg", "beta", "45deg"]
 LENGTHS = ["0", "0", "letter", "letter", "2/5"]
 TASKS = ["", "", "[tip.x, tip.y]", "[tip.x, tip.y, tip.z]", "twist", "angle", "points"]
+KNOWN = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt, "pi": math.pi}
 SMALL = 1e-6
 """A singular value, or an equation, that counts as 0."""
 
@@ -177,12 +178,20 @@ class Held:
         self.names = [f"q{k}" for k in range(1, arm.n + 1)]
         self.sets = [[text.removesuffix(" = 0") for text in one] for one in results["singular"]]
         self.codes = [[compile(e, "<result>", "eval") for e in one] for one in self.sets]
-        self.rank = max(
-            self.rank_at(self.q(), self.lengths()) for _ in range(4)
-        )
+        exist = results.get("singular_exist", [[]] * len(self.sets))
+        self.exist = [[compile(e, "<result>", "eval") for e in one] for one in exist]
+        self.rank = max(self.rank_at(self.q(), self.lengths()) for _ in range(4))
 
     def lengths(self) -> dict[str, float]:
         return {letter: float(self.draw.uniform(0.4, 1.3)) for letter in self.arm.letters}
+
+    def lengths_for(self, k: int) -> dict[str, float]:
+        """Parameters for which an alternative is said to be there."""
+        for _ in range(1000):
+            values = {letter: float(self.draw.uniform(0.02, 1.5)) for letter in self.arm.letters}
+            if all(eval(code, dict(KNOWN), dict(values)) for code in self.exist[k]):  # noqa: S307
+                return values
+        raise AssertionError(f"{self.results['singular_exist'][k]} never holds")
 
     def q(self) -> Array:
         return self.draw.uniform(-3, 3, self.arm.n)
@@ -193,8 +202,7 @@ class Held:
     def zeros(self, k: int, q: Array, values: Mapping[str, float]) -> Array:
         """The left sides of the equations of an alternative."""
         at = {**values, **dict(zip(self.names, map(float, q), strict=True))}
-        known = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt, "pi": math.pi}
-        return np.array([eval(code, known, at) for code in self.codes[k]], dtype=float)  # noqa: S307
+        return np.array([eval(code, dict(KNOWN), at) for code in self.codes[k]], dtype=float)  # noqa: S307
 
     def faults(self) -> Iterator[str]:
         yield from self.other_faults()
@@ -220,7 +228,7 @@ class Held:
     def points_on(self, k: int) -> Iterator[tuple[Array, Mapping[str, float]]]:
         """Configurations at which an alternative holds, by Newton's method."""
         for _ in range(24):
-            values = self.lengths()
+            values = self.lengths_for(k)
             q = newton(lambda q, values=values: self.zeros(k, q, values), self.q())
             if q is not None:
                 yield q, values

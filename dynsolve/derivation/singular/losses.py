@@ -17,7 +17,7 @@ from itertools import combinations
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, minors, work
-from dynsolve.algebra.trig_factor import ratio, trig_factors
+from dynsolve.algebra.trig_factor import trig_factors, trig_quotient
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.core import core
 from dynsolve.derivation.singular.zeros import follows
@@ -95,14 +95,17 @@ def _direction(
     is_large = len(matrix.rows) > MOST_SEARCHED
     if is_large:
         choices = sorted((m for m in choices if m.work <= MOST_WORK), key=lambda minors: minors.work)
+    known = [condition.expr for condition in conditions]
     found: list[Direction] = []
     for choice in choices:
         values = dict(zip(rows, _reduced(choice.cofactors(), conditions), strict=True))
-        if not follows(values[row], [condition.expr for condition in conditions]):
+        if not follows(values[row], known):
             zero = matrix.ring.zero
-            found.append(_without_shared(tuple(values.get(i, zero) for i in range(len(matrix.rows)))))
-            if is_large:
-                break
+            direction = _without_shared(tuple(values.get(i, zero) for i in range(len(matrix.rows))))
+            if all(follows(matrix.ring.dot(direction, column), known) for column in matrix.T.rows):
+                found.append(direction)
+                if is_large:
+                    break
     return min(found, key=lambda direction: sum(map(len, direction)), default=None)
 
 
@@ -141,7 +144,7 @@ def _without_shared(direction: Direction) -> Direction:
     values = [value for value in direction if not value.is_zero]
     for factor, times in trig_factors(min(values, key=len)):
         for _ in range(times):
-            divided = [_divided(value, factor) for value in direction]
+            divided = [trig_quotient(value, factor) for value in direction]
             if any(value is None for value in divided):
                 break
             direction = tuple(value for value in divided if value is not None)
@@ -149,19 +152,3 @@ def _without_shared(direction: Direction) -> Direction:
     sign = -1 if all(f < 0 for value in direction for f in value.poly.coeffs()) else 1
     shared = Fraction(abs(int(leading.p)), int(leading.q)) * sign
     return tuple(value * (1 / shared) for value in direction)
-
-
-def _divided(value: Expr, factor: Expr) -> Expr | None:
-    """value / factor where it is one of its factors, and None where it is none."""
-    if value.is_zero:
-        return value
-    product, is_found = value.ring.one, False
-    for other, times in trig_factors(value):
-        product = product * other**times
-        is_found = is_found or other == factor
-    if not is_found:
-        return None
-    result = ratio(value, product)
-    for other, times in trig_factors(value):
-        result = result * other ** (times - (other == factor))
-    return result

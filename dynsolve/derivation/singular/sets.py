@@ -126,7 +126,7 @@ class _Cases:
         known = [condition.expr for condition in held]
         left = [value for value in dict.fromkeys(values) if not follows(value, known)]
         if not left:
-            yield held
+            yield from self._settled(held)
             return
         choices = [
             [factor for factor, _ in trig_factors(value) if _may_vanish(factor, held)] for value in left
@@ -136,6 +136,16 @@ class _Cases:
             if not held or can_hold([*known, factor]):
                 rest = tuple(condition.reduced(value) for value in left)
                 yield from self.of(rest, (*held, condition))
+
+    def _settled(self, held: Alternative) -> Iterator[Alternative]:
+        """Conditions of which none makes another shorter, or gives it a value of a coordinate."""
+        for known in sorted(held, key=lambda one: (not one.fixes_coordinate, one.fixes_length)):
+            others = {one: known.reduced(one.expr) for one in held if one is not known}
+            moved = {one: value for one, value in others.items() if value != one.expr}
+            if moved:
+                yield from self.of(tuple(moved.values()), tuple(one for one in held if one not in moved))
+                return
+        yield held
 
 
 def _without_repeated(alternative: Alternative) -> Alternative:
