@@ -21,6 +21,7 @@ from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.positivity import parameters
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.root_factor import factors, quotient
 
@@ -59,6 +60,22 @@ def trig_quotient(expr: Expr, divisor: Expr) -> Expr | None:
         return expr if expr.is_zero else expr.ring.one if expr == divisor else None
     found = quotient(halves.homogeneous(expr), halves.homogeneous(divisor), halves.roots)
     return None if found is None else halves.expr(found)
+
+
+def squares(expr: Expr) -> tuple[Expr, ...]:
+    """What must be 0 where a sum of positive multiples of squares is, as in 1 + c₁ c₂ = 2 (C₁² C₂² + S₁² S₂²).
+
+    Parameters count as positive.  Nothing of what is no such sum.
+    """
+    halves = _HalfAngles(expr.ring)
+    if not halves.can_hold(expr):
+        return ()
+    terms, free = halves.homogeneous(expr).to_dict(), parameters(expr)
+    same_sign = len({number > 0 for number in terms.values()}) == 1
+    if not same_sign or any(e % 2 and i not in free for exponents in terms for i, e in enumerate(exponents)):
+        return ()
+    bare = {tuple(0 if i in free else int(e) for i, e in enumerate(exponents)) for exponents in terms}
+    return tuple(halves.expr(halves.ctx.from_dict({exponents: 1})) for exponents in sorted(bare))
 
 
 class _HalfAngles:
@@ -124,7 +141,7 @@ class _HalfAngles:
         for factor, times in factors:
             if self._is_even(factor):
                 if not self._is_one(factor):
-                    yield self.expr(factor), times
+                    yield _primitive(self.expr(factor)), times
             else:
                 odd += [factor] * times
         for expr in self._paired(odd):
@@ -143,12 +160,12 @@ class _HalfAngles:
                 break
             _, i, j, value = min(products, key=lambda found: found[:3])
             del odd[j], odd[i]
-            yield value
+            yield _primitive(value)
         rest = self.ctx.constant(1)
         for factor in odd:
             rest = rest * factor
         if not rest.is_constant():
-            yield self.expr(rest)
+            yield _primitive(self.expr(rest))
 
     def _is_one(self, factor: fmpq_mpoly) -> bool:
         """Whether a factor is some C² + S² = 1."""
@@ -175,7 +192,7 @@ class _HalfAngles:
                     term = term * s**both * (ring.one - c) ** (S // 2) * (ring.one + c) ** (C // 2)
                     term = term / 2 ** ((S + C) // 2)
             total = total + term * Expr(ring, ring.ctx.from_dict({tuple(plain): factor}))
-        return _primitive(total)
+        return total
 
 
 def numeric_roots(ring: Ring) -> dict[int, int]:

@@ -236,7 +236,7 @@ class Held:
     def singular_points(self) -> Iterator[tuple[Array, Mapping[str, float]]]:
         """Configurations of less rank: J V = 0 with VᵀV = 1, where V has a column more than it has elsewhere."""
         n, k = self.arm.n, self.arm.n - self.rank + 1
-        for _ in range(16):
+        for _ in range(16 if self.rank else 0):
             values = self.lengths()
 
             def lost(x: Array, values: Mapping[str, float] = values) -> Array:

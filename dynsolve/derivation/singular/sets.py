@@ -11,7 +11,7 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import minors, parts, work
 from dynsolve.algebra.positivity import is_positive
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.trig_factor import squares, trig_factors
 from dynsolve.derivation.existence import conditions
 from dynsolve.derivation.parameter_signs import ParameterSigns
 from dynsolve.derivation.singular.conditions import Condition
@@ -27,6 +27,9 @@ MOST_CASES = 200
 
 MOST_TERMS = 1000
 """A Jacobian with more terms is not looked at."""
+
+MOST_CONDITION_TERMS = 150
+"""An alternative with more terms could not be read, nor held to be there."""
 
 MOST_WORK = 3000
 """The products of terms that the minors of a Jacobian may come to; of more those of its core are taken."""
@@ -106,6 +109,8 @@ def common_zeros(values: Sequence[Expr]) -> tuple[Alternative, ...]:
     Raises TooLong.
     """
     found = list(dict.fromkeys(map(_without_repeated, _Cases().of(tuple(values), ()))))
+    if any(sum(len(condition.expr) for condition in one) > MOST_CONDITION_TERMS for one in found):
+        raise TooLong
     for one in list(found):
         if any(other is not one and _implies(one, other) for other in found):
             found.remove(one)
@@ -128,12 +133,12 @@ class _Cases:
         if not left:
             yield from self._settled(held)
             return
-        choices = [
-            [factor for factor, _ in trig_factors(value) if _may_vanish(factor, held)] for value in left
-        ]
+        choices = [[factor for factor, _ in trig_factors(value) if _may_vanish(factor)] for value in left]
         for factor in min(choices, key=_effort):
-            condition = Condition(factor)
-            if not held or can_hold([*known, factor]):
+            condition, parts = Condition(factor), squares(factor)
+            if len(parts) > 1:
+                yield from self.of((*parts, *left), held)
+            elif not held or can_hold([*known, factor]):
                 rest = tuple(condition.reduced(value) for value in left)
                 yield from self.of(rest, (*held, condition))
 
@@ -168,17 +173,11 @@ def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
     return len(factors), sum(not Condition(factor).fixes_coordinate for factor in factors)
 
 
-def _may_vanish(factor: Expr, held: Alternative) -> bool:
-    """Whether a factor is 0 at some configuration where the conditions hold, as far as its form shows.
-
-    Where sin q = 0, cos q is ±1, and its square shows that it is not 0.
-    """
-    if not factor.ring.depends_on_coordinates(factor):
-        return False
-    square = factor * factor
-    for condition in held:
-        square = condition.reduced(square)
-    return not is_positive(square) and not is_positive(factor) and not is_positive(-factor)
+def _may_vanish(factor: Expr) -> bool:
+    """Whether a factor is 0 at some configuration, as far as its form shows."""
+    return (
+        factor.ring.depends_on_coordinates(factor) and not is_positive(factor) and not is_positive(-factor)
+    )
 
 
 def _implies(one: Alternative, other: Alternative) -> bool:

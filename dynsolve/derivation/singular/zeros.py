@@ -8,16 +8,14 @@ An expression f is 0 wherever others are, if these and t f = 1 have no solution 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
 from functools import lru_cache
 from math import lcm
 from random import Random
 from typing import Any
 
-from flint import Ordering, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
+from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 
 LIMITS = (40, 150, 400)
@@ -25,7 +23,7 @@ LIMITS = (40, 150, 400)
 
 SEED = 7
 
-Terms = dict[tuple[int, ...], Fraction]
+Terms = dict[tuple[int, ...], fmpq]
 
 
 def can_hold(values: Sequence[Expr]) -> bool:
@@ -38,7 +36,7 @@ def follows(value: Expr, others: Sequence[Expr]) -> bool:
     if value.is_zero or not others:
         return value.is_zero
     inverted = {(*key, 1): number for key, number in _specialized(value).items()}
-    inverted[(0,) * (len(value.ring.generators) + 1)] = Fraction(-1)
+    inverted[(0,) * (len(value.ring.generators) + 1)] = fmpq(-1)
     return _has_number([*map(_specialized, others), inverted], value.ring)
 
 
@@ -57,9 +55,9 @@ def _has_number(polys: Sequence[Terms], ring: Ring) -> bool:
 
 
 def _whole(ctx: Any, used: Sequence[int], terms: Terms) -> Any:
-    scale = lcm(*(number.denominator for number in terms.values()))
+    scale = lcm(*(int(number.q) for number in terms.values()))
     return ctx.from_dict({
-        tuple(key[i] if i < len(key) else 0 for i in used) or (0,): int(number * scale)
+        tuple(key[i] if i < len(key) else 0 for i in used) or (0,): int((number * scale).p)
         for key, number in terms.items()
     })  # fmt: skip
 
@@ -72,27 +70,27 @@ def _with_numbers(ring: Ring, poly: fmpq_mpoly) -> Terms:
     """A polynomial with numbers for parameters, and for sines and cosines of constant angles."""
     numbers, terms = _numbers(ring), Terms()
     for exponents, coefficient in poly.to_dict().items():
-        number, key = fraction(coefficient), [int(e) for e in exponents]
+        number, key = coefficient, [int(e) for e in exponents]
         for i, value in numbers.items():
             if key[i]:
                 number, key[i] = number * value ** key[i], 0
-        terms[tuple(key)] = terms.get(tuple(key), Fraction(0)) + number
+        terms[tuple(key)] = terms.get(tuple(key), 0) + number
     return {key: number for key, number in terms.items() if number}
 
 
 @lru_cache(maxsize=4)
-def _numbers(ring: Ring) -> Mapping[int, Fraction]:
+def _numbers(ring: Ring) -> Mapping[int, fmpq]:
     """The numbers, by the generators that they stand for."""
     return dict(_drawn(ring))
 
 
-def _drawn(ring: Ring) -> Iterator[tuple[int, Fraction]]:
+def _drawn(ring: Ring) -> Iterator[tuple[int, fmpq]]:
     draw = Random(SEED)  # noqa: S311 - the same numbers every time are wanted
     for g in ring.generators:
         if g.kind == "symbol" and g.name in ring.parameters:
-            yield g.index, Fraction(draw.randint(2, 99), draw.randint(2, 99))
+            yield g.index, fmpq(draw.randint(2, 99), draw.randint(2, 99))
     for pair in ring.pairs:
         if not ring.depends_on_coordinates(ring.generator(pair.sine)):
-            t = Fraction(draw.randint(2, 49), 50)
+            t = fmpq(draw.randint(2, 49), 50)
             yield pair.sine, 2 * t / (1 + t * t)
             yield pair.cosine, (1 - t * t) / (1 + t * t)
