@@ -50,7 +50,7 @@ class Relations:
 
     def of(self, places: Iterable[int]) -> Iterator[fmpq_mpoly]:
         """The relations of some generators, and of those that occur in these."""
-        known = {index: poly for index, *_, poly in (*self._pairs, *self._roots, *self._inverses)}
+        known = dict((*self._pairs, *((i, poly) for i, _, poly in self._roots), *self._inverses))
         both = {cosine: sine for sine, cosine in self._cosines}
         waiting = [both.get(place, place) for place in places]
         while waiting:

@@ -21,7 +21,7 @@ Pairs = Sequence[tuple[int, int]]
 
 
 def factors(poly: fmpq_mpoly, roots: Mapping[int, int], pairs: Pairs) -> list[tuple[fmpq_mpoly, int]]:
-    """(factor, multiplicity), up to a number of the field; `roots` are generators with what they square to."""
+    """(factor, multiplicity), up to a number; `roots` are generators with the numbers they square to."""
     degrees = poly.degrees()
     used = {index: square for index, square in roots.items() if degrees[index] > 0}
     if not used:
@@ -32,7 +32,7 @@ def factors(poly: fmpq_mpoly, roots: Mapping[int, int], pairs: Pairs) -> list[tu
     found = [(factor, int(times)) for factor, times in content.factor()[1] if not field.is_number(factor)]
     for norm, _ in field.norm(poly)[0].factor()[1]:
         while (shared := field.common(poly, norm)) is not None:
-            poly, times = field.divided(poly, shared), 1
+            times = 0
             while (rest := field.divided(poly, shared)) is not None:
                 poly, times = rest, times + 1
             found.append((shared, times))
@@ -56,7 +56,8 @@ class _Field:
         self.ctx, self.roots, self.pairs = ctx, roots, pairs
         self._gens = ctx.gens()
         self._prime = _prime(tuple(roots.values()))
-        self._finite = nmod_mpoly_ctx.get(("n", ctx.nvars()), self._prime, Ordering.lex)
+        get: Any = nmod_mpoly_ctx.get  # its types lack the modulus
+        self._finite = get(("n", ctx.nvars()), self._prime, Ordering.lex)
         self._values = [pow(square, (self._prime + 1) // 4, self._prime) for square in roots.values()]
 
     def reduced(self, poly: fmpq_mpoly) -> fmpq_mpoly:
@@ -79,7 +80,7 @@ class _Field:
             poly = self.reduced(poly * conjugate)
         return poly, others
 
-    def divided(self, poly: fmpq_mpoly | None, divisor: fmpq_mpoly) -> fmpq_mpoly | None:
+    def divided(self, poly: fmpq_mpoly, divisor: fmpq_mpoly) -> fmpq_mpoly | None:
         """poly / divisor; None where a rest is left."""
         norm, others = self.norm(divisor)
         quotient, rest = divmod(self.reduced(poly * others), norm)
@@ -128,7 +129,8 @@ class _Field:
                 places = dict(zip(self.roots, chosen, strict=True))
                 places |= {i: degree - exponents[firsts[i]] for i, degree in highest.items()}
                 terms[tuple(places.get(i, e) for i, e in enumerate(exponents))] = number
-        return self.ctx.from_dict({key: value for key, value in terms.items() if value})
+        found: fmpq_mpoly = self.ctx.from_dict({key: value for key, value in terms.items() if value})
+        return found
 
 
 @cache

@@ -63,7 +63,7 @@ def trig_quotient(expr: Expr, divisor: Expr) -> Expr | None:
 
 
 def squares(expr: Expr) -> tuple[Expr, ...]:
-    """What must be 0 where a sum of positive multiples of squares is, as in 1 + c₁ c₂ = 2 (C₁² C₂² + S₁² S₂²).
+    """What must be 0 where a sum of squares is, as in 1 + c₁ c₂ = 2 (C₁² C₂² + S₁² S₂²).
 
     Parameters count as positive.  Nothing of what is no such sum.
     """

@@ -143,7 +143,10 @@ class ConfigurationForms:
         number = ratio(value, product)
         if not number.is_number:
             shown.append((self.compactor(value.ring).form(number), 1))
-        return times(number.number if number.is_number else Fraction(1), sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))))
+        return times(
+            number.number if number.is_number else Fraction(1),
+            sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))),
+        )
 
     def _signed(self, expr: Expr) -> tuple[Node, Expr]:
         """±expr with the sign that leaves fewer minus signs, as a formula and as it is."""

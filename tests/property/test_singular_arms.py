@@ -153,7 +153,9 @@ def random_arm(seed: int) -> Arm:
         return letter if cell == "letter" else cell
 
     rows = tuple(
-        Row(kind, draw.choice(["0", "0", "0", "90deg"]), length(f"h{k}"), length(f"a{k}"), draw.choice(TWISTS))
+        Row(
+            kind, draw.choice(["0", "0", "0", "90deg"]), length(f"h{k}"), length(f"a{k}"), draw.choice(TWISTS)
+        )
         for k, kind in enumerate(kinds, 1)
     )
     arm = Arm(rows, draw.random() < 0.4, "")
@@ -234,7 +236,7 @@ class Held:
                 yield q, values
 
     def singular_points(self) -> Iterator[tuple[Array, Mapping[str, float]]]:
-        """Configurations of less rank: J V = 0 with VᵀV = 1, where V has a column more than it has elsewhere."""
+        """Configurations of less rank: J V = 0 with VᵀV = 1, V with a column more than elsewhere."""
         n, k = self.arm.n, self.arm.n - self.rank + 1
         for _ in range(16 if self.rank else 0):
             values = self.lengths()
@@ -269,12 +271,20 @@ class Held:
         det = self.results["det"]
         if isinstance(det, str):
             square = J if rows == columns else J @ J.T if rows < columns else J.T @ J
-            if abs(numbers(det, at) - np.linalg.det(square)) > 1e-8 * max(1, np.abs(square).max() ** len(square)):
+            if abs(numbers(det, at) - np.linalg.det(square)) > 1e-8 * max(
+                1, np.abs(square).max() ** len(square)
+            ):
                 yield "det is another"
         for name, M in (("nullspace", J), ("lost", J.T)):
             if isinstance(self.results[name], list):
-                N = numbers(self.results[name], at).reshape(-1, M.shape[1]) if self.results[name] else np.zeros((0, M.shape[1]))
-                if len(N) != M.shape[1] - self.rank or (len(N) and np.abs(M @ N.T).max() > 1e-8 * max(1, np.abs(N).max())):
+                N = (
+                    numbers(self.results[name], at).reshape(-1, M.shape[1])
+                    if self.results[name]
+                    else np.zeros((0, M.shape[1]))
+                )
+                if len(N) != M.shape[1] - self.rank or (
+                    len(N) and np.abs(M @ N.T).max() > 1e-8 * max(1, np.abs(N).max())
+                ):
                     yield f"{name} is another"
 
 
@@ -293,13 +303,13 @@ def newton(f: Any, x: Array) -> Array | None:
     return None
 
 
-def faults_of(seed: int) -> list[str]:
-    """What is wrong with the solution of the arm of a seed."""
+# arms with a twist of 45° (4, 37, 71), equations that exclude each other (2, 15, 44), an alternative that
+# is there for some lengths alone (34, 59), a sum of squares (3), a long Jacobian (42), and others
+SEEDS = (0, 2, 3, 4, 15, 34, 37, 42, 44, 59, 71)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_singular_configurations_of_a_random_arm(seed: int) -> None:
     arm = random_arm(seed)
     results = solve_json(arm.text)["results"]
-    return [] if isinstance(results["singular"], dict) else list(Held(arm, results, seed).faults())
-
-
-@pytest.mark.parametrize("seed", range(25))
-def test_the_singular_configurations_of_a_random_arm(seed: int) -> None:
-    assert faults_of(seed) == [], random_arm(seed).text
+    assert list(Held(arm, results, seed).faults()) == [], arm.text

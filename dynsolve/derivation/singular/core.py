@@ -62,15 +62,15 @@ def _is_never_zero(entry: Expr) -> bool:
 def _cleared(rows: Rows, i: int, j: int) -> Rows:
     """The rows without row i and column j, from which multiples of row i were taken so that column j is 0."""
     pivot = rows[i][j]
-    return tuple(
-        tuple(
-            a if row[j].is_zero else a - row[j] * b / pivot.number if pivot.is_number else a * pivot - row[j] * b
-            for k, (a, b) in enumerate(zip(row, rows[i], strict=True))
-            if k != j
-        )
-        for other, row in enumerate(rows)
-        if other != i
-    )  # fmt: skip
+
+    def entry(row: tuple[Expr, ...], k: int) -> Expr:
+        if row[j].is_zero:
+            return row[k]
+        across = row[j] * rows[i][k]
+        return row[k] - across / pivot.number if pivot.is_number else row[k] * pivot - across
+
+    columns = [k for k in range(len(rows[i])) if k != j]
+    return tuple(tuple(entry(row, k) for k in columns) for row in (*rows[:i], *rows[i + 1 :]))
 
 
 def _shorter(matrix: Matrix, rows: Rows) -> Rows | None:
@@ -103,7 +103,9 @@ def _with_sums(lines: Rows) -> Iterator[Rows]:
         pairs = [both for both in zip(lines[i], lines[j], strict=True) if not any(e.is_zero for e in both)]
         for times in dict.fromkeys(Expr(ring, divmod(a.poly, b.poly)[0]) for a, b in pairs):
             if not times.is_zero:
-                yield _replaced(lines, {i: tuple(a - times * b for a, b in zip(lines[i], lines[j], strict=True))})
+                yield _replaced(
+                    lines, {i: tuple(a - times * b for a, b in zip(lines[i], lines[j], strict=True))}
+                )
 
 
 def _replaced(lines: Rows, new: dict[int, tuple[Expr, ...]]) -> Rows:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -22,8 +22,8 @@ from dynsolve.derivation.singular.zeros import can_hold, follows
 Alternative = tuple[Condition, ...]
 """Conditions that hold together."""
 
-MOST_CASES = 200
-"""So many choices of factors are looked at; of more nothing is said."""
+MOST_CASE_TERMS = 5000
+"""So many terms the cases may have together; where they have more nothing is said."""
 
 MOST_TERMS = 1000
 """A Jacobian with more terms is not looked at."""
@@ -84,7 +84,13 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
     exist = {one: bounds for one in alternatives if (bounds := existence(one)) is not None}
     losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank) for one in exist)
     return SingularSet(
-        pivots + rank, found, tuple(exist), losses, tuple(exist.values()), 0 if shown is None else pivots, shown
+        pivots + rank,
+        found,
+        tuple(exist),
+        losses,
+        tuple(exist.values()),
+        0 if shown is None else pivots,
+        shown,
     )
 
 
@@ -119,14 +125,14 @@ def common_zeros(values: Sequence[Expr]) -> tuple[Alternative, ...]:
 
 @dataclass
 class _Cases:
-    """The choices of a factor of each expression, and how many of them were looked at."""
+    """The choices of a factor of each expression, and the terms that were looked at."""
 
-    number: int = field(default=0)
+    terms: int = 0
 
     def of(self, values: tuple[Expr, ...], held: Alternative) -> Iterator[Alternative]:
         """The choices with which all values are 0, where some conditions hold already."""
-        self.number += 1
-        if self.number > MOST_CASES:
+        self.terms += 1 + sum(map(len, values))
+        if self.terms > MOST_CASE_TERMS:
             raise TooLong
         known = [condition.expr for condition in held]
         left = [value for value in dict.fromkeys(values) if not follows(value, known)]
@@ -175,9 +181,7 @@ def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
 
 def _may_vanish(factor: Expr) -> bool:
     """Whether a factor is 0 at some configuration, as far as its form shows."""
-    return (
-        factor.ring.depends_on_coordinates(factor) and not is_positive(factor) and not is_positive(-factor)
-    )
+    return factor.ring.depends_on_coordinates(factor) and not is_positive(factor) and not is_positive(-factor)
 
 
 def _implies(one: Alternative, other: Alternative) -> bool:

@@ -50,7 +50,7 @@ def _has_number(polys: Sequence[Terms], ring: Ring) -> bool:
     used = sorted(places)
     ctx = fmpz_mpoly_ctx.get(("z", max(len(used), 1)), Ordering.degrevlex)
     basis = fmpz_mpoly_vec([_whole(ctx, used, terms) for terms in polys if terms], ctx)
-    found, _ = basis.buchberger_naive(limits=LIMITS)
+    found: Any = basis.buchberger_naive(limits=LIMITS)[0]
     return any(poly.is_constant() and poly for poly in found)
 
 
