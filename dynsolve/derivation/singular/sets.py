@@ -146,7 +146,7 @@ class _Cases:
                 yield from self.of((*parts, *left), held)
             elif not held or can_hold([*known, factor]):
                 rest = tuple(condition.reduced(value) for value in left)
-                yield from self.of(rest, (*held, condition))
+                yield from self.of(rest, tuple(dict.fromkeys((*held, condition))))
 
     def _settled(self, held: Alternative) -> Iterator[Alternative]:
         """Conditions of which none makes another shorter, or gives it a value of a coordinate."""
