@@ -28,7 +28,7 @@ MOST_CASE_TERMS = 5000
 MOST_TERMS = 1000
 """A Jacobian with more terms is not looked at."""
 
-MOST_CONDITION_TERMS = 150
+MOST_CONDITION_TERMS = 80
 """An alternative with more terms could not be read, nor held to be there."""
 
 MOST_WORK = 3000
