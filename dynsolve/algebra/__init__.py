@@ -15,8 +15,8 @@ Arrows run one way, from the first of these files to the last:
 - `fraction_matrix`, `pseudoinverse`, `spans`: matrices of fractions, systems of linear
   equations, spaces;
 - `inequality`: inequalities between parameters that follow from others;
-- `minors`, `trig_factor`, `positivity`: determinants, factors in sines and cosines, what
-  is positive by its form;
+- `minors`, `trig_factor`, `root_factor`, `positivity`: determinants, factors in sines and cosines,
+  those of polynomials with square roots of numbers, what is positive by its form;
 - `surds`, `surd_angles`, `surd_values`: sums of square roots, angles with such sines and cosines,
   the exact value of a formula of numbers;
 - `fourier`, `compact`: the Fourier form, and what a textbook would print.

@@ -447,7 +447,10 @@ class _Stranger:
         turning = [name for name, kind in self.joints if kind == "revolute"]
         if turning and self.chance(0.15):
             self.file["steady"] = {turning[0]: "W"}
-        return self.one([["equilibria"], ["equilibria"], ["balance"]])
+        asked = self.one(["equilibria", "equilibria", "balance"])
+        if asked == "balance" and self.chance(0.3):
+            self.file["balance"] = {"g": ["g0"] + ["0"] * (len(self.joints) - 1)}
+        return [asked]
 
     def near(self) -> list[str]:
         self.file["linearize"] = {name: self.one(["0", "90deg"]) if kind == "revolute" else self.one(["0", "1"])

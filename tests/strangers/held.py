@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import traceback
 import warnings
@@ -20,19 +21,25 @@ from dynsolve.errors import InputError
 from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
+from dynsolve.explain.signs import shorthands
 from dynsolve.explain.step import Detail
+from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Letter, Node
+from dynsolve.notation.tree import Letter, Node, Number, Symbol
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
-from dynsolve.notation.walk import children
+from dynsolve.notation.walk import children, walk
 from dynsolve.problem import read_problem
 from dynsolve.render.formats import Format
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.reports import report
-from tests.strangers.oracle import random_point, untrue
+from tests.strangers.oracle import Unknown, random_point, relations, untrue
+from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
 
 SECONDS = 30
 """Processor time that a mechanism of up to four joints may take, all its forms together."""
+
+READ = 1e-3
+"""The relative difference that printed decimals, of four digits and more, may make."""
 
 TOLD_IN_WORDS = {TRANSPOSED, *(("", "name", name) for name in COUNTING)}
 TEXTS = (Format.TEXT, Format.LATEX, Format.HTML, Format.MARKDOWN)
@@ -104,6 +111,39 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
             page = report(solution, format, detail=detail, abbreviate=abbreviate).decode()
             for match in PROGRAM_TEXT.finditer(_words(page, format)):
                 yield Fault("program text", f"{format.value}: {_around(page, match)}")
+
+
+def _misread(
+    solution: Solution, document: Document, seed: int, counted: list[int] | None = None
+) -> Iterator[Fault]:
+    """Formulas that read otherwise, as text or as LaTeX, than they are meant; `counted` as [read, all]."""
+    style, point = solution.style, random_point(solution, seed)
+    count = [0, 0] if counted is None else counted
+    list(untrue(document.blocks, point))  # which defines the letters
+    printed = {part for _, relation in relations(document.blocks) for part in walk(relation)}
+    for printer, read in ((UnicodePrinter(style), value_of_text), (LatexPrinter(style), value_of_latex)):
+        known = [node for node, value in point.known.items() if not value.is_matrix]
+        starred = [Symbol(q.name, star=True) for q in solution.robot.coordinates]
+        single = [node for node in (*known, *starred, *shorthands(solution.robot, style)) if node in printed]
+        signs = {printer.text(node): point.value(node).value for node in single}
+        for where, relation in relations(document.blocks):
+            for part in relation.parts:
+                try:
+                    meant = point.value(part)
+                except (Unknown, ZeroDivisionError, OverflowError):
+                    continue
+                if meant.is_matrix or isinstance(part, Symbol | Letter | Number):
+                    continue
+                count[1] += 1
+                text = printer.text(part)
+                try:
+                    found = read(text, signs)
+                except (Unreadable, ZeroDivisionError, OverflowError, ValueError) as error:
+                    yield Fault("unreadable", f"{where}: {error}")
+                    continue
+                count[0] += 1
+                if not math.isclose(found, meant.value, rel_tol=READ, abs_tol=READ * max(meant.size, 1e-3)):
+                    yield Fault("misread", f"{where}: {text} is {found}, and meant is {meant.value}")
 
 
 def _unknown_letters(solution: Solution, document: Document, abbreviate: Abbreviate) -> Iterator[Fault]:
