@@ -24,8 +24,31 @@ ROTATIONS = [
     "Rz(30deg)",
     "Ry(beta)",
 ]
-COURSE = ["A", "H", "J", "Jv", "Jw", "rc", "v", "w", "I", "P", "Kv", "Kw", "K", "L", "dLdqd", "ddt", "dLdq", "tau",
-          "D", "C", "g", "c", "Cqd"]  # fmt: skip
+COURSE = [
+    "A",
+    "H",
+    "J",
+    "Jv",
+    "Jw",
+    "rc",
+    "v",
+    "w",
+    "I",
+    "P",
+    "Kv",
+    "Kw",
+    "K",
+    "L",
+    "dLdqd",
+    "ddt",
+    "dLdq",
+    "tau",
+    "D",
+    "C",
+    "g",
+    "c",
+    "Cqd",
+]
 
 FAMILIES = {"A", "H", "rc", "v", "w", "I", "Kv", "Kw", "dLdqd", "ddt", "dLdq", "c"}
 """Names in `find` that stand for several answers."""
@@ -105,8 +128,20 @@ class _Stranger:
         self.finish()
 
     def place(self) -> None:
-        gravity = self.one([None, None, None, [0, "-g", 0], [0, "-g", 0], ["g", 0, 0], [0, 0, "-9.81"], "none",
-                            ["g*sin(beta)", 0, "-g*cos(beta)"], [0, 0, "-g"]])  # fmt: skip
+        gravity = self.one(
+            [
+                None,
+                None,
+                None,
+                [0, "-g", 0],
+                [0, "-g", 0],
+                ["g", 0, 0],
+                [0, 0, "-9.81"],
+                "none",
+                ["g*sin(beta)", 0, "-g*cos(beta)"],
+                [0, 0, "-g"],
+            ]
+        )
         if gravity is not None:
             self.file["gravity"] = gravity
         if self.chance(0.15):
@@ -119,8 +154,16 @@ class _Stranger:
         lengths = self.one(
             [self.numbered, self.numbered, self.numbered, self.alike, self.numbers, self.mixed]
         )
-        angles = self.one([["0", "90deg", "-90deg"], ["0"], ["0", "90deg"], ["0", "90deg", "-90deg", "180deg"],
-                           ["0", "90deg", "45deg"], ["0", "30deg", "beta"]])  # fmt: skip
+        angles = self.one(
+            [
+                ["0", "90deg", "-90deg"],
+                ["0"],
+                ["0", "90deg"],
+                ["0", "90deg", "-90deg", "180deg"],
+                ["0", "90deg", "45deg"],
+                ["0", "30deg", "beta"],
+            ]
+        )
         plain = self.chance(0.6)
         while len(self.joints) < count:
             place = len(self.rows) + 1
@@ -179,8 +222,22 @@ class _Stranger:
 
     def body_kind(self) -> Problem:
         """What bodies that are alike share: centre, shape or tensor, axes."""
-        shapes = ["none", "none", "point", "box", "cylinder", "hollow_cylinder", "rod", "disk", "sphere", "shell", "zz",
-                  "xyz", "full", "density"]  # fmt: skip
+        shapes = [
+            "none",
+            "none",
+            "point",
+            "box",
+            "cylinder",
+            "hollow_cylinder",
+            "rod",
+            "disk",
+            "sphere",
+            "shell",
+            "zz",
+            "xyz",
+            "full",
+            "density",
+        ]
         return {
             "center": self.one(
                 ["midpoint", "midpoint", "tip", "tip", "near", "along", "origin", "vector", "drop"]
@@ -197,8 +254,11 @@ class _Stranger:
         far = not modified or (not last and "from" not in self.rows[link] and not self.slides(link + 1))
         near = modified or not slides
         center = kind["center"]
-        if (center in ("midpoint", "along") and not (near and far)) or (center == "near" and not near) or (
-            center == "tip" and not far):  # fmt: skip
+        if (
+            (center in ("midpoint", "along") and not (near and far))
+            or (center == "near" and not near)
+            or (center == "tip" and not far)
+        ):
             center = "origin"
         body: Problem = {
             "mass": {"m": "m", "numbers": self.one(["2", "1.5", "3/2"])}.get(style or "", f"m{place}"),
@@ -249,13 +309,14 @@ class _Stranger:
             "point": "point",
             "box": {"box": {"x": size("b"), "y": size("b"), "z": size("e")}},
             "cylinder": {"cylinder": {"radius": size("r"), "length": size("b"), "axis": axis}},
-            "hollow_cylinder": {"hollow_cylinder": {"outer": f"2*r{place}", "inner": f"r{place}", "length": "b",
-                                                    "axis": axis}},
+            "hollow_cylinder": {
+                "hollow_cylinder": {"outer": f"2*r{place}", "inner": f"r{place}", "length": "b", "axis": axis}
+            },
             "rod": {"rod": {"length": size("b"), "axis": axis}},
             "disk": {"disk": {"radius": size("r"), "axis": axis}},
             "sphere": {"sphere": {"radius": size("r")}},
             "shell": {"shell": {"radius": size("r")}},
-        }  # fmt: skip
+        }
         tensors: dict[str, Any] = {
             "zz": {"zz": f"I{place}"},
             "xyz": {"xx": f"I{place}xx", "yy": f"I{place}yy", "zz": f"I{place}zz"},
@@ -272,11 +333,18 @@ class _Stranger:
         same = self.one(["fv", None])
         if self.chance(0.5):
             self.file["friction"] = {
-                name: self.one([same or f"fv{i}", same or f"fv{i}", {"viscous": f"fv{i}", "coulomb": f"fc{i}"},
-                                {"coulomb": f"fc{i}"}, "0.2"])
+                name: self.one(
+                    [
+                        same or f"fv{i}",
+                        same or f"fv{i}",
+                        {"viscous": f"fv{i}", "coulomb": f"fc{i}"},
+                        {"coulomb": f"fc{i}"},
+                        "0.2",
+                    ]
+                )
                 for i, name in enumerate(names, 1)
                 if self.chance(0.7)
-            } or {names[0]: "fv"}  # fmt: skip
+            } or {names[0]: "fv"}
         if self.chance(0.45):
             self.file["springs"] = [self.spring(i, names) for i in range(1, self.random.randint(1, 2) + 1)]
         if self.chance(0.25):
@@ -388,8 +456,9 @@ class _Stranger:
         if isinstance(task, list) and self.chance(0.5):
             self.file["reach"] = self.random.sample(["px", "py", "phi", "w"], len(task))
         if self.chance(0.2):
-            self.file["limits"] = {name: [0, 2] if kind == "prismatic" else ["-90deg", "90deg"]
-                                   for name, kind in self.joints[:2]}  # fmt: skip
+            self.file["limits"] = {
+                name: [0, 2] if kind == "prismatic" else ["-90deg", "90deg"] for name, kind in self.joints[:2]
+            }
         if self.chance(0.2):
             self.file["branches"] = "all"
         return ["inverse"]
@@ -453,8 +522,10 @@ class _Stranger:
         return [asked]
 
     def near(self) -> list[str]:
-        self.file["linearize"] = {name: self.one(["0", "90deg"]) if kind == "revolute" else self.one(["0", "1"])
-                                  for name, kind in self.joints}  # fmt: skip
+        self.file["linearize"] = {
+            name: self.one(["0", "90deg"]) if kind == "revolute" else self.one(["0", "1"])
+            for name, kind in self.joints
+        }
         return ["linear_A", "linear_B"]
 
     def forward(self) -> list[str]:
@@ -487,7 +558,7 @@ class _Stranger:
     # -- drawings, mechanisms, matrices --------------------------------------------------------------
 
     def drawing(self) -> None:
-        """Joint axes in the world: along its axes, now and then aslant, through points a link further each time."""
+        """Joint axes along those of the world, now and then aslant, each a link further than the last."""
         if self.chance(0.3):
             self.file["convention"] = "modified"
         directions = [[0, 0, 1], [0, 1, 0], [1, 0, 0], [0, -1, 0], ["cos(30deg)", 0, "sin(30deg)"]]
@@ -524,26 +595,66 @@ class _Stranger:
         self.file["gravity"] = self.one([[0, "-g", 0], [0, "-g", 0], "none", [0, 0, "-g"], ["g", 0, 0]])
         x, th = self.one(["x", "s"]), self.one(["theta", "phi"])
         ways: list[tuple[dict[str, str], list[Problem]]] = [
-            ({x: "prismatic", th: "revolute"},
-             [{"mass": "M", "at": [x, 0, 0]},
-              {"mass": "m", "at": [f"{x} + l*sin({th})", f"-l*cos({th})", 0], "turn": th, "inertia": {"zz": "I"}}]),
+            (
+                {x: "prismatic", th: "revolute"},
+                [
+                    {"mass": "M", "at": [x, 0, 0]},
+                    {
+                        "mass": "m",
+                        "at": [f"{x} + l*sin({th})", f"-l*cos({th})", 0],
+                        "turn": th,
+                        "inertia": {"zz": "I"},
+                    },
+                ],
+            ),
             ({th: "revolute"}, [{"mass": "m", "at": [f"l*sin({th})", f"-l*cos({th})", 0]}]),
             ({th: "revolute"}, [{"mass": "m", "at": [f"R*{th} - R*sin({th})", f"R*cos({th})", 0]}]),
-            ({x: "prismatic"}, [{"mass": "m", "at": [f"{x}*cos(30deg)", f"-{x}*sin(30deg)", 0], "turn": f"-{x}/R",
-                                 "about": [0, 0, 1], "inertia": {"zz": "m*R^2/2"}}]),
-            ({"th1": "revolute", "th2": "revolute"},
-             [{"mass": "m1", "at": ["l1*sin(th1)", "-l1*cos(th1)", 0]},
-              {"mass": "m2", "at": ["l1*sin(th1) + l2*sin(th2)", "-l1*cos(th1) - l2*cos(th2)", 0]}]),
-            ({"phi": "revolute", "theta": "revolute"},
-             [{"mass": "m", "at": ["l*sin(theta)*cos(phi)", "l*sin(theta)*sin(phi)", "-l*cos(theta)"],
-               "turn": [{"by": "phi", "about": [0, 0, 1]}, {"by": "theta", "about": [0, 1, 0]}],
-               "inertia": {"xx": "I", "yy": "I"}}]),
-            ({x: "prismatic", "y": "prismatic"},
-             [{"mass": "m1", "at": [x, 0, 0]}, {"mass": "m2", "at": [f"{x} + y", "h", 0]}, {"mass": "2", "at": [0, "y", 0]}]),
-            ({"r": "prismatic", th: "revolute"},
-             [{"mass": "m", "at": [f"r*cos({th})", f"r*sin({th})", 0]},
-              {"mass": "M", "at": [0, 0, 0], "turn": th, "inertia": {"zz": "J"}}]),
-        ]  # fmt: skip
+            (
+                {x: "prismatic"},
+                [
+                    {
+                        "mass": "m",
+                        "at": [f"{x}*cos(30deg)", f"-{x}*sin(30deg)", 0],
+                        "turn": f"-{x}/R",
+                        "about": [0, 0, 1],
+                        "inertia": {"zz": "m*R^2/2"},
+                    }
+                ],
+            ),
+            (
+                {"th1": "revolute", "th2": "revolute"},
+                [
+                    {"mass": "m1", "at": ["l1*sin(th1)", "-l1*cos(th1)", 0]},
+                    {"mass": "m2", "at": ["l1*sin(th1) + l2*sin(th2)", "-l1*cos(th1) - l2*cos(th2)", 0]},
+                ],
+            ),
+            (
+                {"phi": "revolute", "theta": "revolute"},
+                [
+                    {
+                        "mass": "m",
+                        "at": ["l*sin(theta)*cos(phi)", "l*sin(theta)*sin(phi)", "-l*cos(theta)"],
+                        "turn": [{"by": "phi", "about": [0, 0, 1]}, {"by": "theta", "about": [0, 1, 0]}],
+                        "inertia": {"xx": "I", "yy": "I"},
+                    }
+                ],
+            ),
+            (
+                {x: "prismatic", "y": "prismatic"},
+                [
+                    {"mass": "m1", "at": [x, 0, 0]},
+                    {"mass": "m2", "at": [f"{x} + y", "h", 0]},
+                    {"mass": "2", "at": [0, "y", 0]},
+                ],
+            ),
+            (
+                {"r": "prismatic", th: "revolute"},
+                [
+                    {"mass": "m", "at": [f"r*cos({th})", f"r*sin({th})", 0]},
+                    {"mass": "M", "at": [0, 0, 0], "turn": th, "inertia": {"zz": "J"}},
+                ],
+            ),
+        ]
         coordinates, bodies = self.one(ways)
         self.joints = list(coordinates.items())
         self.file["model"] = {"coordinates": coordinates, "bodies": bodies}

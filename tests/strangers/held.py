@@ -35,8 +35,8 @@ from dynsolve.solution.reports import report
 from tests.strangers.oracle import Unknown, random_point, relations, untrue
 from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
 
-SECONDS = 30
-"""Processor time that a mechanism of up to four joints may take, all its forms together."""
+SECONDS, FEW_JOINTS = 30, 4
+"""Processor time of a mechanism of up to four joints, all its forms together; a longer arm has four times it."""
 
 READ = 1e-3
 """The relative difference that printed decimals, of four digits and more, may make."""
@@ -80,7 +80,8 @@ def faults(text: str, which: int = 0) -> list[Fault]:
             where = f"{place.filename.rsplit('dynsolve/', 1)[-1]}:{place.lineno}"
             found.append(Fault("crash", f"{type(error).__name__} at {where}: {error}"))
     found += [Fault("warning", str(warning.message)) for warning in told]
-    if (spent := process_time() - started) > SECONDS:
+    bound = SECONDS * (1 if text.count("theta:") + text.count("{d:") <= FEW_JOINTS else 4)
+    if (spent := process_time() - started) > bound:
         found.append(Fault("slow", f"{spent:.0f} s"))
     return found
 
@@ -106,11 +107,15 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
                 "untrue", f"{one.where}: {to_unicode(one.left)} = {to_unicode(one.right)}: {one.numbers}"
             )
         yield from _unknown_letters(solution, document, abbreviate)
-        formats = (Format.TEXT, *([TEXTS[1 + place % 3]] if place == which % len(ways) else []))
+        is_read = place == which % len(ways)
+        if is_read:
+            yield from _misread(solution, document, which)
+        formats = (Format.TEXT, *([TEXTS[1 + place % 3]] if is_read else []))
         for format in formats:
             page = report(solution, format, detail=detail, abbreviate=abbreviate).decode()
-            for match in PROGRAM_TEXT.finditer(_words(page, format)):
-                yield Fault("program text", f"{format.value}: {_around(page, match)}")
+            words = _words(page, format)
+            for match in PROGRAM_TEXT.finditer(words):
+                yield Fault("program text", f"{format.value}: {_around(words, match)}")
 
 
 def _misread(

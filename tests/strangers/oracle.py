@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from random import Random
 from typing import Any
 
@@ -23,7 +24,7 @@ CONDITIONAL = (
     "Frames from the drawing", "Singular", "Inverse", "Rates and", "Forces from outside", "Equilib",
     "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
 )  # fmt: skip
-"""In the titles of steps whose equations are conditions (q₂ = 0) or hold under some: these are not evaluated."""
+"""In the titles of steps whose equations are conditions (q₂ = 0) or hold under some: they are passed over."""
 
 TOLERANCE = 1e-8
 """The relative difference that counts as rounding: of the sum of the sizes of what is added up."""
@@ -118,8 +119,6 @@ class Point:
                     raise Unknown
                 crossed = np.cross(np.ravel(a.value), np.ravel(b.value)).reshape(3, 1)
                 return Value(crossed, np.full((3, 1), np.max(a.size) * np.max(b.size) * 2))
-            case tree.Entry(of, tree.Row() | tree.Number() | tree.Symbol()):
-                raise Unknown
         raise Unknown
 
     @staticmethod
@@ -151,7 +150,7 @@ class Point:
                 inner = self.value(base)
                 if not inner.is_matrix:
                     return Value(1 / inner.value, abs(1 / inner.value))
-                if inner.value.shape[0] != inner.value.shape[1]:
+                if inner.value.shape[0] != inner.value.shape[1] or np.linalg.cond(inner.value) > 1e6:
                     raise Unknown
                 inverse = np.linalg.inv(inner.value)
                 return Value(inverse, np.abs(inverse) * np.linalg.cond(inner.value))
@@ -280,7 +279,7 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
             point.known[part] = members[-1][1]
             if _is_of_step(part):
                 own.add(part)
-        for (a, x), (b, y) in zip(members, members[1:], strict=False):
+        for (a, x), (b, y) in pairwise(members):
             if not x.close_to(y):
                 yield Untrue(where, a, b, f"{_plain(x.value)} and {_plain(y.value)}")
 

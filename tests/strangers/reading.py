@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Mapping
 from fractions import Fraction
 
 SUPERSCRIPTS = {c: str(i) for i, c in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}
-VULGAR = {"½": 0.5, "⅓": 1 / 3, "⅔": 2 / 3, "¼": 0.25, "¾": 0.75, "⅕": 0.2, "⅙": 1 / 6, "⅛": 0.125, "⅜": 0.375,
-          "⅝": 0.625, "⅞": 0.875, "⅖": 0.4, "⅗": 0.6, "⅘": 0.8, "⅚": 5 / 6}  # fmt: skip
+VULGAR = {c: unicodedata.numeric(c) for c in "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"}
 FUNCTIONS = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt, "√": math.sqrt,
              "sgn": lambda x: math.copysign(1.0, x)}  # fmt: skip
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
@@ -35,7 +35,7 @@ def value_of_text(text: str, signs: Mapping[str, float]) -> float:
 def value_of_latex(text: str, signs: Mapping[str, float]) -> float:
     r"""The same of LaTeX, its spaces and sizes of brackets taken off first.
 
-    >>> value_of_latex(r"-\frac{1}{2} \, m_{1} \left(l_{1}^{2} - a\right)", {"m_{1}": 2.0, "l_{1}": 3.0, "a": 1.0})
+    >>> value_of_latex(r"-\frac{1}{2} \, m_{1} \left(l_{1}^{2} - a\right)", {"m_{1}": 2, "l_{1}": 3, "a": 1})
     -8.0
     """
     return _Reader(_plain(text), {_plain(sign): value for sign, value in signs.items()}).whole()
@@ -124,10 +124,12 @@ class _Reader:
 
     def base(self) -> float | None:
         self.skip()
-        for sign in self.longest:
-            if self.text.startswith(sign, self.at):
-                self.at += len(sign)
-                return self.signs[sign]
+        sign = next((sign for sign in self.longest if self.text.startswith(sign, self.at)), "")
+        if sign and not any(
+            self.text.startswith(name, self.at) and len(name) > len(sign) for name in FUNCTIONS
+        ):
+            self.at += len(sign)
+            return self.signs[sign]
         if found := _NUMBER.match(self.text, self.at):
             self.at = found.end()
             return (

@@ -1,4 +1,4 @@
-"""The smallest mechanism with the same kind of fault: keys, rows, bodies and entries left out while it stays."""
+"""The smallest mechanism with a fault: keys, rows, bodies and entries are left out while it stays."""
 
 from __future__ import annotations
 

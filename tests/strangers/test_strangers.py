@@ -1,10 +1,11 @@
-"""Drawn mechanisms, and those that once failed, held to everything in `held`; and that faults would be found."""
+"""Drawn mechanisms, and those that once failed, held to what `held` says; and that faults would be found."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -137,7 +138,9 @@ def _turned(relation: Relation) -> Iterator[Node]:
     for part in walk(last):
         if isinstance(part, Sum):
             *terms, term = part.terms
-            other = Sum((*terms, negated(term)))
-            yield Relation(
-                (*before, mapped(last, lambda node: other if node == part else node)), relation.signs
-            )
+            turned = partial(_put, part, Sum((*terms, negated(term))))
+            yield Relation((*before, mapped(last, turned)), relation.signs)
+
+
+def _put(part: Node, other: Node, node: Node) -> Node:
+    return other if node == part else node

@@ -20,9 +20,9 @@ from dynsolve.notation.mathml import MathMLPrinter
 from dynsolve.notation.tree import Function, Letter, Node, Sum, Symbol
 from dynsolve.notation.typst import TypstPrinter
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
-from dynsolve.notation.walk import children
 from dynsolve.render import latex, markdown
 from dynsolve.solution.documents import solution_document
+from tests.strangers.held import signs_in
 from tests.support import ALL_PROBLEMS, solved
 
 TOLD_IN_WORDS = {TRANSPOSED, *(("", "name", name) for name in COUNTING)}
