@@ -36,7 +36,7 @@ from tests.strangers.oracle import Unknown, random_point, relations, untrue
 from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
 
 SECONDS, FEW_JOINTS = 30, 4
-"""Processor time of a mechanism of up to four joints, all its forms together; a longer arm has four times it."""
+"""Processor time of a mechanism of up to four joints in all its forms; a longer arm has four times it."""
 
 READ = 1e-3
 """The relative difference that printed decimals, of four digits and more, may make."""
