@@ -2,25 +2,33 @@
 
 Both are evaluated at one random point over the integers modulo a prime, at which sin² + cos² = 1 and every
 inverse inverts.  Two polynomials of degree d that differ agree there with probability d/p, less than 10⁻¹⁶
-(Schwartz, Fast probabilistic algorithms for verification of polynomial identities, J. ACM 1980).  Where
-roots stand in a ring, a form is multiplied out again in it.
+(Schwartz, Fast probabilistic algorithms for verification of polynomial identities, J. ACM 1980).  Where a ring
+has roots, constant angles or other functions, which need not be numbers modulo a prime, both are evaluated
+in floating point, at values at which everything in the ring is positive.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
+from math import pi
 from random import Random
 from typing import Any
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.generators import Generator, is_sign
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
+from dynsolve.notation.tree_values import evaluate as value_of_tree
+from dynsolve.notation.walk import names_in
 
 PRIME = 2**61 - 1
+
+FLOATS, ROUNDING = 2, 1e-9
+"""How many values forms are compared at in floating point; the difference, to the sum of the terms sizes."""
 
 
 class Proof:
@@ -28,13 +36,32 @@ class Proof:
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
-        self._exact = any(g.kind in ("root", "constant") for g in ring.generators)
-        self._point = () if self._exact else _random_point(ring)
+        self._in_floats = any(_is_transcendental(g) for g in ring.generators)
+        self._point = () if self._in_floats else _random_point(ring)
         self._known: dict[Node, int] = {}
 
     def holds(self, expr: Expr, form: Node) -> bool:
         """Whether a form is an expression."""
-        return value_of(self.ring, form) == expr if self._exact else self._tree(form) == self._poly(expr.poly)
+        if self._in_floats:
+            return all(self._is_close(expr, form, seed) for seed in range(FLOATS))
+        return self._tree(form) == self._poly(expr.poly)
+
+    def _is_close(self, expr: Expr, form: Node, seed: int) -> bool:
+        """Whether both agree at random values, or have none there, as the root of a negative number."""
+        random = Random(seed)  # noqa: S311 - the same values every time are wanted
+        names = sorted({*self.ring.names, *self.ring.parameters, *names_in(form)})
+        values = {
+            f"{name}{dots}": random.uniform(0.3, 0.7) for name in names for dots in ("", "_dot", "_ddot")
+        }
+        values["pi"] = pi
+        sizes = {exponents: abs(factor) for exponents, factor in expr.poly.to_dict().items()}
+        try:
+            value, size = (
+                evaluate(e, values) for e in (expr, Expr(self.ring, self.ring.ctx.from_dict(sizes)))
+            )
+            return abs(value - float(value_of_tree(form, values))) <= ROUNDING * abs(size)
+        except (ValueError, ZeroDivisionError):
+            return True
 
     def _poly(self, poly: Any) -> int:
         return _residue(poly(*self._point))
@@ -63,6 +90,10 @@ class Proof:
             case Number(p, q):
                 return p * pow(q, -1, PRIME)
         return self._poly(value_of(self.ring, node).poly)
+
+
+def _is_transcendental(g: Generator) -> bool:
+    return g.kind in ("root", "constant") or (g.kind == "function" and not is_sign(g.node))
 
 
 def _residue(value: Any) -> int:
