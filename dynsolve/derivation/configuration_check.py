@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
 from operator import mul
 from random import Random
 from typing import Any
 
 from dynsolve.derivation.arm_values import draw
-from dynsolve.derivation.elimination import rank
+from dynsolve.derivation.elimination import rank, shortest_step
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
@@ -31,14 +30,25 @@ SMALL = 1e-9
 
 Values = Mapping[str, float]
 
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """Two formulas that are to be equal, angles modulo 2π."""
+
+    sides: tuple[Node, Node]
+    is_angle: bool = False
+
+
+Conditions = Sequence[Condition]
+
 NO_VALUE = (KeyError, ValueError, TypeError, ArithmeticError)
 """What is raised where a formula has no real value, or lacks one of a name."""
 
 
 def verify_inverse(
-    robot: Robot, r: Node, angles: Sequence[bool], branches: Sequence[Mapping[str, Node]]
+    robot: Robot, r: Node, angles: Sequence[bool], branches: Sequence[tuple[Mapping[str, Node], Conditions]]
 ) -> None:
-    """Put every branch into r(q), whose components are lengths or `angles`.
+    """Put every branch into r(q), whose components are lengths or `angles`, where its conditions hold.
 
     Raises VerificationError where one is none, or one is missing.
     """
@@ -46,7 +56,7 @@ def verify_inverse(
     for values in states_of(robot):
         reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
-        found = [q for q in (on_branch(branch, given) for branch in branches) if q is not None]
+        found = [q for q in (on_branch(*branch, given) for branch in branches) if q is not None]
         if not all(near(reaches(task, q), reached, angles) for q in found):
             raise VerificationError("a branch of the inverse kinematics does not reach what it should")
         if not any(same_configuration(robot.ring, q, values) for q in found):
@@ -69,7 +79,7 @@ def verify_target(
     wanted = [given[name] for name in robot.questions.reached]
     for formulas, free in configurations:
         for place in (0.0, 1.0) if free else (0.0,):
-            q = on_branch(formulas, {**given, **dict.fromkeys(free, place)})
+            q = on_branch(formulas, (), {**given, **dict.fromkeys(free, place)})
             if q is None or not near(reaches(task, q), wanted, angles):
                 raise VerificationError("a configuration does not reach the target of the inverse kinematics")
 
@@ -80,15 +90,21 @@ def reaches(task: Program, q: Values) -> list[float]:
     return _flat(value)
 
 
-def on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | None:
-    """The configuration; None where the branch does not exist, or a formula lacks a value."""
+def on_branch(branch: Mapping[str, Node], when: Conditions, given: Values) -> dict[str, float] | None:
+    """The configuration; None where the branch does not exist or a condition does not hold."""
     q = dict(given)
-    for name, formula in branch.items():
-        try:
+    try:
+        for name, formula in branch.items():
             q[name] = evaluate(formula, q)
-        except NO_VALUE:
-            return None
-    return q
+        return q if all(holds(one, q) for one in when) else None
+    except NO_VALUE:
+        return None
+
+
+def holds(condition: Condition, values: Values) -> bool:
+    """Whether both sides of a condition are the same, those of angles modulo 2π."""
+    left, right = (float(evaluate(side, values)) for side in condition.sides)
+    return near([right], [left], [condition.is_angle])
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,35 +167,13 @@ def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | N
             [(a[k] - b[k]) / (2 * DIFFERENCE) for a, b in zip(ahead, behind, strict=True)]
             for k in range(len(f))
         ]
-        step = _step(f, rows)
+        step = shortest_step(f, rows)
         for name, x in zip(names, step, strict=True):
             at[name] += x
         moved = max(map(abs, step), default=0.0)
         if moved < SMALL and max(map(abs, f)) < CLOSE**2:
             return at
     return None
-
-
-def _step(values: Sequence[float], rows: Sequence[Sequence[float]]) -> list[float]:
-    """The shortest step after which each value, changed by its gradient, is 0.
-
-    One gradient after the other, each without its part along those before it; one that lies in their
-    span is an equation that repeats another.
-    """
-    step = [0.0] * len(rows[0])
-    across: list[list[float]] = []
-    for value, row in zip(values, rows, strict=True):
-        left = list(row)
-        for one in across:
-            along = sum(map(mul, row, one))
-            left = [x - along * y for x, y in zip(left, one, strict=True)]
-        length, whole = hypot(*left), hypot(*row)
-        if length < SMALL or length < DIFFERENCE * whole:
-            continue
-        across.append([x / length for x in left])
-        short = (value + sum(map(mul, row, step))) / length
-        step = [x - short * y for x, y in zip(step, across[-1], strict=True)]
-    return step
 
 
 def rank_of(rows: Sequence[Sequence[float]]) -> int:

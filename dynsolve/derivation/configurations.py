@@ -63,6 +63,7 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
     `r` is r(q), m×1, or of a pose its position and the rows of its rotation, 12×1.
     """
     from dynsolve.derivation.inverse.branches import branches
+    from dynsolve.derivation.inverse.conditions import with_conditions
     from dynsolve.derivation.inverse.pose import solve_pose
     from dynsolve.derivation.inverse.search import solve_task
 
@@ -70,6 +71,8 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
     is_pose = task is not None and task.is_pose
     solving = solve_pose(robot, r, names) if is_pose else solve_task(r, names)
     found = None if solving is None else branches(solving)
+    if solving is not None and found is not None and solving.conditions > 0:
+        found = with_conditions(solving, found)
     if solving is None or found is None:
         has_target = robot.questions.target is not None and not without_number(robot, r)
         return NoClosedForm() if has_target else Skipped("no closed form was found")

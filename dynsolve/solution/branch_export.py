@@ -10,14 +10,24 @@ from dynsolve.notation.python import PythonPrinter
 if TYPE_CHECKING:
     from dynsolve.document import Prose
     from dynsolve.explain.configurations import ConfigurationForms
+    from dynsolve.explain.target import TargetForms
 
 _DIGITS = 15
 
 
-def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dict[str, str]]:
-    """The branches, or where the target is given in numbers, the configurations that reach it."""
-    branches = forms.inverse if forms.target is None else [c.formulas for c in forms.target.configurations]
-    return [{name: python.text(value) for name, value in branch.items()} for branch in branches]
+def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dict[str, Any]]:
+    """The branches in the names of the values of the task, each with the conditions under which it is one."""
+    found: list[dict[str, Any]] = []
+    for branch, when in zip(forms.inverse, forms.when, strict=True):
+        found.append({name: python.text(value) for name, value in branch.items()})
+        if when:
+            found[-1]["when"] = [" = ".join(map(python.text, one.sides)) for one in when]
+    return found
+
+
+def configuration_results(target: TargetForms, python: PythonPrinter) -> list[dict[str, str]]:
+    """The configurations that reach given numbers."""
+    return [{n: python.text(value) for n, value in one.formulas.items()} for one in target.configurations]
 
 
 def beside_branches(forms: ConfigurationForms, write: Callable[[Prose], str]) -> Iterator[tuple[str, Any]]:

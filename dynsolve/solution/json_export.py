@@ -25,10 +25,10 @@ from dynsolve.quantities.family import Family, Kind, Owner
 from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.robot_stages import derived_stages
 from dynsolve.robot.model import Robot
-from dynsolve.solution.branch_export import beside_branches, branch_results
+from dynsolve.solution.branch_export import beside_branches, branch_results, configuration_results
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.numbers import measures
-from dynsolve.solution.numbers.given import Given
+from dynsolve.solution.numbers.given import Given, parameters
 from dynsolve.solution.numbers.results import Numbers, State, Valued
 from dynsolve.solution.numbers.rounding import DIGITS
 from dynsolve.solution.table_export import table_results
@@ -78,15 +78,17 @@ def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[
             "max_relative_error": verification.max_relative_error,
         },
         **({} if short is None else {"abbreviated": exporter.abbreviated(short)}),
-        **({} if solution.numbers is None else _number_sections(solution, solution.numbers)),
+        **_with_target({} if solution.numbers is None else _number_sections(solution, solution.numbers), exporter),
     }
 
 
 class _Exporter:
     """Keeps one printer of each notation, so that what trees share is printed once."""
 
-    def __init__(self, solution: Dynamics, forms: Callable[[str], Node] | None = None) -> None:
-        self.solution = solution
+    def __init__(
+        self, solution: Dynamics, forms: Callable[[str], Node] | None = None, of: Valued | State | None = None
+    ) -> None:
+        self.solution, self.of = solution, of
         self.forms = forms or solution.forms
         self.python = PythonPrinter()
         self.latex = LatexPrinter(solution.style)
@@ -115,12 +117,14 @@ class _Exporter:
             from dynsolve.solution.stability_export import beside_equilibria
 
             results |= dict(beside_equilibria(self.configurations, self.python))
-        if "inverse" in results:
+        if "inverse" in results and self.of is None:
             results |= dict(beside_branches(self.configurations, self.prose))
         return results | dict(table_results(self.solution, self.python))
 
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
+        if quantity.family.kind is Kind.BRANCHES and self.of is not None:
+            return self.branches_in_numbers(self.of)
         match quantity.family.kind:
             case Kind.EQUATIONS | Kind.CONDITIONS | Kind.BRANCHES if isinstance(
                 self.solution.values[quantity.rule], Skipped
@@ -145,6 +149,17 @@ class _Exporter:
         if quantity.family.kind is Kind.SPAN:
             return [list(vector) for vector in zip(*rows, strict=True)]
         return [entry for (entry,) in rows] if quantity.family.is_vector else rows
+
+    def branches_in_numbers(self, of: Valued | State) -> Any:
+        """What reaches the target; where it has none, the branches of the robot with numbers for parameters."""
+        if self.configurations.target is not None:
+            return configuration_results(self.configurations.target, self.python)
+        from dynsolve.explain.configurations import ConfigurationForms
+
+        found = of.values["inverse"]
+        if isinstance(found, Skipped):
+            return {"skipped": found.why}
+        return branch_results(ConfigurationForms(of.robot, of.values), self.python)
 
     @cached_property
     def configurations(self) -> ConfigurationForms:
@@ -236,7 +251,7 @@ def _number_sections(solution: Dynamics, numbers: Numbers) -> dict[str, Any]:
 
     def results(of: Valued | State) -> dict[str, Any]:
         digits = of.digits if of.digits != DIGITS else NUMBER_DIGITS
-        return _Exporter(solution, lambda name: of.shown(name, digits)).results()
+        return _Exporter(solution, lambda name: of.shown(name, digits), of).results()
 
     sections: dict[str, Any] = {}
     if numbers.given.entries:
@@ -247,6 +262,15 @@ def _number_sections(solution: Dynamics, numbers: Numbers) -> dict[str, Any]:
         sections["at"] = {"given": _given(numbers.state.given), "results": results(numbers.state)}
     if sections:
         sections["units"] = {name: _plain(unit) for name, unit in _units(numbers.robot)}
+    return sections
+
+
+def _with_target(sections: dict[str, Any], exporter: _Exporter) -> dict[str, Any]:
+    """The sections, `values` with what reaches the numbers of `reach`, which needs no others than its own."""
+    solution = exporter.solution
+    if "inverse" in solution.robot.questions.asked and (target := exporter.configurations.target) is not None:
+        values = sections.setdefault("values", {"given": _given(parameters(solution.problem, ()))})
+        values.setdefault("results", {})["inverse"] = configuration_results(target, exporter.python)
     return sections
 
 

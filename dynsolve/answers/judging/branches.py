@@ -61,13 +61,14 @@ class BranchKey:
             reached = reaches(self._task, values)
             at = {name: value for name, value in values.items() if name not in names}
             at |= dict(zip(self.robot.questions.reached, reached, strict=True))
-            theirs = [on_branch(in_order(branch), at) for branch in given]
+            theirs = [on_branch(in_order(branch), (), at) for branch in given]
             for number, q in enumerate(theirs, 1):
                 if q is not None:
                     met[number - 1] = True
                     if not near(reaches(self._task, q), reached, self._angles):
                         return SetVerdict(False, "branch_misses", number)
-            mine = [q for q in (on_branch(branch, at) for branch in self.shown.inverse) if q is not None]
+            branches = zip(self.shown.inverse, self.shown.when, strict=True)
+            mine = [q for q in (on_branch(*branch, at) for branch in branches) if q is not None]
             present = [q for q in theirs if q is not None]
             is_incomplete = is_incomplete or not all(
                 any(same_configuration(self.robot.ring, q, other) for other in present) for q in mine

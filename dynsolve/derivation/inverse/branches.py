@@ -14,7 +14,7 @@ from random import Random
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
-from dynsolve.derivation.inverse.solving import Solving
+from dynsolve.derivation.inverse.solving import Relation, Solving
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 
 POINTS = 12
@@ -26,13 +26,17 @@ Choice = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """One solution: `choice` says which value each step takes."""
+    """One solution: `choice` says which value each step takes, `when` under which conditions it is one."""
 
     choice: Choice
+    when: tuple[Relation, ...] = ()
 
 
 def branches(solving: Solving) -> tuple[Branch, ...] | None:
-    """The branches that solve the task; None where some solve it at some points only, or one is not found."""
+    """The branches that solve the task; None where one is not found, or some solve it at some points only.
+
+    Where there are conditions on the values, these may tell at which.
+    """
     random = Random(2006)  # noqa: S311  (test points, the same in every run)
     candidates = [Branch(choice) for choice in product(*(range(step.count) for step in solving.solved))]
     verdicts: dict[Branch, set[bool]] = {branch: set() for branch in candidates}
@@ -48,9 +52,9 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
                 found = found or (solves and same_configuration(solving.ring, q, state))
         if not found:
             return None
-    if any(len(seen) > 1 for seen in verdicts.values()):
+    if not solving.conditions and any(len(seen) > 1 for seen in verdicts.values()):
         return None
-    return tuple(branch for branch, seen in verdicts.items() if seen == {True})
+    return tuple(branch for branch, seen in verdicts.items() if True in seen)
 
 
 def reach_of(solving: Solving, state: Mapping[str, float]) -> dict[str, float]:

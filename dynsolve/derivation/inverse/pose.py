@@ -15,14 +15,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations_with_replacement
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.transfer import Transfer
 from dynsolve.derivation.inverse.chain import Chain, chain_of, inverse
 from dynsolve.derivation.inverse.equations import Equation, OfPoint, OfTurn, System, lineage
 from dynsolve.derivation.inverse.names import Names
 from dynsolve.derivation.inverse.search import search
-from dynsolve.derivation.inverse.solving import FixedPoint, Part, Solving, Turn
+from dynsolve.derivation.inverse.relations import length
+from dynsolve.derivation.inverse.solving import FixedPoint, Part, Relation, Solving, Turn
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.inverse.unknowns import Unknowns, search_ring
 from dynsolve.robot.model import Robot
@@ -57,7 +61,33 @@ def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | N
     parts = _parts(start, unknowns, names)
     if parts is None:
         return None
-    return Solving(ring, pose, tuple(values), frozenset(), tuple(_needed(parts)), ())
+    whole = [Relation(symbol, made) for symbol, made in zip(map(ring.symbol, values), _carried(pose, ring))]
+    told = tuple(sorted((*_of_points(parts[0]), *whole), key=length))
+    return Solving(
+        ring, pose, tuple(values), frozenset(), tuple(_needed(parts)), (), told, tuple(_orthonormal(H))
+    )
+
+
+def _carried(pose: Matrix, ring: Ring) -> tuple[Expr, ...]:
+    return pose.map(Transfer(pose.ring, ring)).entries
+
+
+def _orthonormal(H: Matrix) -> Iterator[Relation]:
+    """What holds between the entries of every rotation: its rows are of length 1, at right angles."""
+    ring = H.ring
+    for i, j in combinations_with_replacement(H.rows[:3], 2):
+        yield Relation(ring.dot(i[:3], j[:3]), ring.one if i is j else ring.zero)
+
+
+def _of_points(part: Part) -> Iterator[Relation]:
+    """The coordinates of a point of the first part that no joint moves."""
+    point = part.point
+    if point is None:
+        return
+    meant = {point.known.ring.symbol(d.name): d.value for d in point.definitions}
+    for known, made in zip(point.known.entries, point.made.entries, strict=True):
+        if not made.ring.depends_on_coordinates(made):
+            yield Relation(meant.get(known, known), made)
 
 
 @dataclass(frozen=True, slots=True)
