@@ -12,6 +12,7 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.surd_angles import SurdAngle
 from dynsolve.algebra.surd_values import Exact, NoValue, Undetermined, exact_value
 from dynsolve.algebra.surds import NotExact
+from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import ZERO, Negative, Node, Number, Product, Quotient, Sum, Symbol
 from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
@@ -88,19 +89,20 @@ def shown(name: str, branch: Mapping[str, Node], found: BranchValues, written: M
     """A coordinate as a formula: its exact value, else its formula with numbers in it, else a decimal."""
     if name in found.exact:
         return found.exact[name].node
-    formula = with_numbers(branch[name], written)
+    formula = with_numbers(branch[name], written, found.exact)
     return formula if cost(formula) <= LONGEST else decimal(found.numbers[name])
 
 
-def with_numbers(formula: Node, written: Mapping[str, Node]) -> Node:
-    """A formula with the given formulas in place of names."""
+def with_numbers(formula: Node, written: Mapping[str, Node], exact: Mapping[str, Exact]) -> Node:
+    """A formula with the given formulas in place of names, each part that has an exact value as that."""
 
     def put(part: Node) -> Node:
-        if not isinstance(part, Symbol) or part.name not in written:
-            return part
-        return written[part.name]
+        try:
+            return exact_value(part, exact).node
+        except AlgebraError:
+            return _folded(written.get(part.name, part) if isinstance(part, Symbol) else part)
 
-    return mapped(formula, lambda part: _folded(put(part)))
+    return mapped(formula, put)
 
 
 def _folded(part: Node) -> Node:

@@ -164,7 +164,7 @@ class ConfigurationForms:
             return None
         from dynsolve.explain.target import TargetForms
 
-        branches = self.inverse if self.solved is not None else None
+        branches = None if self.solved is None else list(zip(self.inverse, self.when, strict=True))
         (task,) = self.values.rules["inverse"].inputs
         return TargetForms(self.robot, self.values[task], Forms(self.robot, self.values)(task), branches)
 

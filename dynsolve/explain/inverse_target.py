@@ -45,8 +45,7 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
 
 def given_numbers(forms: TargetForms) -> tuple[Node, ...]:
     """What the values of the task are."""
-    names = forms.robot.questions.reached
-    return tuple(equation(Symbol(name), forms.written[name]) for name in names)
+    return tuple(equation(Symbol(name), value) for name, value in forms.given)
 
 
 # -- one configuration -----------------------------------------------------------------------------
@@ -201,13 +200,20 @@ def reason(forms: TargetForms) -> Prose:
         return ()
     if forms.is_family:
         return ("The configurations that reach this do not stand alone: there are infinitely many.",)
+    if forms.unmet:
+        return ("No configuration reaches this: no joint gives ", letters.TASK_OF_Q, " these values.")
     if forms.lost:
         return ("No configuration reaches this: no branch is real.",)
     return ("No configuration that reaches this was found: Newton's method from 200 of them led to none.",)
 
 
 def _lost(forms: TargetForms) -> Iterator[Prose]:
-    """Why branches are not real, those with one reason together."""
+    """Why branches are not real or no solutions, those with one reason together."""
+    for condition, unmet in groupby(forms.unmet, key=lambda one: one.condition):
+        numbers = listed([str(one.branch) for one in unmet])
+        which = "Branch " if len(numbers) == 1 else "Branches "
+        needs = " needs " if len(numbers) == 1 else " need "
+        yield which, *numbers, needs, equation(*condition.sides), ", which does not hold here."
 
     def why(lost: Lost) -> tuple[str, str, str]:
         return lost.coordinate, lost.function, repr(lost.argument)

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from dynsolve.algebra.surd_angles import PI
+from dynsolve.notation.build import times
 from dynsolve.notation.python import PythonPrinter
+from dynsolve.notation.tree import Degrees, Node
+from dynsolve.notation.walk import mapped
 
 if TYPE_CHECKING:
     from dynsolve.document import Prose
@@ -19,15 +24,24 @@ def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dic
     """The branches in the names of the values of the task, each with the conditions under which it is one."""
     found: list[dict[str, Any]] = []
     for branch, when in zip(forms.inverse, forms.when, strict=True):
-        found.append({name: python.text(value) for name, value in branch.items()})
+        found.append({name: _text(python, value) for name, value in branch.items()})
         if when:
-            found[-1]["when"] = [" = ".join(map(python.text, one.sides)) for one in when]
+            found[-1]["when"] = [" = ".join(_text(python, side) for side in one.sides) for one in when]
     return found
 
 
 def configuration_results(target: TargetForms, python: PythonPrinter) -> list[dict[str, str]]:
     """The configurations that reach given numbers."""
-    return [{n: python.text(value) for n, value in one.formulas.items()} for one in target.configurations]
+    return [{n: _text(python, value) for n, value in one.formulas.items()} for one in target.configurations]
+
+
+def _text(python: PythonPrinter, formula: Node) -> str:
+    """A formula as text, its degrees as parts of π, so that no rounded number stands in it."""
+    return python.text(mapped(formula, _in_radians))
+
+
+def _in_radians(part: Node) -> Node:
+    return times(Fraction(part.p, 180 * part.q), [(PI, 1)]) if isinstance(part, Degrees) else part
 
 
 def beside_branches(forms: ConfigurationForms, write: Callable[[Prose], str]) -> Iterator[tuple[str, Any]]:
