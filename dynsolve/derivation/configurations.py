@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from random import Random
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.elimination import rank
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.rates import whole_or_task
 from dynsolve.quantities.robot_stages import asked_stages
@@ -21,6 +23,12 @@ if TYPE_CHECKING:
     from dynsolve.derivation.inverse.branches import Branch
     from dynsolve.derivation.inverse.solving import Solving
     from dynsolve.derivation.singular.sets import SingularSet
+
+
+NO_CLOSED_FORM = "no closed form was found"
+REDUNDANT = "the arm has more joints than the task: infinitely many configurations reach it"
+
+_STEP = 1e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +83,24 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
         found = with_conditions(solving, found)
     if solving is None or found is None:
         has_target = robot.questions.target is not None and not without_number(robot, r)
-        return NoClosedForm() if has_target else Skipped("no closed form was found")
+        return NoClosedForm() if has_target else Skipped(REDUNDANT if is_redundant(r) else NO_CLOSED_FORM)
     return Inverse(solving, found)
+
+
+def is_redundant(r: Matrix) -> bool:
+    """Whether joints can move and leave the task where it is, at a random configuration."""
+    random = Random(1983)  # noqa: S311  (a test point, the same in every run)
+    names = r.ring.names
+    at = {name: random.uniform(0.5, 1.5) for name in (*names, *r.ring.parameters)}
+    ends = [
+        [evaluate(entry, {**at, name: at[name] + step}) for entry in r.entries]
+        for name in names for step in (_STEP, -_STEP)
+    ]  # fmt: skip
+    columns = [
+        [(a - b) / (2 * _STEP) for a, b in zip(*pair, strict=True)]
+        for pair in zip(ends[::2], ends[1::2], strict=True)
+    ]
+    return rank(columns, _STEP) < len(names)
 
 
 def without_number(robot: Robot, r: Matrix) -> str:

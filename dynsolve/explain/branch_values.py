@@ -13,13 +13,10 @@ from dynsolve.algebra.surd_angles import SurdAngle
 from dynsolve.algebra.surd_values import Exact, NoValue, Undetermined, exact_value
 from dynsolve.algebra.surds import NotExact
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.build import cost, negated, times, total
+from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import ZERO, Negative, Node, Number, Product, Quotient, Sum, Symbol
 from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
 from dynsolve.notation.walk import mapped
-
-LONGEST = 60
-"""A formula with more operations is no help to a reader; its value stands alone."""
 
 DIGITS = 12
 """So many digits has a value that has no formula."""
@@ -86,11 +83,8 @@ def branch_values(
 
 
 def shown(name: str, branch: Mapping[str, Node], found: BranchValues, written: Mapping[str, Node]) -> Node:
-    """A coordinate as a formula: its exact value, else its formula with numbers in it, else a decimal."""
-    if name in found.exact:
-        return found.exact[name].node
-    formula = with_numbers(branch[name], written, found.exact)
-    return formula if cost(formula) <= LONGEST else decimal(found.numbers[name])
+    """A coordinate as a formula: its exact value, else its formula with numbers in it."""
+    return found.exact[name].node if name in found.exact else with_numbers(branch[name], written, found.exact)
 
 
 def with_numbers(formula: Node, written: Mapping[str, Node], exact: Mapping[str, Exact]) -> Node:

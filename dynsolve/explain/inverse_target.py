@@ -13,6 +13,7 @@ from dynsolve.explain.branch_values import decimal
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.target import Configuration, Lost, TargetForms
 from dynsolve.explain.writing import listed
+from dynsolve.notation.build import cost
 from dynsolve.notation.tree import Degrees, Function, Negative, Node, Number, Relation, Symbol, equation
 from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import letters
@@ -20,6 +21,9 @@ from dynsolve.quantities.stages import Stage
 
 _DIGITS = 4
 _LIMITS = "Limits"
+
+LONGEST = 60
+"""A formula with more operations is no help to a reader; its value stands alone."""
 
 _TITLE = "The configurations that reach it"
 _HINT = (
@@ -80,6 +84,8 @@ def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
     formula, value = one.formulas[name], one.numbers[name]
     if rational_value(formula) == 0 or _depends(one, name):
         return equation(Symbol(name), formula)
+    if cost(formula) > LONGEST:
+        formula = decimal(value)
     shown = [node for node in (formula, decimal(value, _DIGITS)) if not _is_decimal(node) or node != formula]
     if rational_value(formula) is not None:
         shown = [decimal(value, _DIGITS)] if _is_decimal(formula) else [formula]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from dynsolve.algebra.surd_angles import PI
 from dynsolve.notation.build import times
 from dynsolve.notation.python import PythonPrinter
-from dynsolve.notation.tree import Degrees, Node
+from dynsolve.notation.tree import Degrees, Node, Number
 from dynsolve.notation.walk import mapped
 
 if TYPE_CHECKING:
@@ -31,8 +31,16 @@ def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dic
 
 
 def configuration_results(target: TargetForms, python: PythonPrinter) -> list[dict[str, str]]:
-    """The configurations that reach given numbers."""
-    return [{n: _text(python, value) for n, value in one.formulas.items()} for one in target.configurations]
+    """The configurations that reach given numbers, their formulas exact where they come from a branch."""
+    return [
+        {name: _text(python, _exact(f) if one.branches else f) for name, f in one.formulas.items()}
+        for one in target.configurations
+    ]
+
+
+def _exact(formula: Node) -> Node:
+    """A formula with fractions for decimals."""
+    return mapped(formula, lambda part: Number(part.p, part.q) if isinstance(part, Number) else part)
 
 
 def _text(python: PythonPrinter, formula: Node) -> str:

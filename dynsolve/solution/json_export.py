@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from dynsolve.derivation.configurations import NO_CLOSED_FORM
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Inline, Prose, Reference, Verbatim
 from dynsolve.explain.citations import by_itself
@@ -138,6 +139,8 @@ class _Exporter:
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in found]
             case Kind.VERDICTS:
                 return verdict_results(self.solution, self.python, self.unicode)
+            case Kind.BRANCHES if self.configurations.solved is None:
+                return {"skipped": NO_CLOSED_FORM}
             case Kind.BRANCHES:
                 return branch_results(self.configurations, self.python)
         form = self.forms(quantity.rule)

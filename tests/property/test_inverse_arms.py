@@ -154,7 +154,7 @@ class Arm:
 
     def newton(self, target: Vector, values: Mapping[str, float], draw: np.random.Generator) -> Iterator[Vector]:
         """Configurations that stand alone and reach a target."""
-        for _ in range(20):
+        for _ in range(6):
             q = draw.uniform(-3, 3, len(self.joints))
             for _ in range(40):
                 off = target - self.r(q, values)
@@ -280,7 +280,11 @@ class Held:
     def parameters(self) -> dict[str, float]:
         return {name: float(self.draw.uniform(0.4, 1.6)) for name in self.arm.letters}
 
-    def q_of(self, values: Mapping[str, float], free: float = 0.7) -> Vector:
+    def is_free(self, name: str) -> bool:
+        """Whether a coordinate may be anything."""
+        return isinstance(self.results["inverse"], list) and all(name not in one for one in self.results["inverse"])
+
+    def q_of(self, values: Mapping[str, float], free: float = 0.4) -> Vector:
         return np.array([values.get(name, free) for name in self.arm.names])
 
     def check(self) -> str:
@@ -289,6 +293,8 @@ class Held:
         valued = self.solution.get("values", {}).get("results", {}).get("inverse")
         if isinstance(given, dict):
             assert given["skipped"]
+            if self.gives_numbers:
+                self.hold_target(valued)
             return "skipped: " + given["skipped"]
         names = set(re.findall(r"[a-zA-Z_]\w*", str(given)))
         known = {*NAMES, *self.arm.names, *self.arm.letters, *self.reach, "when"}
@@ -310,6 +316,7 @@ class Held:
             q = self.draw.uniform(-math.pi, math.pi, len(arm.joints))
             r = arm.r(q, parameters)
             given = {**parameters, **dict(zip(self.reach, map(float, r), strict=True))}
+            given |= {name: float(x) for name, x in zip(arm.names, q, strict=True) if self.is_free(name)}
             is_found = False
             for branch in branches:
                 values = on_branch(branch, given)
@@ -338,7 +345,8 @@ class Held:
         """Values near r at which the conditions hold, by Newton's method; None where it leads nowhere."""
 
         def at(r: Vector) -> tuple[dict[str, float], Vector] | None:
-            values = on_branch(branch, {**parameters, **dict(zip(self.reach, map(float, r), strict=True))})
+            given = {**parameters, **dict(zip(self.reach, map(float, r), strict=True))}
+            values = on_branch(branch, {**{name: 0.4 for name in self.arm.names if self.is_free(name)}, **given})
             return None if values is None else (values, conditions(branch, values))
 
         for _ in range(30):
