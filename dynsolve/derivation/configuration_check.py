@@ -39,7 +39,7 @@ class Condition:
     is_angle: bool = False
 
 
-Conditions = Sequence[Condition]
+Conditions = tuple[Condition, ...]
 
 NO_VALUE = (KeyError, ValueError, TypeError, ArithmeticError)
 """What is raised where a formula has no real value, or lacks one of a name."""

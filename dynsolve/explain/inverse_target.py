@@ -90,7 +90,7 @@ def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
     if rational_value(formula) is not None:
         shown = [decimal(value, _DIGITS)] if _is_decimal(formula) else [formula]
     if _turns(forms, name):
-        if not _has_function(formula) and not _is_decimal(formula):  # a part of π
+        if names_in(formula) <= {"pi"} and not _has_function(formula) and not _is_decimal(formula):
             return Relation((Symbol(name), formula, _in_degrees(value)), ("=", "="))
         shown.append(_in_degrees(value))
     return Relation((Symbol(name), *shown), ("≈" if _is_decimal(formula) else "=", *["≈"] * (len(shown) - 1)))
