@@ -221,8 +221,8 @@ class _Explainer:
             id=_id_of_branches(self.forms),
             stage=STAGE,
             title="The solution" if count == 1 else f"The {count} solutions",
-            why=(*why, ", each put into ", self._task, " to see that it gives what is asked. A coordinate that "
-                 "stands in a formula is that of the same line."),
+            why=(*why, ", each put into ", self._task, " to see that it gives what is asked. A coordinate "
+                 "that stands in a formula is that of the same line."),
             table=table,
             notes=(*self._conditions(), *self._free_coordinates()),
             detail=Detail.BRIEF,
@@ -256,27 +256,28 @@ class _Explainer:
 
     def _conditions(self) -> Iterator[Prose]:
         """Where the branches are solutions, those with the same conditions together."""
-        by_conditions: dict[Conditions, list[str]] = {}
+        lines: dict[Conditions, list[str]] = {}
         for number, when in enumerate(self.forms.when, 1):
-            by_conditions.setdefault(when, []).append(str(number))
-        for when, numbers in by_conditions.items():
+            lines.setdefault(when, []).append(str(number))
+        for when, numbers in lines.items():
             if when:
-                which = "This" if len(self.forms.when) == 1 else "They" if len(by_conditions) == 1 else ""
-                which = which or ("Line " if len(numbers) == 1 else "Lines ")
-                verb = " holds where " if len(numbers) == 1 else " hold where "
+                several = len(numbers) > 1
+                which = listed(numbers) if len(lines) > 1 else ()
+                start = ("Lines " if several else "Line ") if which else "They" if several else "This"
                 conditions = listed([equation(*one.sides) for one in when])
-                yield (which, *(listed(numbers) if which.startswith("Line") else ()), verb, *conditions, " alone: "
-                       "the joints give ", self._task, " no other values.")  # fmt: skip
+                yield (start, *which, " hold where " if several else " holds where ", *conditions,
+                       " alone: the joints give ", self._task, " no other values.")  # fmt: skip
 
     def _free_coordinates(self) -> Iterator[Prose]:
-        followed = {name for step in self.solving.solved if isinstance(step, Remainder) for name, _ in step.others}
-        bound = followed & set(self.solving.free)
-        for free in ([n for n in self.solving.free if n in bound], [n for n in self.solving.free if n not in bound]):
-            if free:
-                verb = " does" if len(free) == 1 else " do"
-                told = " may be anything; the others follow." if bound.issuperset(free) else (
-                    f"{verb} not change the task, and may be anything.")  # fmt: skip
-                yield (*listed([Symbol(name) for name in free]), told)
+        free = self.solving.free
+        sums = [step for step in self.solving.solved if isinstance(step, Remainder)]
+        bound = [name for name in free if any(name in dict(step.others) for step in sums)]
+        if bound:
+            yield (*listed(list(map(Symbol, bound))), " may be anything; the others follow.")
+        unused = [name for name in free if name not in bound]
+        if unused:
+            verb = " does" if len(unused) == 1 else " do"
+            yield (*listed(list(map(Symbol, unused))), f"{verb} not change the task, and may be anything.")
 
 
 # -- words -----------------------------------------------------------------------------------------

@@ -79,7 +79,9 @@ def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[
             "max_relative_error": verification.max_relative_error,
         },
         **({} if short is None else {"abbreviated": exporter.abbreviated(short)}),
-        **_with_target({} if solution.numbers is None else _number_sections(solution, solution.numbers), exporter),
+        **_with_target(
+            {} if solution.numbers is None else _number_sections(solution, solution.numbers), exporter
+        ),
     }
 
 
@@ -154,7 +156,7 @@ class _Exporter:
         return [entry for (entry,) in rows] if quantity.family.is_vector else rows
 
     def branches_in_numbers(self, of: Valued | State) -> Any:
-        """What reaches the target; where it has none, the branches of the robot with numbers for parameters."""
+        """What reaches the target; where there is none, the branches of the robot with numbers."""
         if self.configurations.target is not None:
             return configuration_results(self.configurations.target, self.python)
         from dynsolve.explain.configurations import ConfigurationForms

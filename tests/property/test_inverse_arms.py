@@ -30,8 +30,8 @@ SEEDS = range(60)
 STATES = 12
 CLOSE = 1e-6
 
-TWISTS = ("0", "0", "90deg", "-90deg", "45deg", "180deg")
-TURNED = ("", "", "", " + 90deg", " - 90deg", " + 30deg")
+TWISTS = ("0", "0", "0", "90deg", "-90deg", "90deg", "45deg", "180deg", "17deg")
+TURNED = ("", "", "", "", " + 90deg", " - 90deg", " + 30deg", " + 17deg")
 NUMBERS = ("1", "2", "1/2", "0.3", "sqrt(2)")
 ANGLES = ("45deg", "pi/2", "-60deg", "17deg", "0", "180deg")
 LENGTHS = ("1", "-1/2", "0.7", "sqrt(3)/2", "0", "30")
@@ -49,10 +49,10 @@ NAMES: dict[str, Any] = {
 }
 
 
-def number(text: str, values: Mapping[str, float] = {}) -> float:  # noqa: B006 - it is only read
+def number(text: str, values: Mapping[str, float] | None = None) -> float:
     """What a printed formula, or one of a problem file, is in floating point."""
     plain = re.sub(r"([\d.]+)deg", r"(\1*pi/180)", text)
-    return float(eval(compile(plain, "<formula>", "eval"), dict(NAMES), dict(values)))  # noqa: S307
+    return float(eval(compile(plain, "<formula>", "eval"), dict(NAMES), dict(values or {})))  # noqa: S307
 
 
 @dataclass(frozen=True)
@@ -77,10 +77,10 @@ class Joint:
         offset = number("0" + self.offset.replace(" ", "")) if self.offset else 0.0
         theta, d = (q + offset, number(self.d, values)) if self.turns else (offset, q)
         a, alpha = number(self.a, values), number(self.alpha)
-        about_z = np.array([[math.cos(theta), -math.sin(theta), 0, 0], [math.sin(theta), math.cos(theta), 0, 0],
-                            [0, 0, 1, d], [0, 0, 0, 1]])  # fmt: skip
-        about_x = np.array([[1, 0, 0, a], [0, math.cos(alpha), -math.sin(alpha), 0],
-                            [0, math.sin(alpha), math.cos(alpha), 0], [0, 0, 0, 1]])  # fmt: skip
+        c, s = math.cos(theta), math.sin(theta)
+        about_z = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, d], [0, 0, 0, 1]])
+        c, s = math.cos(alpha), math.sin(alpha)
+        about_x = np.array([[1, 0, 0, a], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
         return about_x @ about_z if modified else about_z @ about_x
 
 
@@ -125,7 +125,9 @@ class Arm:
         draw = np.random.default_rng(1)
         values = {name: draw.uniform(0.5, 1.5) for name in self.letters}
         tips = np.array([self.tip(draw.uniform(-3, 3, len(self.joints)), values) for _ in range(6)])
-        return tuple(f"tip.{axis}" for axis, moves in zip("xyz", np.ptp(tips, axis=0) > 1e-9, strict=True) if moves)
+        return tuple(
+            f"tip.{axis}" for axis, moves in zip("xyz", np.ptp(tips, axis=0) > 1e-9, strict=True) if moves
+        )
 
     @property
     def angles(self) -> list[bool]:
@@ -152,7 +154,9 @@ class Arm:
         turning = [joint.turns for joint in self.joints]
         return bool(np.abs(np.where(turning, wrapped(q - other), q - other)).max() < 1e-5)
 
-    def newton(self, target: Vector, values: Mapping[str, float], draw: np.random.Generator) -> Iterator[Vector]:
+    def newton(
+        self, target: Vector, values: Mapping[str, float], draw: np.random.Generator
+    ) -> Iterator[Vector]:
         """Configurations that stand alone and reach a target."""
         for _ in range(6):
             q = draw.uniform(-3, 3, len(self.joints))
@@ -179,7 +183,7 @@ def wrapped(angle: Vector) -> Vector:
 
 def random_arm(seed: int) -> Arm:
     """An arm, the same for a seed."""
-    random = Random(seed)  # noqa: S311
+    random = Random(seed)
     count = random.choice((1, 2, 2, 2, 3, 3, 3, 4))
     style = random.choice(("letters", "letters", "numbers", "both"))
     letters: list[str] = []
@@ -203,13 +207,20 @@ def random_arm(seed: int) -> Arm:
     if not arm.components:
         return random_arm(seed + 100_000)
     values = {name: random.choice(NUMBERS) for name in letters} if random.random() < 0.5 else {}
-    return Arm(joints, arm.modified, arm.task, arm.letters, values, _reach(random, arm, values))
+    reach = _reach(random, arm, values)
+    if reach and random.random() < 0.2 and not reach[0].startswith("p"):  # by name, the numbers under values
+        values |= {f"p{k}": text for k, text in enumerate(reach, 1)}
+        reach = tuple(f"p{k}" for k in range(1, len(reach) + 1))
+    return Arm(joints, arm.modified, arm.task, arm.letters, values, reach)
 
 
 def _task(random: Random, arm: Arm) -> tuple[str, ...]:
     turning = [joint.name for joint in arm.joints if joint.turns]
     angle = " + ".join(turning) if random.random() < 0.7 else random.choice(turning or [""])
+    if turning and random.random() < 0.1:
+        angle += random.choice((" + 90deg", " - 30deg"))
     more = [angle] if turning and random.random() < 0.5 else []
+    more += [turning[0]] if more and random.random() < 0.15 else []
     match random.randrange(6):
         case 0 | 1:
             return ()
@@ -225,7 +236,7 @@ def _task(random: Random, arm: Arm) -> tuple[str, ...]:
 
 def _reach(random: Random, arm: Arm, values: Mapping[str, str]) -> tuple[str, ...]:
     """Names, numbers that may be out of reach, or numbers that are reached; nothing for the default."""
-    kind = random.randrange(4)
+    kind = random.randrange(5)
     known = len(values) == len(arm.letters)
     if kind == 0:
         return ()
@@ -233,8 +244,10 @@ def _reach(random: Random, arm: Arm, values: Mapping[str, str]) -> tuple[str, ..
         return tuple(f"p{k}" for k in range(1, len(arm.components) + 1))
     if kind == 2:
         return tuple(random.choice(ANGLES if turns else LENGTHS) for turns in arm.angles)
-    q = np.array([random.choice((0, 90, -90, 180)) * math.pi / 180 if joint.turns else random.choice((1, 2, -0.5))
-                  for joint in arm.joints])  # fmt: skip
+    places = [
+        (0.0, math.pi / 2, -math.pi / 2, math.pi) if joint.turns else (1.0, 2.0, -0.5) for joint in arm.joints
+    ]
+    q = np.array([random.choice(some) for some in places])
     at = {name: number(text) for name, text in values.items()}
     r = arm.r(q, at)
     if any(not turns and abs(8 * x - round(8 * x)) > 1e-9 for x, turns in zip(r, arm.angles, strict=True)):
@@ -247,10 +260,12 @@ def _reach(random: Random, arm: Arm, values: Mapping[str, str]) -> tuple[str, ..
 
 
 def on_branch(branch: Mapping[str, Any], given: Mapping[str, float]) -> dict[str, float] | None:
-    """The values of a branch, each formula after those whose coordinates stand in it; None where none is real."""
+    """The values of a branch, in an order in which they can be found; None where none is real."""
     values, waiting = dict(given), {name: text for name, text in branch.items() if name != "when"}
     while waiting:
-        ready = [n for n, f in waiting.items() if not set(re.findall(r"[a-z]\w*", f)) & (waiting.keys() - {n})]
+        ready = [
+            n for n, f in waiting.items() if not set(re.findall(r"[a-z]\w*", f)) & (waiting.keys() - {n})
+        ]
         assert ready, f"circular: {branch}"
         try:
             values[ready[0]] = number(waiting.pop(ready[0]), values)
@@ -273,7 +288,7 @@ class Held:
         self.solution = dynsolve.solve(arm.text).beside().to_json()
         self.results = self.solution["results"]
         symbols = [one for one in arm.reach if re.fullmatch(r"p\d", one)]
-        self.gives_numbers = bool(arm.reach) and not symbols
+        self.gives_numbers = bool(arm.reach) and (not symbols or "p1" in arm.values)
         self.reach = symbols or [f"r{k}" for k in range(1, len(arm.components) + 1)]
         self.draw = np.random.default_rng(5)
 
@@ -282,7 +297,9 @@ class Held:
 
     def is_free(self, name: str) -> bool:
         """Whether a coordinate may be anything."""
-        return isinstance(self.results["inverse"], list) and all(name not in one for one in self.results["inverse"])
+        return isinstance(self.results["inverse"], list) and all(
+            name not in one for one in self.results["inverse"]
+        )
 
     def q_of(self, values: Mapping[str, float], free: float = 0.4) -> Vector:
         return np.array([values.get(name, free) for name in self.arm.names])
@@ -307,7 +324,9 @@ class Held:
         elif self.arm.values and not isinstance(valued, dict):
             values = {name: number(text) for name, text in self.arm.values.items()}
             self.hold(valued, values)
-            assert not set(re.findall(r"[a-zA-Z_]\w*", str(valued))) & set(self.arm.letters), "letters in values"
+            assert not set(re.findall(r"[a-zA-Z_]\w*", str(valued))) & set(self.arm.letters), (
+                "letters in values"
+            )
         return "numbers" if self.gives_numbers else "branches"
 
     def hold(self, branches: list[dict[str, Any]], parameters: Mapping[str, float]) -> None:
@@ -329,7 +348,9 @@ class Held:
                 assert is_found, f"missing: {q}"
             self.hold_elsewhere(branches, parameters, r + self.draw.uniform(-0.3, 0.3, len(r)))
 
-    def hold_elsewhere(self, branches: list[dict[str, Any]], parameters: Mapping[str, float], r: Vector) -> None:
+    def hold_elsewhere(
+        self, branches: list[dict[str, Any]], parameters: Mapping[str, float], r: Vector
+    ) -> None:
         """Values of the task that no configuration was taken for, brought to where the conditions hold."""
         for branch in branches:
             at = self.conditioned(branch, parameters, r)
@@ -337,7 +358,9 @@ class Held:
                 continue
             values, r_there = at
             mine = self.q_of(values)
-            assert self.arm.gap(self.arm.r(mine, parameters), r_there) < 1e-5, f"misses off the image: {branch}"
+            assert self.arm.gap(self.arm.r(mine, parameters), r_there) < 1e-5, (
+                f"misses off the image: {branch}"
+            )
 
     def conditioned(
         self, branch: Mapping[str, Any], parameters: Mapping[str, float], r: Vector
@@ -346,7 +369,9 @@ class Held:
 
         def at(r: Vector) -> tuple[dict[str, float], Vector] | None:
             given = {**parameters, **dict(zip(self.reach, map(float, r), strict=True))}
-            values = on_branch(branch, {**{name: 0.4 for name in self.arm.names if self.is_free(name)}, **given})
+            values = on_branch(
+                branch, {**{name: 0.4 for name in self.arm.names if self.is_free(name)}, **given}
+            )
             return None if values is None else (values, conditions(branch, values))
 
         for _ in range(30):
@@ -371,7 +396,7 @@ class Held:
         assert len(found) == len(decimals)
         assert why
         values = {name: number(text) for name, text in arm.values.items()}
-        target = np.array([number(text) for text in arm.reach])
+        target = np.array([number(arm.values.get(text, text)) for text in arm.reach])
         is_exact = "Newton" not in why
         for one, plain in zip(found, decimals, strict=True):
             if is_exact:
@@ -382,8 +407,10 @@ class Held:
                 assert arm.gap(arm.r(self.q_of(q), values), target) < CLOSE, f"misses {target}: {one}"
             q = on_branch(one, {**values, **{n: 0.0 for n in arm.names if n not in one}})
             assert q is not None
-            assert all(abs(wrapped(np.array(q[n] - x))) < 1e-7 or abs(q[n] - x) < 1e-7 for n, x in plain.items())
-        places = [{**{n: 0.0 for n in arm.names}, **one} for one in decimals]
+            assert all(
+                abs(wrapped(np.array(q[n] - x))) < 1e-7 or abs(q[n] - x) < 1e-7 for n, x in plain.items()
+            )
+        places = [{**dict.fromkeys(arm.names, 0.0), **one} for one in decimals]
         frees = [any(n not in one for n in arm.names) for one in decimals]
         for q in arm.newton(target, values, self.draw):
             assert any(frees) or any(arm.is_same(q, self.q_of(p)) for p in places), f"missing at numbers: {q}"
@@ -391,6 +418,4 @@ class Held:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_random_arms(seed: int) -> None:
-    arm = random_arm(seed)
-    print(arm.text)
-    Held(arm).check()
+    Held(random_arm(seed)).check()

@@ -83,7 +83,8 @@ class _Conditions:
 
     def _independent(self, known: Sequence[Relation], points: Sequence[Values]) -> list[Relation] | None:
         """As many relations as there are conditions, each of which says what those before it do not."""
-        chosen, taken = [], list(self.solving.identities)
+        chosen: list[Relation] = []
+        taken = list(self.solving.identities)
         at = next((at for at in points if self._gradients(known, at) is not None), None)
         if at is None:
             return None

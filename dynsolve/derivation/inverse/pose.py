@@ -19,13 +19,12 @@ from itertools import combinations_with_replacement
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.transfer import Transfer
 from dynsolve.derivation.inverse.chain import Chain, chain_of, inverse
 from dynsolve.derivation.inverse.equations import Equation, OfPoint, OfTurn, System, lineage
 from dynsolve.derivation.inverse.names import Names
-from dynsolve.derivation.inverse.search import search
 from dynsolve.derivation.inverse.relations import length
+from dynsolve.derivation.inverse.search import search
 from dynsolve.derivation.inverse.solving import FixedPoint, Part, Relation, Solving, Turn
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.inverse.unknowns import Unknowns, search_ring
@@ -61,15 +60,12 @@ def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | N
     parts = _parts(start, unknowns, names)
     if parts is None:
         return None
-    whole = [Relation(symbol, made) for symbol, made in zip(map(ring.symbol, values), _carried(pose, ring))]
+    made = pose.map(Transfer(pose.ring, ring)).entries
+    whole = [Relation(ring.symbol(name), entry) for name, entry in zip(values, made, strict=True)]
     told = tuple(sorted((*_of_points(parts[0]), *whole), key=length))
     return Solving(
         ring, pose, tuple(values), frozenset(), tuple(_needed(parts)), (), told, tuple(_orthonormal(H))
     )
-
-
-def _carried(pose: Matrix, ring: Ring) -> tuple[Expr, ...]:
-    return pose.map(Transfer(pose.ring, ring)).entries
 
 
 def _orthonormal(H: Matrix) -> Iterator[Relation]:

@@ -65,7 +65,10 @@ def solve_task(task: Matrix, values: Sequence[str]) -> Solving | None:
         frozenset(values[k] for k in sums),
         (Part((*steps, *last)),),
         free,
-        (*(one.relation(values[k], carry) for k, one in sums.items() if not one.rates), *relations(steps, (*rest, *seen)))
+        (
+            *(one.relation(values[k], carry) for k, one in sums.items() if not one.rates),
+            *relations(steps, (*rest, *seen)),
+        ),
     )
 
 
@@ -177,8 +180,12 @@ class _Sum:
         return Relation(ring.symbol(value), sum((-e for e in others), carry(self.rest)), is_angle=True)
 
 
-def _combined(one: Mapping[str, Fraction], other: Mapping[str, Fraction], factor: Fraction) -> dict[str, Fraction]:
-    found = {name: one.get(name, Fraction(0)) - factor * other.get(name, Fraction(0)) for name in {**one, **other}}
+def _combined(
+    one: Mapping[str, Fraction], other: Mapping[str, Fraction], factor: Fraction
+) -> dict[str, Fraction]:
+    found = {
+        name: one.get(name, Fraction(0)) - factor * other.get(name, Fraction(0)) for name in {**one, **other}
+    }
     return {name: rate for name, rate in found.items() if rate}
 
 
@@ -196,9 +203,8 @@ def _angle_sums(task: Matrix, values: Sequence[str]) -> tuple[dict[str, _Sum], d
         for name, other in solved.items():
             one = one.without(name, other)
         found[k] = one
-        name = next((name for name in reversed(task.ring.names) if name in one.rates), None)
-        if name is not None:
-            solved = {known: other.without(name, one) for known, other in solved.items()} | {name: one}
+        for last in [name for name in task.ring.names if name in one.rates][-1:]:
+            solved = {name: other.without(last, one) for name, other in solved.items()} | {last: one}
     return solved, found
 
 

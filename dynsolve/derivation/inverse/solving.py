@@ -20,7 +20,7 @@ class Definition:
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """left = right between values of the task, and coordinates that are known; an angle is meant modulo 2π."""
+    """left = right between values of the task and known coordinates; an angle is meant modulo 2π."""
 
     left: Expr
     right: Expr
