@@ -20,6 +20,9 @@ from dynsolve.derivation.reached import angle_rows, near, same_configuration
 POINTS = 12
 """So many random configurations are tried."""
 
+MORE_POINTS = 48
+"""So many where there are conditions, which may leave a branch few of them."""
+
 Choice = tuple[int, ...]
 """Of each step of a solving which of its solutions is taken, from 0."""
 
@@ -40,7 +43,7 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
     random = Random(2006)  # noqa: S311  (test points, the same in every run)
     candidates = [Branch(choice) for choice in product(*(range(step.count) for step in solving.solved))]
     verdicts: dict[Branch, set[bool]] = {branch: set() for branch in candidates}
-    for _ in range(POINTS):
+    for _ in range(MORE_POINTS if solving.conditions > 0 else POINTS):
         state = random_state(solving, random)
         reached = reach_of(solving, state)
         found = False
@@ -52,7 +55,7 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
                 found = found or (solves and same_configuration(solving.ring, q, state))
         if not found:
             return None
-    if not solving.conditions and any(len(seen) > 1 for seen in verdicts.values()):
+    if solving.conditions <= 0 and any(len(seen) > 1 for seen in verdicts.values()):
         return None
     return tuple(branch for branch, seen in verdicts.items() if True in seen)
 
@@ -94,8 +97,9 @@ def random_state(solving: Solving, random: Random) -> dict[str, float]:
 
 def _values(solving: Solving, random: Random) -> Iterator[tuple[str, float]]:
     ring = solving.ring
+    size = random.choice((1, 4))  # some lengths of joints are long beside those of links
     for name, kind in ring.coordinates:
-        yield name, random.uniform(-3, 3) if kind == "revolute" else random.uniform(-2, 2)
+        yield name, random.uniform(-3, 3) if kind == "revolute" else random.uniform(-2, 2) * size
     for name in ring.parameters:
         if name not in solving.values:
             yield name, random.uniform(0.5, 1.5)

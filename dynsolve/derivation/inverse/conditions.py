@@ -26,11 +26,11 @@ from dynsolve.derivation.reached import CLOSE
 
 Values = Mapping[str, float]
 
-POINTS = 12
+POINTS = 48
 """So many random configurations are tried."""
 
 _AWAY = 0.7
-"""So far from values that are reached the others are taken, lengths and angles being about 1."""
+"""So far from values that are reached, or from their mirror images, others are taken; all are about 1."""
 
 _STEP = 1e-5
 _NEWTON_STEPS = 20
@@ -101,8 +101,11 @@ class _Conditions:
         """Values at which the conditions hold, and the branch is no solution; None where there are none."""
         random = Random(1977)  # noqa: S311  (test points, the same in every run)
         for at in points:
-            away = {name: at[name] + random.uniform(-_AWAY, _AWAY) for name in self.solving.values}
-            for values in (at, self._met(chosen, {**at, **away})):
+            away, across = (
+                {name: sign() * at[name] + random.uniform(-_AWAY, _AWAY) for name in self.solving.values}
+                for sign in (lambda: 1, lambda: random.choice((1, -1)))
+            )
+            for values in (at, self._met(chosen, {**at, **away}), self._met(chosen, {**at, **across})):
                 if values is not None and self._holds(chosen, values) and not self._solves(values):
                     return values
         return None

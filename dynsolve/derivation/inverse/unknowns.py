@@ -11,6 +11,7 @@ from typing import Any
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import ring_of
+from dynsolve.algebra.contents import Contents
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.algebra.ring import Ring
@@ -28,7 +29,9 @@ def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, An
         for name, kind in ring.coordinates
         if kind == "revolute" and name not in given_angles
     )
-    plan = ring.plan
+    carried = (_put(pair.angle, given_angles).degrees for pair in ring.pairs)
+    constants = Contents(angles=tuple(Angle((), degrees) for degrees in carried if degrees % 90))
+    plan = ring.plan.extended(constants, 0) if given_angles else ring.plan
     fixed = dict(plan.fixed)
     for atom, rate in (term for angle in given_angles.values() for term in angle.terms):
         if atom[0][0] not in names:
@@ -38,6 +41,15 @@ def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, An
         ring.coordinates,
         replace(plan, turning=turning, fixed=tuple(fixed.items()), symbols=symbols, signed=tuple(values)),
     )
+
+
+def _put(angle: Angle, angles: Mapping[str, Angle]) -> Angle:
+    """An angle with others for coordinates."""
+    found = angle
+    for atom, rate in angle.terms:
+        if atom[0][0] in angles:
+            found = found + (angles[atom[0][0]] - Angle.of(atom[0][0])) * rate
+    return found
 
 
 def _unit(names: Sequence[str], name: str, rate: Fraction) -> tuple[Fraction, ...]:
