@@ -16,7 +16,7 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import ZERO, Negative, Node, Number, Product, Quotient, Sum, Symbol
 from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
-from dynsolve.notation.walk import mapped
+from dynsolve.notation.walk import mapped, names_in
 
 DIGITS = 12
 """So many digits has a value that has no formula."""
@@ -56,16 +56,16 @@ class BranchValues:
                 raise ZeroDivisionError from None
             raise Unreal(name, error.function, error.argument) from None
         except Undetermined:
-            self._set_free(name, place)
+            self.set_free(name, place)
         except NotExact:
             try:
                 self.numbers[name] = number_of(name, formula, self.numbers)
             except _NoDirection:
-                self._set_free(name, place)
+                self.set_free(name, place)
         else:
             self.exact[name], self.numbers[name] = value, float(value)
 
-    def _set_free(self, name: str, place: float) -> None:
+    def set_free(self, name: str, place: float) -> None:
         """Put an angle at a place; several at places that differ, lest they be free only together."""
         self.numbers[name] = self.free[name] = place * (1 + len(self.free))
         if not place:
@@ -77,6 +77,8 @@ def branch_values(
 ) -> BranchValues:
     """Every coordinate of a branch; raises as `BranchValues.put` does."""
     found = BranchValues(dict(numbers), dict(exact))
+    for name in sorted(names_in(*branch.values()) - {*branch, *numbers}):
+        found.set_free(name, place)
     for name, formula in branch.items():
         found.put(name, formula, place)
     return found

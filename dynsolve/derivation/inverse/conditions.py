@@ -1,8 +1,9 @@
 """When a branch gives r(q) = r back, where the task has more components than there are joints to move them.
 
-Of the relations between the values so many are conditions as there are directions in which no joint
-moves the values, found from derivatives at points that are reached.  They are put to the test
-at points where another solution is the right one, and at values that no configuration was taken for.
+Relations between the values are conditions, as many as there are directions in which no joint moves the
+values, found from derivatives at points that are reached.  Where these do not bring about a component
+of r(q) = r, that is a condition too, with the coordinates of the branch in it: seen at points where another
+solution is the right one, and at values that no configuration was taken for.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from dynsolve.derivation.reached import CLOSE
 
 Values = Mapping[str, float]
 
-POINTS = 48
+POINTS = 24
 """So many random configurations are tried."""
 
 _AWAY = 0.7
@@ -37,12 +38,9 @@ _NEWTON_STEPS = 20
 _ACCURATE = 1e-9
 
 
-def with_conditions(solving: Solving, branches: Sequence[Branch]) -> tuple[Branch, ...] | None:
-    """The branches, each with its conditions; None where none are found that are enough."""
-    found = [_Conditions(solving, branch).found() for branch in branches]
-    if any(when is None for when in found):
-        return None
-    return tuple(replace(b, when=when) for b, when in zip(branches, found, strict=True) if when is not None)
+def with_conditions(solving: Solving, branches: Sequence[Branch]) -> tuple[Branch, ...]:
+    """The branches, each with its conditions."""
+    return tuple(replace(branch, when=_Conditions(solving, branch).found()) for branch in branches)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,21 +50,14 @@ class _Conditions:
     solving: Solving
     branch: Branch
 
-    def found(self) -> tuple[Relation, ...] | None:
-        """The simplest that are enough; None where there are none."""
+    def found(self) -> tuple[Relation, ...]:
+        """The simplest relations without coordinates, and the components that these do not bring about."""
         points = list(self._points())
         solved = [at for at in points if self._solves(at)]
-        known = [one for one in self.solving.relations if all(self._holds([one], at) for at in solved)]
-        chosen = self._independent(known, solved)
-        if chosen is None:
-            return None
-        identities = self.solving.identities
-        while (missed := self._missed((*identities, *chosen), points)) is not None:
-            other = next((one for one in known if not self._holds([one], missed)), None)
-            if other is None:
-                return None
-            chosen.append(other)
-        return tuple(chosen)
+        chosen = self._independent(solved)
+        places = [*points, *self._elsewhere((*self.solving.identities, *chosen), solved)]
+        missed = (one for one in self.solving.components if not all(self._holds([one], at) for at in places))
+        return (*chosen, *(one for one in missed if one not in chosen))
 
     def _points(self) -> Iterator[dict[str, float]]:
         """Values of the task and of the parameters, of random configurations, where the branch exists."""
@@ -81,34 +72,33 @@ class _Conditions:
         q = configuration(self.solving, self.branch, given)
         return q is not None and solves_task(self.solving, q, given)
 
-    def _independent(self, known: Sequence[Relation], points: Sequence[Values]) -> list[Relation] | None:
-        """As many relations as there are conditions, each of which says what those before it do not."""
+    def _independent(self, points: Sequence[Values]) -> list[Relation]:
+        """As many relations as there are conditions, of which each says what those before it do not."""
         chosen: list[Relation] = []
         taken = list(self.solving.identities)
-        at = next((at for at in points if self._gradients(known, at) is not None), None)
+        at = next((at for at in points if self._gradients(taken, at) is not None), None)
         if at is None:
-            return None
-        for one in known:
-            if len(chosen) == self.solving.conditions:
-                break
-            rows = self._gradients([*taken, one], at)
-            if rows is not None and rank(rows, _STEP, scale=1.0) > len(taken):
-                chosen.append(one)
-                taken.append(one)
-        return chosen if len(chosen) == self.solving.conditions else None
+            return chosen
+        for one in self.solving.relations:
+            if len(chosen) < self.solving.conditions and all(self._holds([one], at) for at in points):
+                rows = self._gradients([*taken, one], at)
+                if rows is not None and rank(rows, _STEP, scale=1.0) > len(taken):
+                    chosen.append(one)
+                    taken.append(one)
+        return chosen
 
-    def _missed(self, chosen: Sequence[Relation], points: Sequence[Values]) -> Values | None:
-        """Values at which the conditions hold, and the branch is no solution; None where there are none."""
+    def _elsewhere(self, chosen: Sequence[Relation], points: Sequence[Values]) -> Iterator[Values]:
+        """Values that no configuration was taken for, at which the branch exists and relations hold."""
         random = Random(1977)  # noqa: S311  (test points, the same in every run)
         for at in points:
-            away, across = (
-                {name: sign() * at[name] + random.uniform(-_AWAY, _AWAY) for name in self.solving.values}
-                for sign in (lambda: 1, lambda: random.choice((1, -1)))
-            )
-            for values in (at, self._met(chosen, {**at, **away}), self._met(chosen, {**at, **across})):
-                if values is not None and self._holds(chosen, values) and not self._solves(values):
-                    return values
-        return None
+            for signs in ((1,), (1, -1)):
+                moved = {
+                    n: random.choice(signs) * at[n] + random.uniform(-_AWAY, _AWAY)
+                    for n in self.solving.values
+                }
+                found = self._met(chosen, {**at, **moved})
+                if found is not None:
+                    yield found
 
     def _met(self, chosen: Sequence[Relation], start: Values) -> Values | None:
         """Values at which conditions hold, by Newton's method; None where it leads to none."""

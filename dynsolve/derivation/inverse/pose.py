@@ -62,9 +62,10 @@ def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | N
         return None
     made = pose.map(Transfer(pose.ring, ring)).entries
     whole = [Relation(ring.symbol(name), entry) for name, entry in zip(values, made, strict=True)]
-    told = tuple(sorted((*_of_points(parts[0]), *whole), key=length))
+    told = tuple(sorted(_of_points(parts[0]), key=length))
+    identities = tuple(_orthonormal(H))
     return Solving(
-        ring, pose, tuple(values), frozenset(), tuple(_needed(parts)), (), told, tuple(_orthonormal(H))
+        ring, pose, tuple(values), frozenset(), tuple(_needed(parts)), (), tuple(whole), told, identities
     )
 
 

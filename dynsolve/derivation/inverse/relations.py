@@ -1,8 +1,7 @@
 """Equations between values of the task that hold at every configuration, from what a search has made.
 
 A component that no joint moves has one value; the tip of a single joint is on a circle.  Such relations
-are among the equations of the search, and two equations for one angle leave one (c² + s² = 1).  A
-component itself is one too, with the coordinates of a branch in it.
+are among the equations of the search, and two equations for one angle leave one (c² + s² = 1).
 """
 
 from __future__ import annotations
@@ -26,18 +25,18 @@ _LARGEST_LINES = 20
 
 
 def relations(steps: Iterable[Solved], equations: Iterable[Equation]) -> tuple[Relation, ...]:
-    """What holds at every configuration, those without coordinates first, then the shortest."""
+    """What holds between the values of the task at every configuration, the shortest first."""
     found: dict[Expr, Relation] = {}
     for one in chain((Relation(e.left, e.right) for e in equations), _of_lines(steps)):
-        if not one.expr.is_zero and -one.expr not in found:
+        is_free = not one.left.ring.depends_on_coordinates(one.expr)
+        if is_free and len(one.expr) <= MOST_TERMS and not one.expr.is_zero and -one.expr not in found:
             found.setdefault(one.expr, one)
-    short = (one for one in found.values() if len(one.expr) <= MOST_TERMS)
-    return tuple(sorted(short, key=length)[:MOST_RELATIONS])
+    return tuple(sorted(found.values(), key=length)[:MOST_RELATIONS])
 
 
-def length(one: Relation) -> tuple[bool, int]:
+def length(one: Relation) -> int:
     """What a relation costs its reader."""
-    return one.left.ring.depends_on_coordinates(one.expr), len(one.left) + len(one.right)
+    return len(one.left) + len(one.right)
 
 
 def _of_lines(steps: Iterable[Solved]) -> Iterator[Relation]:

@@ -58,6 +58,7 @@ def solve_task(task: Matrix, values: Sequence[str]) -> Solving | None:
     if {step.coordinate for step in steps} != set(unknowns.names):
         return None
     last = [one.remainder(name, carry) for name, one in given.items()]
+    bound = tuple(one.relation(values[k], carry) for k, one in sums.items() if not one.rates)
     return Solving(
         ring,
         task,
@@ -65,10 +66,8 @@ def solve_task(task: Matrix, values: Sequence[str]) -> Solving | None:
         frozenset(values[k] for k in sums),
         (Part((*steps, *last)),),
         free,
-        (
-            *(one.relation(values[k], carry) for k, one in sums.items() if not one.rates),
-            *relations(steps, (*rest, *seen)),
-        ),
+        (*bound, *(Relation(e.left, e.right) for e in rest)),
+        (*bound, *relations(steps, (*rest, *seen))),
     )
 
 

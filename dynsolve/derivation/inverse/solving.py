@@ -93,7 +93,8 @@ class Solving:
 
     `ring` is that of the steps; `task` is r(q) as it was given, `values` are the names of its
     components, `angles` those of them that are sums of angles.  `free` coordinates do not
-    occur in it.  `relations` hold at every configuration, the simplest first; of these `identities`
+    occur in it.  `components` are those of the task as far as steps give no coordinate by them alone,
+    `relations` what holds between values at every configuration, the simplest first; `identities`
     hold for the values of any arm, as between the entries of a rotation.
     """
 
@@ -103,6 +104,7 @@ class Solving:
     angles: frozenset[str]
     parts: tuple[Part, ...]
     free: tuple[str, ...]
+    components: tuple[Relation, ...] = ()
     relations: tuple[Relation, ...] = ()
     identities: tuple[Relation, ...] = ()
 
