@@ -27,7 +27,10 @@ _LARGEST_LINES = 20
 def relations(steps: Iterable[Solved], equations: Iterable[Equation]) -> tuple[Relation, ...]:
     """What holds between the values of the task at every configuration, the shortest first."""
     found: dict[Expr, Relation] = {}
-    for one in chain((Relation(e.left, e.right) for e in equations), _of_lines(steps)):
+    made = list(equations)
+    first = {e.right: e.left for e in reversed(made)}
+    twice = (Relation(e.left, first[e.right]) for e in made if e.left != first[e.right])
+    for one in chain((Relation(e.left, e.right) for e in made), twice, _of_lines(steps)):
         is_free = not one.left.ring.depends_on_coordinates(one.expr)
         if is_free and len(one.expr) <= MOST_TERMS and not one.expr.is_zero and -one.expr not in found:
             found.setdefault(one.expr, one)
