@@ -27,11 +27,16 @@ from dynsolve.derivation.reached import CLOSE
 
 Values = Mapping[str, float]
 
-POINTS = 24
-"""So many random configurations are tried."""
+POINTS, FEW = 24, 6
+"""So many random configurations are tried; few of a pose, which has twelve values."""
 
 _AWAY = 0.7
 """So far from values that are reached, or from their mirror images, others are taken; all are about 1."""
+
+_AWAY_FROM_ROTATION = 0.15
+"""The same for the entries of a rotation, of which others are then made."""
+
+_HALF_TURNS = ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
 
 _STEP = 1e-5
 _NEWTON_STEPS = 20
@@ -56,13 +61,21 @@ class _Conditions:
         solved = [at for at in points if self._solves(at)]
         chosen = self._independent(solved)
         places = [*points, *self._elsewhere((*self.solving.identities, *chosen), solved)]
-        missed = (one for one in self.solving.components if not all(self._holds([one], at) for at in places))
-        return (*chosen, *(one for one in missed if one not in chosen))
+        moving = self.solving.ring.depends_on_coordinates
+        for has_coordinates in (False, True):
+            missed = [
+                one
+                for one in self.solving.components
+                if moving(one.right) == has_coordinates and not all(self._holds([one], at) for at in places)
+            ]
+            chosen += missed
+            places = [at for at in places if self._holds(missed, at)]
+        return tuple(chosen)
 
     def _points(self) -> Iterator[dict[str, float]]:
         """Values of the task and of the parameters, of random configurations, where the branch exists."""
         random = Random(1981)  # noqa: S311  (test points, the same in every run)
-        for _ in range(POINTS):
+        for _ in range(FEW if self.solving.identities else POINTS):
             state = random_state(self.solving, random)
             given = {**state, **reach_of(self.solving, state)}
             if configuration(self.solving, self.branch, given) is not None:
@@ -82,7 +95,7 @@ class _Conditions:
         for one in self.solving.relations:
             if len(chosen) < self.solving.conditions and all(self._holds([one], at) for at in points):
                 rows = self._gradients([*taken, one], at)
-                if rows is not None and rank(rows, _STEP, scale=1.0) > len(taken):
+                if rows is not None and rank(rows, _STEP, scale=1.0) > rank(rows[:-1], _STEP, scale=1.0):
                     chosen.append(one)
                     taken.append(one)
         return chosen
@@ -91,14 +104,25 @@ class _Conditions:
         """Values that no configuration was taken for, at which the branch exists and relations hold."""
         random = Random(1977)  # noqa: S311  (test points, the same in every run)
         for at in points:
-            for signs in ((1,), (1, -1)):
+            for signs in ([1] * len(self.solving.values), self._signs(random)):
                 moved = {
-                    n: random.choice(signs) * at[n] + random.uniform(-_AWAY, _AWAY)
-                    for n in self.solving.values
+                    name: sign * at[name] + random.uniform(-self._away, self._away)
+                    for name, sign in zip(self.solving.values, signs, strict=True)
                 }
                 found = self._met(chosen, {**at, **moved})
                 if found is not None:
                     yield found
+
+    @property
+    def _away(self) -> float:
+        return _AWAY_FROM_ROTATION if self.solving.identities else _AWAY
+
+    def _signs(self, random: Random) -> list[int]:
+        """Signs of the values of a mirror image; a rotation is turned by half turns, and stays one."""
+        if not self.solving.identities:
+            return random.choices((1, -1), k=len(self.solving.values))
+        rows, columns = random.choices(_HALF_TURNS, k=2)
+        return [*random.choices((1, -1), k=3), *(a * b for a in rows for b in columns)]
 
     def _met(self, chosen: Sequence[Relation], start: Values) -> Values | None:
         """Values at which conditions hold, by Newton's method; None where it leads to none."""

@@ -62,10 +62,19 @@ def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | N
         return None
     made = pose.map(Transfer(pose.ring, ring)).entries
     whole = [Relation(ring.symbol(name), entry) for name, entry in zip(values, made, strict=True)]
-    told = tuple(sorted(_of_points(parts[0]), key=length))
+    fixed = [one for one in whole if not ring.depends_on_coordinates(one.right)]
+    told = sorted((*_of_points(start, names), *fixed), key=length)
     identities = tuple(_orthonormal(H))
     return Solving(
-        ring, pose, tuple(values), frozenset(), tuple(_needed(parts)), (), tuple(whole), told, identities
+        ring,
+        pose,
+        tuple(values),
+        frozenset(),
+        tuple(_needed(parts)),
+        (),
+        tuple(whole),
+        tuple(told),
+        identities,
     )
 
 
@@ -76,15 +85,14 @@ def _orthonormal(H: Matrix) -> Iterator[Relation]:
         yield Relation(ring.dot(i[:3], j[:3]), ring.one if i is j else ring.zero)
 
 
-def _of_points(part: Part) -> Iterator[Relation]:
-    """The coordinates of a point of the first part that no joint moves."""
-    point = part.point
-    if point is None:
-        return
-    meant = {point.known.ring.symbol(d.name): d.value for d in point.definitions}
-    for known, made in zip(point.known.entries, point.made.entries, strict=True):
-        if not made.ring.depends_on_coordinates(made):
-            yield Relation(meant.get(known, known), made)
+def _of_points(block: _Block, names: Names) -> Iterator[Relation]:
+    """The coordinates of points, in the hand and in the base, that no joint changes."""
+    whole = block.point(names, 0, len(block.chain.screws), from_hand=False)
+    for point in (*([whole] if whole else []), *_points(block, names)):
+        meant = {point.known.ring.symbol(d.name): d.value for d in point.definitions}
+        for known, made in zip(point.known.entries, point.made.entries, strict=True):
+            if not made.ring.depends_on_coordinates(made):
+                yield Relation(meant.get(known, known), made)
 
 
 @dataclass(frozen=True, slots=True)
