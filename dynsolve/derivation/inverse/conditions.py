@@ -89,13 +89,10 @@ class _Conditions:
         """As many relations as there are conditions, of which each says what those before it do not."""
         chosen: list[Relation] = []
         taken = list(self.solving.identities)
-        at = next((at for at in points if self._gradients(taken, at) is not None), None)
-        if at is None:
-            return chosen
-        for one in self.solving.relations:
+        for one in self.solving.relations if points else ():
             if len(chosen) < self.solving.conditions and all(self._holds([one], at) for at in points):
-                rows = self._gradients([*taken, one], at)
-                if rows is not None and rank(rows, _STEP, scale=1.0) > rank(rows[:-1], _STEP, scale=1.0):
+                rows = self._gradients([*taken, one], points[0])
+                if rank(rows, _STEP, scale=1.0) > rank(rows[:-1], _STEP, scale=1.0):
                     chosen.append(one)
                     taken.append(one)
         return chosen
@@ -125,38 +122,33 @@ class _Conditions:
         return [*random.choices((1, -1), k=3), *(a * b for a in rows for b in columns)]
 
     def _met(self, chosen: Sequence[Relation], start: Values) -> Values | None:
-        """Values at which conditions hold, by Newton's method; None where it leads to none."""
+        """Values at which relations between values hold, by Newton's method; None where it leads to none."""
         at = dict(start)
         for _ in range(_NEWTON_STEPS):
-            off = self._off(chosen, at)
-            if off is None or max(map(abs, off), default=0.0) < _ACCURATE:
+            off = _off(chosen, at)
+            if max(map(abs, off), default=0.0) < _ACCURATE:
                 break
             rows = self._gradients(chosen, at)
-            if rows is None:
-                return None
             for name, step in zip(self.solving.values, shortest_step(off, rows), strict=True):
                 at[name] += step
         return at if self._holds(chosen, at) else None
 
     def _holds(self, chosen: Sequence[Relation], given: Values) -> bool:
-        off = self._off(chosen, given)
-        return off is not None and all(abs(value) < CLOSE for value in off)
-
-    def _off(self, chosen: Sequence[Relation], given: Values) -> list[float] | None:
-        """right - left of relations on the branch; None where it does not exist."""
+        """Whether relations hold on the branch, which exists."""
         q = configuration(self.solving, self.branch, given)
-        if q is None:
-            return None
-        off = [evaluate(one.expr, q) for one in chosen]
-        turns = [one.is_angle for one in chosen]
-        return [(x + pi) % (2 * pi) - pi if turn else x for x, turn in zip(off, turns, strict=True)]
+        return q is not None and all(abs(value) < CLOSE for value in _off(chosen, q))
 
-    def _gradients(self, chosen: Sequence[Relation], given: Values) -> list[list[float]] | None:
-        """The derivatives of relations by the values of the task, a row for each relation."""
+    def _gradients(self, chosen: Sequence[Relation], given: Values) -> list[list[float]]:
+        """The derivatives of relations without coordinates by the values, a row for each relation."""
         columns = []
         for name in self.solving.values:
-            ends = [self._off(chosen, {**given, name: given[name] + step}) for step in (_STEP, -_STEP)]
-            if ends[0] is None or ends[1] is None:
-                return None
+            ends = (_off(chosen, {**given, name: given[name] + step}) for step in (_STEP, -_STEP))
             columns.append([(a - b) / (2 * _STEP) for a, b in zip(*ends, strict=True)])
         return [list(row) for row in zip(*columns, strict=True)]
+
+
+def _off(chosen: Sequence[Relation], values: Values) -> list[float]:
+    """right - left of relations, of angles the shortest way round."""
+    off = [evaluate(one.expr, values) for one in chosen]
+    turns = [one.is_angle for one in chosen]
+    return [(x + pi) % (2 * pi) - pi if turn else x for x, turn in zip(off, turns, strict=True)]
