@@ -6,9 +6,15 @@ with its place, what is wrong and what to do.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
+import traceback
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import TypeVar
+
+T = TypeVar("T")
 
 
 class ExitCode(IntEnum):
@@ -96,3 +102,35 @@ class AlgebraError(DynsolveError):
 
 class VerificationError(DynsolveError):
     """The results disagree with the independent computation: a fault of dynsolve, never of the user."""
+
+
+class ExplanationWarning(UserWarning):
+    """A part of an explanation failed and is left out: a fault of dynsolve.  The results stand."""
+
+
+def warn_left_out(what: str, why: str) -> None:
+    """Say that a part of an explanation is left out, and ask for a report."""
+    told = f"{what} is left out: {why}; the results stand. Please report this, with the problem file"
+    warnings.warn(told, ExplanationWarning, stacklevel=2)
+
+
+def attempted(make: Callable[[], T], otherwise: Callable[[], T], what: str) -> T:
+    """What is made; where that fails, the other thing, with a warning: no explanation takes a result away.
+
+    >>> import warnings
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     attempted(lambda: 1 // 0, lambda: 7, "a name")
+    7
+    >>> str(told[0].message).split(";")[0].rpartition(" at ")[0]
+    'a name is left out: ZeroDivisionError'
+    """
+    try:
+        return make()
+    except InputError:
+        raise
+    except Exception as error:  # noqa: BLE001 - whatever fails in an explanation, the results stand
+        place = traceback.extract_tb(sys.exc_info()[2])[-1]
+        where = f"{place.filename.rpartition('dynsolve/')[2]}:{place.lineno}"
+        warn_left_out(what, f"{type(error).__name__} at {where}")
+        return otherwise()

@@ -10,12 +10,13 @@ Arrows run one way, from the first of these files to the last:
   its derivatives; `floats`: values in floating point;
 - `fraction`, `ring_values`, `build`, `matrix`: fractions, the value of a formula, making a
   ring, matrices; `transfer`: from one ring into another; `at_state`: values for coordinates;
+- `sampling`: the values at which formulas are compared in numbers;
 - `parameter_span`: combinations of unknown parameters over the fractions in known ones;
 - `fraction_matrix`, `pseudoinverse`, `spans`: matrices of fractions, systems of linear
   equations, spaces;
 - `inequality`: inequalities between parameters that follow from others;
-- `minors`, `trig_factor`, `positivity`: determinants, factors in sines and cosines, what
-  is positive by its form;
+- `minors`, `trig_factor`, `root_factor`, `positivity`: determinants, factors in sines and cosines,
+  those of polynomials with square roots of numbers, what is positive by its form;
 - `surds`, `surd_angles`, `surd_values`: sums of square roots, angles with such sines and cosines,
   the exact value of a formula of numbers;
 - `fourier`, `compact`: the Fourier form, and what a textbook would print.

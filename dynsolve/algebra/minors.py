@@ -49,6 +49,14 @@ def minors(matrix: Matrix, size: int) -> Iterator[Expr]:
                 yield value
 
 
+def parts(matrix: Matrix, size: int) -> Iterator[Matrix]:
+    """All square parts of a size."""
+    rows, columns = matrix.shape
+    for chosen in combinations(range(rows), size):
+        for across in combinations(range(columns), size):
+            yield Matrix.of(matrix.ring, ([matrix[i, j] for j in across] for i in chosen))
+
+
 class _Expansion:
     """Minors of one matrix, each computed once, along their first row."""
 

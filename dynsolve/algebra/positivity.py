@@ -23,10 +23,10 @@ def is_nonnegative(expr: Expr) -> bool:
     >>> is_nonnegative(l + d * d), is_nonnegative(l + d), is_nonnegative(l - d * d)
     (True, False, False)
     """
-    free = _parameters(expr)
+    free = parameters(expr)
     return all(
         factor > 0 and all(e % 2 == 0 or i in free for i, e in enumerate(exponents))
-        for exponents, factor in expr.poly.to_dict().items()
+        for exponents, factor in expr.poly.terms()
     )
 
 
@@ -40,11 +40,12 @@ def is_positive(expr: Expr) -> bool:
     >>> is_positive(l + d * d), is_positive(d * d)
     (True, False)
     """
-    free = _parameters(expr)
+    free = parameters(expr)
     return is_nonnegative(expr) and any(_holds_only(exponents, free) for exponents in expr.poly.monoms())
 
 
-def _parameters(expr: Expr) -> frozenset[int]:
+def parameters(expr: Expr) -> frozenset[int]:
+    """The generators that count as positive."""
     ring = expr.ring
     names = {*ring.names, *ring.plan.signed}
     return frozenset(

@@ -10,7 +10,7 @@ roots and inverses are adjoined one by one while the ring is built.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from flint import fmpq_mpoly
@@ -28,6 +28,7 @@ class Relations:
     def __init__(self, generators: Sequence[fmpq_mpoly], pairs: Sequence[Pair]) -> None:
         self._generators = generators
         self._pairs = [(p.sine, generators[p.sine] ** 2 + generators[p.cosine] ** 2 - 1) for p in pairs]
+        self._cosines = [(p.sine, p.cosine) for p in pairs]
         self._roots: list[tuple[int, int, fmpq_mpoly]] = []
         self._inverses: list[tuple[int, fmpq_mpoly]] = []
         self.radicands: dict[int, fmpq_mpoly] = {}
@@ -46,6 +47,17 @@ class Relations:
         """Make a generator 1 / a polynomial."""
         self.inverses[index] = inverted
         self._inverses.append((index, self._generators[index] * inverted - 1))
+
+    def of(self, places: Iterable[int]) -> Iterator[fmpq_mpoly]:
+        """The relations of some generators, and of those that occur in these."""
+        known = dict((*self._pairs, *((i, poly) for i, _, poly in self._roots), *self._inverses))
+        both = {cosine: sine for sine, cosine in self._cosines}
+        waiting = [both.get(place, place) for place in places]
+        while waiting:
+            poly = known.pop(waiting.pop(), None)
+            if poly is not None:
+                yield poly
+                waiting += [both.get(i, i) for i, degree in enumerate(poly.degrees()) if degree > 0]
 
     def reduce(self, poly: fmpq_mpoly) -> fmpq_mpoly:
         """The normal form of a polynomial."""

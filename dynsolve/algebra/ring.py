@@ -69,6 +69,7 @@ class Ring:
         self._relations = Relations(self._gens, self.pairs)
         self.reduce = self._relations.reduce
         self.reduce_roots = self._relations.reduce_roots
+        self.relations = self._relations.of
         self.radicands = self._relations.radicands
         self.inverses = self._relations.inverses
         self._signs = tuple(g.index for g in self.generators if is_sign(g.node))

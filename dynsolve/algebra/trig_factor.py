@@ -21,17 +21,19 @@ from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.positivity import parameters
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.root_factor import factors, quotient
 
 MOST_TERMS = 20_000
 """A polynomial that may have more terms in half angles is not taken apart."""
 
 
 def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
-    """(factor, multiplicity) of an expression, up to a rational number; those without an angle too.
+    """(factor, multiplicity) of an expression, up to a number; those without an angle too.
 
     A factor of its own is what is irreducible in sines and cosines of whole angles.  An
-    expression that is too long, or has roots or inverses, is its own only factor.
+    expression that is too long, or has inverses or roots of letters, is its own only factor.
 
     >>> from dynsolve.algebra.angles import Angle
     >>> from dynsolve.algebra.build import build_ring
@@ -40,16 +42,40 @@ def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
     >>> sorted(map(str, trig_factors(s * (c + s))))[1]
     "(Expr(1*sin(1*(('q1', 1),))), 1)"
     """
-    if expr.is_number:
+    if len(expr) == 0 or leading(expr) == expr:
         return ()
     halves = _HalfAngles(expr.ring)
     if not halves.can_hold(expr):
         return ((expr, 1),)
     found: Counter[Expr] = Counter()
-    _, factors = halves.homogeneous(expr).factor()
-    for factor, times in halves.whole((factor, int(times)) for factor, times in factors):
+    for factor, times in halves.factors(halves.homogeneous(expr)):
         found[factor] += times
     return tuple(found.items())
+
+
+def trig_quotient(expr: Expr, divisor: Expr) -> Expr | None:
+    """expr / divisor, where the divisor is seen to be a factor of it."""
+    halves = _HalfAngles(expr.ring)
+    if expr.is_zero or expr == divisor or not (halves.can_hold(expr) and halves.can_hold(divisor)):
+        return expr if expr.is_zero else expr.ring.one if expr == divisor else None
+    found = quotient(halves.homogeneous(expr), halves.homogeneous(divisor), halves.roots)
+    return None if found is None else halves.expr(found)
+
+
+def squares(expr: Expr) -> tuple[Expr, ...]:
+    """What must be 0 where a sum of squares is, as in 1 + c₁ c₂ = 2 (C₁² C₂² + S₁² S₂²).
+
+    Parameters count as positive.  Nothing of what is no such sum.
+    """
+    halves = _HalfAngles(expr.ring)
+    if not halves.can_hold(expr):
+        return ()
+    terms, free = halves.homogeneous(expr).to_dict(), parameters(expr)
+    same_sign = len({number > 0 for number in terms.values()}) == 1
+    if not same_sign or any(e % 2 and i not in free for exponents in terms for i, e in enumerate(exponents)):
+        return ()
+    bare = {tuple(0 if i in free else int(e) for i, e in enumerate(exponents)) for exponents in terms}
+    return tuple(halves.expr(halves.ctx.from_dict({exponents: 1})) for exponents in sorted(bare))
 
 
 class _HalfAngles:
@@ -58,13 +84,16 @@ class _HalfAngles:
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self.pairs: tuple[Pair, ...] = ring.pairs
+        self.roots = numeric_roots(ring)
         self.ctx: Any = fmpq_mpoly_ctx.get(("h", ring.ctx.nvars()), Ordering.lex)
         self.gens: tuple[fmpq_mpoly, ...] = self.ctx.gens()
 
     def can_hold(self, expr: Expr) -> bool:
         """Whether the expression is a polynomial in sines, cosines and symbols, and not too long."""
         degrees = expr.poly.degrees()
-        if any(degrees[g.index] > 0 for g in self.ring.generators if g.kind not in ("sin", "cos", "symbol")):
+        plain = ("sin", "cos", "symbol")
+        others = (g.index for g in self.ring.generators if g.kind not in plain and g.index not in self.roots)
+        if any(degrees[index] > 0 for index in others):
             return False
         size = len(expr)
         for pair in self.pairs:
@@ -100,6 +129,10 @@ class _HalfAngles:
         one: fmpq_mpoly = (C * C + S * S) ** (degree - sines - cosines)
         return (2 * S * C) ** sines * (C * C - S * S) ** cosines * one
 
+    def factors(self, poly: fmpq_mpoly) -> Iterator[tuple[Expr, int]]:
+        """Those of a polynomial in S and C, in sines and cosines of whole angles."""
+        return self.whole(factors(poly, self.roots, [(pair.sine, pair.cosine) for pair in self.pairs]))
+
     # -- back to whole angles ----------------------------------------------------------------------
 
     def whole(self, factors: Iterable[tuple[fmpq_mpoly, int]]) -> Iterator[tuple[Expr, int]]:
@@ -108,7 +141,7 @@ class _HalfAngles:
         for factor, times in factors:
             if self._is_even(factor):
                 if not self._is_one(factor):
-                    yield self._expr(factor), times
+                    yield _primitive(self.expr(factor)), times
             else:
                 odd += [factor] * times
         for expr in self._paired(odd):
@@ -121,18 +154,18 @@ class _HalfAngles:
                 (len(value), i, j, value)
                 for i, j in combinations(range(len(odd)), 2)
                 if self._is_even(odd[i] * odd[j])
-                for value in (self._expr(odd[i] * odd[j]),)
+                for value in (self.expr(odd[i] * odd[j]),)
             ]
             if not products:
                 break
             _, i, j, value = min(products, key=lambda found: found[:3])
             del odd[j], odd[i]
-            yield value
+            yield _primitive(value)
         rest = self.ctx.constant(1)
         for factor in odd:
             rest = rest * factor
         if not rest.is_constant():
-            yield self._expr(rest)
+            yield _primitive(self.expr(rest))
 
     def _is_one(self, factor: fmpq_mpoly) -> bool:
         """Whether a factor is some C² + S² = 1."""
@@ -143,7 +176,7 @@ class _HalfAngles:
             (int(e[pair.sine]) + int(e[pair.cosine])) % 2 == 0 for pair in self.pairs for e in factor.monoms()
         )
 
-    def _expr(self, poly: fmpq_mpoly) -> Expr:
+    def expr(self, poly: fmpq_mpoly) -> Expr:
         """A polynomial of even degree in each pair, by S² = (1 - c)/2, C² = (1 + c)/2, S C = s/2."""
         ring = self.ring
         total = ring.zero
@@ -159,9 +192,36 @@ class _HalfAngles:
                     term = term * s**both * (ring.one - c) ** (S // 2) * (ring.one + c) ** (C // 2)
                     term = term / 2 ** ((S + C) // 2)
             total = total + term * Expr(ring, ring.ctx.from_dict({tuple(plain): factor}))
-        return _primitive(total)
+        return total
+
+
+def numeric_roots(ring: Ring) -> dict[int, int]:
+    """The generators that are square roots of whole numbers, with these."""
+    found = {index: square for index, square in ring.radicands.items() if square.is_constant()}
+    return {index: int(square.leading_coefficient().p) for index, square in found.items()}
+
+
+def leading(expr: Expr) -> Expr:
+    """The number, with the roots in it, that stands before the first term."""
+    roots = numeric_roots(expr.ring)
+    split = [
+        (tuple(0 if i in roots else int(e) for i, e in enumerate(exponents)), exponents, number)
+        for exponents, number in expr.poly.to_dict().items()
+    ]
+    first = max(plain for plain, _, _ in split)
+    terms = {
+        tuple(e if i in roots else 0 for i, e in enumerate(exponents)): number
+        for plain, exponents, number in split
+        if plain == first
+    }
+    return Expr(expr.ring, expr.ring.ctx.from_dict(terms))
+
+
+def ratio(expr: Expr, other: Expr) -> Expr:
+    """The number that an expression is of another, where it is one."""
+    return leading(expr) * expr.ring.inverse(leading(other))
 
 
 def _primitive(expr: Expr) -> Expr:
     """The expression with leading coefficient 1."""
-    return Expr(expr.ring, expr.poly / expr.poly.leading_coefficient())
+    return expr * expr.ring.inverse(leading(expr))

@@ -9,13 +9,14 @@ import gc
 import os
 import re
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Annotated, Any, NoReturn
 
 import typer
 
 from dynsolve.cli import autograder, check, docs, draw, grade, lint, new, override, problems, schema, solve
-from dynsolve.errors import DynsolveError, ExitCode, InputError
+from dynsolve.errors import DynsolveError, ExitCode, ExplanationWarning, InputError
 
 TRACEBACK = "--traceback"
 
@@ -35,6 +36,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     if traceback:
         words.remove(TRACEBACK)
     gc.set_threshold(YOUNG)
+    warnings.filterwarnings("always", category=ExplanationWarning)
+    warnings.showwarning = lambda message, *_, **__: _say(f"warning: {message}")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")

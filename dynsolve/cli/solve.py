@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -12,7 +13,7 @@ import typer
 from dynsolve.cli.common import Problems, Quiet, print_json, read, say
 from dynsolve.cli.numbers import AtOption, DigitsOption, SetOption, with_numbers
 from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer, chosen_output
-from dynsolve.errors import ExitCode, ProblemError, UsageError
+from dynsolve.errors import ExitCode, ExplanationWarning, ProblemError, UsageError
 from dynsolve.quantities.stages import Stage
 from dynsolve.render.formats import Format
 
@@ -134,6 +135,8 @@ def _solve_all(
     """Solve and show one problem after the other; of several a faulty one is told and passed over."""
     writer = Writer(output)
     code = ExitCode.DONE
+    if quiet:
+        warnings.filterwarnings("ignore", category=ExplanationWarning)
     for place, name in enumerate(names):
         try:
             solution = solved(name)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from random import Random
+from functools import partial
 from typing import TypeVar
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.newton_euler import (
     ZERO,
     Arm,
@@ -30,31 +32,32 @@ from dynsolve.errors import VerificationError
 from dynsolve.robot.actions import Motor
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
-_DRAWS = 200
+_MISSES = 200
+"""So many samples after each other may have no value."""
 
 Made = TypeVar("Made")
 
 
-def draw(robot: Robot, random: Random) -> tuple[dict[str, float], Arm]:
-    """A random state with random parameters for which every root and quotient has a value."""
-    return draw_values(robot, random, lambda values: arm_at(robot, values))
+def arms(robot: Robot) -> Iterator[tuple[dict[str, float], Arm]]:
+    """States, with parameters for which every root and quotient has a value, and the arm there."""
+    return states_with(robot.ring, partial(arm_at, robot))
 
 
-def draw_values(
-    robot: Robot, random: Random, at: Callable[[Mapping[str, float]], Made]
-) -> tuple[dict[str, float], Made]:
-    """A random state, and what `at` makes of it; it is drawn again where that has no value."""
-    for _ in range(_DRAWS):
-        values = {name: random.uniform(0.4, 1.6) for name in robot.ring.parameters}
-        values["pi"] = math.pi
-        for q in robot.coordinates:
-            values[q.name] = random.uniform(-1.5, 1.5)
-            values[q.velocity] = random.uniform(-1.5, 1.5)
-            values[q.acceleration] = random.uniform(-1.5, 1.5)
+def states_with(
+    ring: Ring, at: Callable[[Mapping[str, float]], Made], signed: Iterable[str] = (), first: int = 0
+) -> Iterator[tuple[dict[str, float], Made]]:
+    """The samples where `at` has a value, without end, and what it makes of them."""
+    missed = 0
+    for values in samples(ring, signed, first):
         try:
-            return values, at(values)
+            made = at(values)
         except (ValueError, ZeroDivisionError):
+            missed += 1
+            if missed == _MISSES:
+                break
             continue
+        missed = 0
+        yield values, made
     raise VerificationError(
         "no values of the parameters were found for which every root and quotient is real"
     )

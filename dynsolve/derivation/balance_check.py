@@ -8,14 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
-from random import Random
 
 from dynsolve.algebra.floats import evaluate
-from dynsolve.derivation.arm_values import draw_values
+from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.balance import never_zero, table_lengths
 from dynsolve.derivation.equilibrium_check import zero_along
 from dynsolve.derivation.reached import CLOSE
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
@@ -29,9 +27,7 @@ def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[s
     program = compile_trees(list(conditions))
     free = sorted(set(robot.parameters) - never_zero(robot))
     places = [name for name in free if name not in table_lengths(robot)]
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(STATES):
-        start = draw_values(robot, random, lambda found: None)[0]
+    for start in islice(samples(robot.ring), STATES):
         found = (zero_along(names, program, start) for names in (places, free)) if conditions else (start,)
         yield from islice((at for at in found if at is not None), 1)
 

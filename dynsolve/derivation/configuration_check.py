@@ -1,30 +1,32 @@
 """Branches of the inverse kinematics and singular configurations as they are printed, held in numbers.
 
-A branch is put into r(q) at values of the task that a random configuration reaches; one of the
+A branch is put into r(q) at values of the task that a configuration of a sample reaches; one of the
 branches must be that configuration.  Where an alternative of a singular set holds, found by
-Newton's method from random configurations, the Jacobian has less than its greatest rank; at
-random configurations it has that rank.
+Newton's method from samples, the Jacobian has less than its greatest rank; at the samples it has
+that rank.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice, product
+from math import pi
 from operator import mul
-from random import Random
 from typing import Any
 
-from dynsolve.derivation.arm_values import draw
+from dynsolve.algebra.sampling import ENOUGH
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import rank, shortest_step
+from dynsolve.derivation.inverse.branches import MOST
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
-from dynsolve.notation.tree_values import Program, compile_trees, evaluate
+from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.robot.model import Robot
 
-STATES = 8
 NEWTON_STEPS = 60
+MOST_TURNS = 128
 DIFFERENCE = 1e-6
 SMALL = 1e-9
 
@@ -52,11 +54,11 @@ def verify_inverse(
 
     Raises VerificationError where one is none, or one is missing.
     """
-    task = compile_trees([r])
-    for values in states_of(robot):
+    task, solutions = compile_trees([r]), [solution_of(*branch) for branch in branches]
+    for values in states_of(robot, task, MOST):  # not those that the branches were found with
         reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
-        found = [q for q in (on_branch(*branch, given) for branch in branches) if q is not None]
+        found = [q for q in (solution(given) for solution in solutions) if q is not None]
         if not all(near(reaches(task, q), reached, angles) for q in found):
             raise VerificationError("a branch of the inverse kinematics does not reach what it should")
         if not any(same_configuration(robot.ring, q, values) for q in found):
@@ -79,7 +81,7 @@ def verify_target(
     wanted = [given[name] for name in robot.questions.reached]
     for formulas, free in configurations:
         for place in (0.0, 1.0) if free else (0.0,):
-            q = on_branch(formulas, (), {**given, **dict.fromkeys(free, place)})
+            q = on_branch(formulas, {**given, **dict.fromkeys(free, place)})
             if q is None or not near(reaches(task, q), wanted, angles):
                 raise VerificationError("a configuration does not reach the target of the inverse kinematics")
 
@@ -90,21 +92,38 @@ def reaches(task: Program, q: Values) -> list[float]:
     return _flat(value)
 
 
-def on_branch(branch: Mapping[str, Node], when: Conditions, given: Values) -> dict[str, float] | None:
-    """The configuration; None where the branch does not exist or a condition does not hold."""
-    q = dict(given)
-    try:
-        for name, formula in branch.items():
-            q[name] = evaluate(formula, q)
-        return q if all(holds(one, q) for one in when) else None
-    except NO_VALUE:
-        return None
+def on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | None:
+    """The configuration; None where the branch does not exist, or a formula lacks a value."""
+    return solution_of(branch)(given)
 
 
 def holds(condition: Condition, values: Values) -> bool:
-    """Whether both sides of a condition are the same, those of angles modulo 2π."""
-    left, right = (float(evaluate(side, values)) for side in condition.sides)
-    return near([right], [left], [condition.is_angle])
+    """Whether both sides of a condition are the same."""
+    return solution_of({}, (condition,))(values) is not None
+
+
+def solution_of(
+    branch: Mapping[str, Node], when: Conditions = ()
+) -> Callable[[Values], dict[str, float] | None]:
+    """The same as `on_branch` for many places; None where a condition does not hold, too."""
+    try:
+        programs = {name: compile_trees([formula]) for name, formula in branch.items()}
+        sides = compile_trees([side for one in when for side in one.sides])
+    except NO_VALUE:
+        return lambda given: None
+    turns = [one.is_angle for one in when]
+
+    def at(given: Values) -> dict[str, float] | None:
+        q = dict(given)
+        try:
+            for name, program in programs.items():
+                (q[name],) = program.run(q)
+            values = sides.run(q)
+        except NO_VALUE:
+            return None
+        return q if near(values[1::2], values[::2], turns) else None
+
+    return at
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,12 +141,13 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
     Raises VerificationError where it is not what it should be, or a lost direction is none.
     """
     program = compile_trees([jacobian])
-    for values in states_of(robot):
+    states = states_of(robot, program)
+    for values in states:
         if rank_of(program.run(values)[0]) != rank:
             raise VerificationError("the rank of the Jacobian is not what it should be")
     for case in cases:
         zeros, lost = compile_trees(case.zeros), compile_trees(case.lost)
-        found = (zero_near(robot, zeros, values) for values in states_of(robot))
+        found = (zero_near(robot, zeros, values) for values in states)
         ranks: list[int] = []
         for at in (values for values in found if values is not None):
             J = program.run(at)[0]
@@ -139,11 +159,10 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
             raise VerificationError("the rank at a singular configuration is not what it should be")
 
 
-def states_of(robot: Robot) -> Iterator[dict[str, float]]:
-    """Random configurations with values for the parameters, the same ones every time."""
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(STATES):
-        yield dict(draw(robot, random)[0])
+def states_of(robot: Robot, program: Program, first: int = 0) -> list[dict[str, float]]:
+    """Configurations in all quadrants with parameters for which formulas have a value."""
+    found = states_with(robot.ring, program.run, first=first)
+    return [values for values, _ in islice(found, ENOUGH)]
 
 
 def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
@@ -152,6 +171,31 @@ def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] |
         return _newton(robot, zeros, start)
     except NO_VALUE:
         return None
+
+
+def with_half_turns(
+    robot: Robot, zeros: Program, points: Iterable[dict[str, float]]
+) -> Iterator[dict[str, float]]:
+    """Points at which everything is 0, and those that are the first of them with angles half a turn on.
+
+    Which of q = 0 and q = π Newton's method finds of sin q = 0 is chance; these are all.
+    """
+    turning = [name for name, kind in robot.ring.coordinates if kind == "revolute"]
+    for number, q in enumerate(points):
+        yield q
+        ways = product((0.0, pi), repeat=len(turning)) if number == 0 else ()
+        for turns in islice(ways, 1, MOST_TURNS):
+            turned = q | {name: q[name] + turn for name, turn in zip(turning, turns, strict=True)}
+            if is_zero(zeros, turned):
+                yield turned
+
+
+def is_zero(program: Program, at: Values) -> bool:
+    """Whether everything is 0, and has a value."""
+    try:
+        return all(abs(value) < CLOSE for value in program.run(at))
+    except NO_VALUE:
+        return False
 
 
 def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from random import Random
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.elimination import rank
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.rates import whole_or_task
@@ -88,10 +88,8 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
 
 
 def is_redundant(r: Matrix) -> bool:
-    """Whether joints can move and leave the task where it is, at a random configuration."""
-    random = Random(1983)  # noqa: S311  (a test point, the same in every run)
-    names = r.ring.names
-    at = {name: random.uniform(0.5, 1.5) for name in (*names, *r.ring.parameters)}
+    """Whether joints can move and leave the task where it is, at a sample."""
+    names, at = r.ring.names, next(samples(r.ring))
     ends = [
         [evaluate(entry, {**at, name: at[name] + step}) for entry in r.entries]
         for name in names for step in (_STEP, -_STEP)

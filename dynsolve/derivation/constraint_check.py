@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from random import Random
+from itertools import islice
 from typing import Any
 
-from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.arm_values import arms
 from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.kinematic_check import verify_kinematics
 from dynsolve.derivation.rate_check import TOLERANCE
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.tree_values import compile_trees
@@ -62,9 +61,7 @@ def _verify_rates(robot: Robot, results: Mapping[str, Node], states: int) -> Non
     if not places:
         return
     program = compile_trees([results["Ac"], *(robot.questions.constraints[i].entry for i in places)])
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states):
-        values, _ = draw(robot, random)
+    for values, _ in islice(arms(robot), states):
         A, *wanted = program.run(values)
         rates = [values[q.velocity] for q in robot.coordinates]
         for i, theirs in zip(places, wanted, strict=True):
@@ -75,9 +72,7 @@ def _verify_rates(robot: Robot, results: Mapping[str, Node], states: int) -> Non
 
 def _verify_multipliers(robot: Robot, results: Mapping[str, Node], states: int) -> None:
     program = compile_trees(list(results.values()))
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states):
-        values, _ = draw(robot, random)
+    for values, _ in islice(arms(robot), states):
         ours = dict(zip(results, program.run(values), strict=True))
         rates = [values[q.velocity] for q in robot.coordinates]
         qdd = solved(ours["D"], _forces(robot, values, ours))
@@ -85,7 +80,7 @@ def _verify_multipliers(robot: Robot, results: Mapping[str, Node], states: int) 
             abs(_dot(row, qdd) + _dot(moved, rates))
             for row, moved in zip(ours["Ac"], ours["Ac_dot"], strict=True)
         ]
-        if not max(gaps) <= TOLERANCE * max(1.0, *map(abs, qdd)):
+        if not max(gaps) <= TOLERANCE * max((1.0, *map(abs, qdd))):
             raise VerificationError("lambda does not keep the constraint; this is a fault of dynsolve")
 
 

@@ -22,6 +22,7 @@ from dynsolve.algebra.minors import determinant, work
 from dynsolve.algebra.pseudoinverse import adjugate
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.energy import velocities
+from dynsolve.derivation.forward_dynamics import SINGULAR
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.task import task_value
 from dynsolve.robot.constraints import Constraint
@@ -71,6 +72,8 @@ def multipliers(
     square = through @ A.T
     if work(square) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
+    if scale.is_zero:
+        return Skipped(SINGULAR)
     if determinant(square).is_zero:
         return Skipped(DEPENDENT)
     wanted = through @ acting + (A_dot @ velocities(robot)).scale(scale)

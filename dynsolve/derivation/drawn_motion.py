@@ -4,7 +4,7 @@
 
 where S_i is the screw of axis i in the pose that is drawn and q⁰ the coordinates there
 (Lynch and Park, Modern Robotics, 4.1; Murray, Li and Sastry 3.2.2).  Computed in floating point
-at random letters and displacements from the lines of the drawing alone, it shares nothing with
+at letters and displacements of samples from the lines of the drawing alone, it shares nothing with
 the frames that the table was made from but q⁰.
 """
 
@@ -12,11 +12,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from random import Random
+from functools import partial
+from itertools import islice
 from typing import TypeVar
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.newton_euler import Rotation, Vector, applied, cross, dot, minus, plus, scaled, times
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
@@ -25,8 +27,6 @@ from dynsolve.robot.drawing.drawn import DrawnAxis
 from dynsolve.robot.drawing.procedure import Normals
 
 TOLERANCE = 1e-9
-_SEED = 20_060_302
-_DRAWS = 200
 _T = TypeVar("_T")
 
 
@@ -36,14 +36,14 @@ def verify_drawing(normals: Normals, hand_frame: Node, states: int = 5) -> float
     Raises VerificationError where it is more than `TOLERANCE`.
     """
     program = compile_trees([hand_frame])
-    random = Random(_SEED)  # noqa: S311 - the same states every time are wanted
     worst = 0.0
-    for _ in range(states):
-        letters, drawn = _draw(normals, random)
-        moved = {name: value + random.uniform(-1.5, 1.5) for name, value in drawn.items()}
+    ways = {axis.coordinate: f"way of {axis.coordinate}" for axis in normals.drawing.axes}
+    found = states_with(normals.drawing.ring, partial(drawn_coordinates, normals), ways.values())
+    for letters, drawn in islice(found, states):
+        moved = {name: value + letters[ways[name]] for name, value in drawn.items()}
         (home,), (there,) = program.run({**letters, **drawn}), program.run({**letters, **moved})
         worst = max(worst, _home_error(normals, letters, home))
-        displaced = [moved[axis.coordinate] - drawn[axis.coordinate] for axis in normals.drawing.axes]
+        displaced = [letters[ways[axis.coordinate]] for axis in normals.drawing.axes]
         worst = max(worst, _distance(_exponentials(normals, letters, displaced, home), there))
     if not worst <= TOLERANCE:
         raise VerificationError(
@@ -51,17 +51,6 @@ def verify_drawing(normals: Normals, hand_frame: Node, states: int = 5) -> float
             "this is a fault of dynsolve"
         )
     return worst
-
-
-def _draw(normals: Normals, random: Random) -> tuple[dict[str, float], dict[str, float]]:
-    """Random letters for which every root and quotient is real, and q⁰ with them."""
-    for _ in range(_DRAWS):
-        letters = {name: random.uniform(0.4, 1.4) for name in normals.drawing.ring.parameters}
-        try:
-            return letters, drawn_coordinates(normals, letters)
-        except (ValueError, ZeroDivisionError):
-            continue
-    raise VerificationError("no values of the letters were found for which the drawing is real")
 
 
 def drawn_coordinates(normals: Normals, letters: Mapping[str, float]) -> dict[str, float]:

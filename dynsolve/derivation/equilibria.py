@@ -26,7 +26,7 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.inverse.unknowns import search_ring
 from dynsolve.derivation.parameter_signs import ParameterSigns
 from dynsolve.derivation.regressor import generators
-from dynsolve.derivation.singular.sets import Alternative, common_zeros
+from dynsolve.derivation.singular.sets import Alternative, TooLong, common_zeros
 from dynsolve.derivation.stability import Curvature, Point
 from dynsolve.robot.model import Robot
 
@@ -74,9 +74,13 @@ def equilibria(robot: Robot, forces: Matrix, may_be_held: bool = False) -> Equil
     rows = tuple(combined(robot, wanted))
     assumed = robot.questions.model.assumed
     signs = ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
+    try:
+        alternatives = common_zeros([there(row) for row in rows])
+    except TooLong:
+        return Skipped(TOO_LONG)
     found = {
         one: exist
-        for one in common_zeros([there(row) for row in rows])
+        for one in alternatives
         if (exist := conditions([condition.expr for condition in one], signs)) is not None
     }
     second = Matrix.of(ring, ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries))

@@ -11,24 +11,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, pi
-from random import Random
+from itertools import islice
+from math import atan2
 
 from dynsolve.algebra.floats import evaluate
-from dynsolve.derivation.arm_values import draw_values
-from dynsolve.derivation.configuration_check import NO_VALUE
+from dynsolve.algebra.sampling import ENOUGH
+from dynsolve.derivation.arm_values import states_with
+from dynsolve.derivation.configuration_check import NO_VALUE, is_zero
 from dynsolve.derivation.elimination import is_positive_definite, solved
 from dynsolve.derivation.equilibria import wanted_rows
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.derivation.stability import Point, Stability
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.tree_values import Program, compile_trees
-from dynsolve.robot.model import JointType, Robot
-
-STATES = 8
-"""So many configurations are started from, and as many half a turn away."""
+from dynsolve.robot.model import Robot
 
 _STEP = 1e-5
 _NEAR = 1e-6
@@ -45,19 +42,15 @@ class Case:
 
 
 def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator[dict[str, float]]:
-    """Random configurations, each also half a turn away, with parameters as is assumed of them."""
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    turning = [q.name for q in robot.coordinates if q.type is JointType.REVOLUTE]
+    """Configurations in all quadrants, with parameters as is assumed of them."""
 
     def assumed(values: Mapping[str, float]) -> None:
         if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
-            raise ValueError  # draws again
+            raise ValueError  # the next sample is taken
 
-    for _ in range(STATES):
-        values = {**draw_values(robot, random, assumed)[0], **(numbers or {})}
-        values |= _moving(robot, values)
-        yield values
-        yield {**values, **{name: values[name] + pi for name in turning}}
+    for found, _ in islice(states_with(robot.ring, assumed), ENOUGH):
+        values = {**found, **(numbers or {})}
+        yield values | _moving(robot, values)
 
 
 def _moving(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
@@ -78,11 +71,6 @@ def in_balance(robot: Robot, forces: Node) -> Program:
     """The forces that must be 0: those of all coordinates that no motor holds."""
     assert isinstance(forces, Matrix)
     return compile_trees([forces.rows[k][0] for k in wanted_rows(robot)])
-
-
-def is_zero(program: Program, at: Mapping[str, float]) -> bool:
-    """Whether everything is 0."""
-    return all(abs(value) < CLOSE for value in program.run(at))
 
 
 def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:

@@ -6,11 +6,10 @@ Nothing is inverted or eliminated: D q̈ + C q̇ + friction + g, as it is printe
 from __future__ import annotations
 
 from collections.abc import Mapping
-from random import Random
+from itertools import islice
 
-from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.rate_check import TOLERANCE
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
@@ -27,9 +26,7 @@ def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -
     """
     found, left = compile_trees([results["qdd_forward"]]), compile_trees([results["tau"]])
     outside = compile_trees([results["Q"]]) if "Q" in results else None
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states):
-        values, (rows,) = draw_values(robot, random, found.run)
+    for values, (rows,) in islice(states_with(robot.ring, found.run), states):
         moved = {q.acceleration: row[0] for q, row in zip(robot.coordinates, rows, strict=True)}
         (theirs,) = left.run({**values, **moved})
         loads = outside.run(values)[0] if outside else [(0.0,)] * robot.n

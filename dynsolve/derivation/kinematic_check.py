@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from random import Random
+from itertools import islice
 from typing import Any
 
-from dynsolve.derivation.arm_values import RobotValues, arm_at, draw
+from dynsolve.derivation.arm_values import RobotValues, arm_at, arms
 from dynsolve.derivation.newton_euler import (
     ZERO,
     Arm,
@@ -26,7 +26,6 @@ from dynsolve.derivation.newton_euler import (
     plus,
     transposed,
 )
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node, Reference, Symbol, column
 from dynsolve.notation.tree_values import Program, compile_trees
@@ -60,9 +59,7 @@ def verify_kinematics(robot: Robot, results: Mapping[str, Node], states: int = 5
     off by more than `TOLERANCE` of its size.
     """
     program = compile_trees(list(results.values()))
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states if results else 0):
-        values, arm = draw(robot, random)
+    for values, arm in islice(arms(robot), states if results else 0):
         ours = dict(zip(results, program.run(values), strict=True))
         for name, mine, theirs in _Motion(robot, values, arm).compared(ours):
             if not _distance(mine, theirs) <= TOLERANCE:
@@ -128,15 +125,13 @@ class _Motion:
 
     def _task(self, ours: Mapping[str, Any]) -> Iterator[Compared]:
         task, last = self.robot.questions.task, self.frames[-1]
-        if task is not None and task.is_twist:
-            first: Entries = (*last.v, *last.w)
-            second: Entries = (*last.dv, *last.dw)
-        else:
-            if "r" in ours:
-                yield "r", _flat(ours["r"]), self._task_at(0.0)
-            if "Jr" not in ours:
-                return
-            first, second = self._slopes
+        is_twist = task is not None and task.is_twist
+        if "r" in ours and not is_twist:
+            yield "r", _flat(ours["r"]), self._task_at(0.0)
+        if "Jr" not in ours:
+            return
+        rates: tuple[Entries, Entries] = (*last.v, *last.w), (*last.dv, *last.dw)
+        first, second = rates if is_twist else self._slopes
         yield "Jr", _times(ours["Jr"], self.arm.qd), first
         if "Jr_dot" in ours:
             yield "Jr_dot", self._acceleration(ours["Jr"], ours["Jr_dot"]), second
@@ -203,6 +198,6 @@ def _times(rows: Any, rates: Sequence[float]) -> list[float]:
 
 def _distance(mine: Entries, theirs: Entries) -> float:
     """The largest difference, relative to the size of what is compared."""
-    size = max(1.0, *(abs(x) for x in theirs))
+    size = max((1.0, *(abs(x) for x in theirs)))
     gaps = [abs(a - b) / size for a, b in zip(mine, theirs, strict=True)]
     return max((gap if gap == gap else float("inf") for gap in gaps), default=0.0)

@@ -8,13 +8,12 @@ differences of what is odd in them, in which neither C q̇ nor a sign has a part
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from random import Random
+from itertools import islice
 from typing import Any
 
-from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.linearization import driven
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.tree_values import Program, compile_trees, plain_name
@@ -48,9 +47,7 @@ def verify_linear(robot: Robot, results: Mapping[str, Node], states: int = 5) ->
     program = compile_trees(list(results.values()))
     near = {name: results[name] for name in _NEAR if name in results}  # where Lambda may be singular
     near_program = compile_trees(list(near.values()))
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states):
-        values, found = draw_values(robot, random, program.run)
+    for values, found in islice(states_with(robot.ring, program.run), states):
         here = dict(zip(results, found, strict=True))
         if "Lambda" in here:
             _compare("Lambda", _products(here["Lambda"], _mobility(here)), _identity(len(here["Jr"])))
@@ -59,7 +56,7 @@ def verify_linear(robot: Robot, results: Mapping[str, Node], states: int = 5) ->
 
 
 def _compare(name: str, ours: Sequence[Sequence[float]], theirs: Sequence[Sequence[float]]) -> None:
-    size = max(1.0, *(abs(x) for row in theirs for x in row))
+    size = max((1.0, *(abs(x) for row in theirs for x in row)))
     gaps = (abs(a - b) for r, s in zip(ours, theirs, strict=True) for a, b in zip(r, s, strict=True))
     if not all(gap <= TOLERANCE * size for gap in gaps):
         raise VerificationError(f"{name} differs from elimination on numbers; this is a fault of dynsolve")

@@ -9,14 +9,13 @@ numbers.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from random import Random
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate, evaluate_with
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.hyper_dual import FUNCTIONS, HyperDual, cos, sin
 from dynsolve.derivation.newton_euler import Vector, cross, dot, plus, scaled
 from dynsolve.notation.tree_values import compile_trees
@@ -245,12 +244,12 @@ def _hyper_dual(expr: Expr, values: Values) -> HyperDual:
     return HyperDual(0.0) + value
 
 
-def draw_mechanism(robot: Robot, random: Random) -> tuple[dict[str, float], Mechanism]:
-    """A random state with random parameters for which every root and quotient has a value."""
+def mechanisms(robot: Robot) -> Iterator[tuple[dict[str, float], Mechanism]]:
+    """States, with parameters for which every root and quotient has a value, and the mechanism there."""
 
     def at(values: Mapping[str, float]) -> Mechanism:
         mechanism = Mechanism(robot, values)
         mechanism.energies()
         return mechanism
 
-    return draw_values(robot, random, at)
+    return states_with(robot.ring, at)

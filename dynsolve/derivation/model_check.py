@@ -8,18 +8,16 @@ factorization with fewer columns gives that table.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from functools import partial
-from math import pi
-from random import Random
+from collections.abc import Mapping, Sequence
+from itertools import islice
 from typing import Any
 
-from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import rank
-from dynsolve.derivation.verification import SEED
+from dynsolve.derivation.regressor import known_names
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
-from dynsolve.notation.tree_values import Program, compile_trees
+from dynsolve.notation.tree_values import compile_trees
 from dynsolve.quantities.model_families import PARAMETERS
 from dynsolve.robot.model import Robot
 from dynsolve.robot.model_questions import reference
@@ -55,11 +53,9 @@ def verify_references(robot: Robot, results: Mapping[str, Node], states: int = 5
     Raises VerificationError where they differ.
     """
     program = compile_trees([results[name] for name in ("Yr", "a", "D", "C", "g")])
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
     names = [reference(q.name) for q in robot.coordinates]
-    for _ in range(states):
-        own = {f"{name}_{dots}": random.uniform(-1.5, 1.5) for name in names for dots in ("dot", "ddot")}
-        _, (Y, a, D, C, g) = draw_values(robot, random, partial(_run, program, own))
+    rates = [f"{name}_{dots}" for name in names for dots in ("dot", "ddot")]
+    for own, (Y, a, D, C, g) in islice(states_with(robot.ring, program.run, rates), states):
         forces = [
             sum(
                 d * own[f"{name}_ddot"] + c * own[f"{name}_dot"]
@@ -72,19 +68,13 @@ def verify_references(robot: Robot, results: Mapping[str, Node], states: int = 5
             raise VerificationError("Yr a differs from D q̈_r + C q̇_r + g; this is a fault of dynsolve")
 
 
-def _run(program: Program, more: Mapping[str, float], values: Mapping[str, float]) -> list[Any]:
-    return program.run({**values, **more})
-
-
 def verify_model(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
     """Compare printed forms with the forces (see `model_names`).
 
     Raises VerificationError where a product differs from the forces, or a is not of minimal length.
     """
     program = compile_trees(list(results.values()))
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states if results else 0):
-        values, found = draw_values(robot, random, program.run)
+    for values, found in islice(states_with(robot.ring, program.run), states if results else 0):
         here = dict(zip(results, found, strict=True))
         for Y in FORCES:
             if Y in here and not _is_product(here[Y], here[PARAMETERS[Y]], _force(robot, Y, here, values)):
@@ -109,7 +99,7 @@ def _force(robot: Robot, Y: str, ours: Mapping[str, Any], values: Mapping[str, f
 def _is_product(Y: Sequence[Sequence[float]], a: Sequence[Sequence[float]], forces: Sequence[float]) -> bool:
     for row, force in zip(Y, forces, strict=True):
         terms = [y * x for y, (x,) in zip(row, a, strict=True)]
-        if not abs(sum(terms) - force) <= TOLERANCE * max(1.0, *map(abs, terms)):
+        if not abs(sum(terms) - force) <= TOLERANCE * max((1.0, *map(abs, terms))):
             return False
     return True
 
@@ -117,23 +107,14 @@ def _is_product(Y: Sequence[Sequence[float]], a: Sequence[Sequence[float]], forc
 def rank_of_forces(robot: Robot, Y: str, forces: Node, expected: int) -> int:
     """The rank of the forces over motions and unknown parameters, looked for a little beyond `expected`."""
     program = compile_trees([forces])
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    known = robot.questions.model.known
-    fixed = {
-        name: value for name, value in draw_values(robot, random, program.run)[0].items() if name in known
-    }
-    moving = [name for q in robot.coordinates for name in (q.name, q.velocity, q.acceleration)]
-
-    def numbers(names: Iterable[str], sign: int = 1) -> dict[str, float]:
-        return {name: sign * random.uniform(0.4, 1.6) for name in names}
-
-    # in both directions, for Coulomb friction is a constant force in either of them
-    motions = [numbers(moving, (-1) ** k) for k in range(-(-(expected + _MARGIN) // robot.n) + 1)]
-    choices = [numbers(robot.ring.parameters) | fixed for _ in range(expected + _MARGIN)]
+    motions = [at for at, _ in islice(states_with(robot.ring, program.run), expected + _MARGIN)]
+    known, names = known_names(robot), robot.ring.parameters
+    choices = [{name: (motions[0] if name in known else at)[name] for name in names} for at in motions]
 
     def forces_at(choice: Mapping[str, float], motion: Mapping[str, float]) -> list[float]:
-        values = {**choice, **motion, "pi": pi}
-        return _force(robot, Y, {FORCES[Y]: program.run(values)[0]}, values)
+        at = {**motion, **choice}
+        return _force(robot, Y, {FORCES[Y]: program.run(at)[0]}, at)
 
+    motions = motions[: -(-len(motions) // robot.n) + 1]
     rows = [[force for motion in motions for force in forces_at(choice, motion)] for choice in choices]
     return rank(rows, NEGLIGIBLE)

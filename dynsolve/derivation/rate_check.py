@@ -8,16 +8,15 @@ to b, and where W x is a sum of rows of J, so that none of those have a lesser x
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from random import Random
+from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.arm_values import arms
 from dynsolve.derivation.elimination import determinant
 from dynsolve.derivation.rates import whole_or_task
 from dynsolve.derivation.static_check import state_numbers
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
@@ -51,9 +50,7 @@ def verify_rates(robot: Robot, results: Mapping[str, Node], states: int = 5) -> 
     Raises VerificationError where one is off by more than `TOLERANCE` of its size.
     """
     program = compile_trees(list(results.values()))
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states if results else 0):
-        values, _ = draw(robot, random)
+    for values, _ in islice(arms(robot), states if results else 0):
         here = dict(zip(results, program.run(values), strict=True))
         at_state = {**values, **state_numbers(robot, values)}
         there = dict(zip(results, program.run(at_state), strict=True))
@@ -108,13 +105,13 @@ def _spaces(ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
         vectors = orthonormal(_transposed(ours[name]))
         gap = 0.0 if len(vectors) == dimension[name] else float("inf")
         for vector in vectors if name in inside else ():
-            gap = max(gap, *map(abs, _times(inside[name], vector)))
+            gap = max((gap, *map(abs, _times(inside[name], vector))))
         for column in _transposed(J) if name == "rangespace" else ():
             rest = list(column)
             for vector in vectors:
                 along = sum(a * b for a, b in zip(vector, rest, strict=True))
                 rest = [a - along * b for a, b in zip(rest, vector, strict=True)]
-            gap = max(gap, *map(abs, rest))
+            gap = max((gap, *map(abs, rest)))
         yield name, gap
 
 
@@ -129,7 +126,7 @@ def _gap(J: Rows, x: Vector, wanted: Vector, weights: Rows | None) -> float:
     for row in orthonormal(J):
         along = sum(a * b for a, b in zip(row, across, strict=True))
         across = [a - along * b for a, b in zip(across, row, strict=True)]
-    size = max(1.0, *map(abs, x), *map(abs, wanted)) * max(1.0, *(abs(e) for row in J for e in row)) ** 2
+    size = max((1.0, *map(abs, x), *map(abs, wanted))) * max((1.0, *(abs(e) for row in J for e in row))) ** 2
     return max(map(abs, (*_times(_transposed(J), left), *across))) / size
 
 

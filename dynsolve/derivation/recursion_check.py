@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from random import Random
+from itertools import islice
 from typing import Any
 
-from dynsolve.derivation.arm_values import RobotValues, draw
+from dynsolve.derivation.arm_values import RobotValues, arms
 from dynsolve.derivation.newton_euler import (
     ZERO,
     Arm,
@@ -26,7 +26,7 @@ from dynsolve.derivation.newton_euler import (
     scaled,
     transposed,
 )
-from dynsolve.derivation.verification import SEED, TOLERANCE
+from dynsolve.derivation.verification import TOLERANCE
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
@@ -49,13 +49,11 @@ def verify_recursions(robot: Robot, results: Mapping[str, Node], states: int = 5
     than rounding.
     """
     program = compile_trees(list(results.values()))
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-    for _ in range(states if results else 0):
-        values, arm = draw(robot, random)
+    for values, arm in islice(arms(robot), states if results else 0):
         links = _Links(robot, values, arm)
         for name, mine in zip(results, program.run(values), strict=True):
             theirs = links.value(name)
-            size = max(1.0, *map(abs, theirs))
+            size = max((1.0, *map(abs, theirs)))
             if not _gap(mine, theirs) <= TOLERANCE * size:
                 raise VerificationError(
                     f"{name} differs from the motion of the arm; this is a fault of dynsolve"

@@ -9,16 +9,15 @@ nullspace.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from random import Random
+from itertools import islice
 from typing import Any
 
-from dynsolve.derivation.arm_values import draw_values
+from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.configuration_check import NO_VALUE, rank_of
 from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.equilibrium_check import zero_along
 from dynsolve.derivation.reached import CLOSE
-from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.tree_values import compile_trees
@@ -86,6 +85,11 @@ class ConstrainedStates:
         return rank_of([*rows, *map(list, zip(*columns, strict=True))]) == self.robot.n
 
     @property
+    def _free(self) -> list[str]:
+        """Names, which no parameter has, of accelerations and multipliers before the constraints act."""
+        return [f"free {i}" for i in range(self.robot.n + len(self.robot.questions.constraints))]
+
+    @property
     def _driven(self) -> list[int]:
         return [k for k in range(self.robot.n) if k not in self.robot.actions.passive]
 
@@ -93,18 +97,16 @@ class ConstrainedStates:
         return dict(zip(self.names, self.program.run(at), strict=True))
 
     def _found(self) -> Iterator[State]:
-        random = Random(SEED)  # noqa: S311 - the same states every time are wanted
         found = 0
-        for _ in range(TRIES):
-            start = draw_values(self.robot, random, lambda values: None)[0]
+        for start in islice(samples(self.robot.ring, self._free), TRIES):
             start |= self.numbers | {q.force: 0.0 for q in self.robot.coordinates}
             names = [q.name for q in self.robot.coordinates]
             at = zero_along(names, self.held, start) if self.held else start
             if at is not None and found < STATES:
                 found += 1
-                yield self._in_motion(at, random)
+                yield self._in_motion(at)
 
-    def _in_motion(self, at: State, random: Random) -> State:
+    def _in_motion(self, at: State) -> State:
         """The state with rates, accelerations and forces that the constraints allow."""
         n, coordinates = self.robot.n, self.robot.coordinates
         A = self._at(at)["Ac"]
@@ -119,8 +121,7 @@ class ConstrainedStates:
         for k in sorted(self.robot.actions.passive):
             rows.append([*(inertia[i][k] - rest[k] for i in range(n)), *(-row[k] for row in A)])
             right.append(-rest[k])
-        free = [random.uniform(-1.5, 1.5) for _ in range(n + len(A))]
-        chosen = _nearest(rows, right, free)
+        chosen = _nearest(rows, right, [at[name] for name in self._free])
         at |= {q.acceleration: x for q, x in zip(coordinates, chosen, strict=False)}
         moved = self._forces(at)
         held = [sum(row[k] * x for row, x in zip(A, chosen[n:], strict=True)) for k in range(n)]

@@ -55,6 +55,13 @@ def generators(ring: Ring, known: frozenset[str]) -> Generators:
     return Generators(frozenset(moving), frozenset(unknown))
 
 
+def known_names(robot: Robot) -> frozenset[str]:
+    """The parameters that do not count as unknown: those of the file, and β of a joint's angle q + β."""
+    ring = robot.ring
+    moving = [_names(ring, g) for g in ring.generators if g.kind in ("sin", "cos") and _moves(ring, g)]
+    return robot.questions.model.known.union(*moving) & frozenset(ring.parameters)
+
+
 def _moves(ring: Ring, g: Generator) -> bool:
     return bool(g.dots) or g.kind == "function" or ring.depends_on_coordinates(ring.generator(g.index))
 
@@ -114,7 +121,7 @@ def combinations(
 
     None of forces that are no combinations of these parameters.
     """
-    kinds = generators(robot.ring, robot.questions.model.known)
+    kinds = generators(robot.ring, known_names(robot))
     span = ParameterSpan(robot.ring)
     for entry in parameters.entries:
         span.add(kinds.vector(entry) or {})
@@ -132,7 +139,7 @@ def missing(robot: Robot, forces: Matrix, parameters: Matrix) -> Expr | None:
 
     Raises AlgebraError where a parameter moves.
     """
-    kinds = generators(robot.ring, robot.questions.model.known)
+    kinds = generators(robot.ring, known_names(robot))
     span = ParameterSpan(robot.ring)
     for entry in parameters.entries:
         vector = kinds.vector(entry)
@@ -152,7 +159,7 @@ def parameters_for(robot: Robot, forces: Matrix, columns: Matrix) -> Matrix | No
     all of these are combinations of the columns of Y, their factors add up to a.
     """
     ring = robot.ring
-    kinds = generators(ring, robot.questions.model.known)
+    kinds = generators(ring, known_names(robot))
     span, used = ParameterSpan(ring), list[int]()
     for k in range(columns.shape[1]):
         by_product = _by_product(kinds, columns.column_at(k))
@@ -188,7 +195,7 @@ def _by_product(kinds: Generators, column: Matrix) -> dict[Exponents, Vector]:
 
 
 def _split(robot: Robot, forces: Matrix) -> Split:
-    kinds = generators(robot.ring, robot.questions.model.known)
+    kinds = generators(robot.ring, known_names(robot))
     return [kinds.split(entry) for entry in forces.entries]
 
 
@@ -210,7 +217,7 @@ def regressor(
     """
     if isinstance(parameters, Skipped):
         return parameters
-    kinds = generators(robot.ring, robot.questions.model.known)
+    kinds = generators(robot.ring, known_names(robot))
     vectors = [kinds.vector(entry) for entry in parameters.entries]
     known = [vector for vector in vectors if vector is not None]
     columns = _columns(robot.ring, _split(robot, forces), known) if len(known) == len(vectors) else None

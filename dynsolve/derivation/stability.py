@@ -22,7 +22,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.minors import determinant, work
 from dynsolve.algebra.pseudoinverse import part
 from dynsolve.derivation.existence import Turn, turn_of
 from dynsolve.derivation.parameter_signs import ParameterSigns
@@ -32,8 +32,8 @@ from dynsolve.derivation.singular.sets import Alternative
 MOST_POINTS = 16
 """With more points in a case their stability is not told one by one."""
 
-MOST_MINORS = 6
-"""The stability of robots with more coordinates is not decided."""
+MOST_PRODUCTS = 50_000
+"""Second derivatives whose determinant may come to more products of terms are not looked at."""
 
 Values = tuple[tuple[Pair, int, int], ...]
 """(angle, sine, cosine): quarter turns."""
@@ -90,7 +90,7 @@ class Curvature:
         size = len(second.rows)
         neutral = tuple(k for k in range(size) if all(entry.is_zero for entry in second.rows[k]))
         rest = tuple(k for k in range(size) if k not in neutral)
-        if not rest or len(rest) > MOST_MINORS:
+        if not rest or work(part(second, rest, rest)) > MOST_PRODUCTS:
             return Point(values, Stability.UNDECIDED, neutral)
         if not self.may_be_held and _falls(second, rest, signs):
             return Point(values, Stability.UNSTABLE, neutral)

@@ -20,6 +20,7 @@ from dynsolve.algebra.fraction_matrix import FractionMatrix, quotient
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, work
 from dynsolve.algebra.pseudoinverse import part
+from dynsolve.derivation.forward_dynamics import SINGULAR
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.linearization import MOST_PRODUCTS, TOO_LARGE
 
@@ -35,6 +36,8 @@ def task_inertia(jacobian: Matrix, D: Matrix) -> Matrix | FractionMatrix | Skipp
         return Skipped(RANK)
     if work(D) > MOST_PRODUCTS or work(jacobian @ jacobian.T) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
+    if determinant(D).is_zero:
+        return Skipped(SINGULAR)
     every = tuple(range(m))
     size = _sum(jacobian, D, every, every)
     if size.is_zero:

@@ -12,10 +12,10 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from random import Random
+from itertools import islice
 
 from dynsolve.derivation.action_check import ActingForces, acting_forces
-from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.arm_values import arms
 from dynsolve.derivation.newton_euler import (
     ZERO,
     Arm,
@@ -43,9 +43,6 @@ ON_NUMBERS = "elimination on numbers"
 _NEGLIGIBLE = 1e-4
 """The part of what moves freely below which a result is rounding."""
 
-SEED = 20_200_312
-"""The states are the same every time."""
-
 
 @dataclass(frozen=True, slots=True)
 class Verification:
@@ -69,11 +66,9 @@ def verify(robot: Robot, results: Mapping[str, Node], states: int = 5) -> Verifi
     """
     names = [name for name in ("H", "J", "D", "C", "g", "friction", "tau", "K", "P") if name in results]
     program = compile_trees([results[name] for name in names])
-    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
     worst = 0.0
     way = _way(robot)
-    for _ in range(states):
-        values, errors = way.errors_at(robot, random)
+    for values, errors in islice(way.errors(robot), states):
         ours = dict(zip(names, program.run(values), strict=True))
         for name, error in errors(ours):
             if not error <= TOLERANCE:
@@ -92,10 +87,10 @@ Errors = Callable[[Results], Iterator[tuple[str, float]]]
 
 @dataclass(frozen=True, slots=True)
 class _Way:
-    """An independent computation: what it is called; a random state, and the errors of results there."""
+    """An independent computation: what it is called; states, and the errors of results there."""
 
     method: str
-    errors_at: Callable[[Robot, Random], tuple[Mapping[str, float], Errors]]
+    errors: Callable[[Robot], Iterator[tuple[Mapping[str, float], Errors]]]
 
 
 def _way(robot: Robot) -> _Way:
@@ -109,24 +104,24 @@ def _way(robot: Robot) -> _Way:
     return _Way(BY_BODIES if robot.given is None else BY_ENERGIES, _of_mechanism)
 
 
-def _of_arm(robot: Robot, random: Random) -> tuple[Mapping[str, float], Errors]:
-    values, arm = draw(robot, random)
-    return values, partial(_errors, arm, acting_forces(robot, values))
+def _of_arm(robot: Robot) -> Iterator[tuple[Mapping[str, float], Errors]]:
+    for values, arm in arms(robot):
+        yield values, partial(_errors, arm, acting_forces(robot, values))
 
 
-def _of_mechanism(robot: Robot, random: Random) -> tuple[Mapping[str, float], Errors]:
-    from dynsolve.derivation.mechanism_check import draw_mechanism
+def _of_mechanism(robot: Robot) -> Iterator[tuple[Mapping[str, float], Errors]]:
+    from dynsolve.derivation.mechanism_check import mechanisms
 
-    values, mechanism = draw_mechanism(robot, random)
-    independent = _Independent(
-        mechanism.qd,
-        mechanism.qdd,
-        mechanism.forces,
-        mechanism.energies(),
-        _NEGLIGIBLE * mechanism.size,
-        acting_forces(robot, values),
-    )
-    return values, partial(_dynamic_errors, independent)
+    for values, mechanism in mechanisms(robot):
+        independent = _Independent(
+            mechanism.qd,
+            mechanism.qdd,
+            mechanism.forces,
+            mechanism.energies(),
+            _NEGLIGIBLE * mechanism.size,
+            acting_forces(robot, values),
+        )
+        yield values, partial(_dynamic_errors, independent)
 
 
 # -- the comparison --------------------------------------------------------------------------------
@@ -175,7 +170,7 @@ def _dynamic_errors(state: _Independent, ours: Results) -> Iterator[tuple[str, f
         "friction": _column(acting.friction),
         "tau": _column(state.forces(state.qd, state.qdd, True), acting.springs, acting.friction),
     }
-    size = max(state.negligible, *(_size(matrix) for matrix in theirs.values())) or 1.0
+    size = max((state.negligible, *(_size(matrix) for matrix in theirs.values()))) or 1.0
     mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, state.qd, strict=True))] for row in ours["C"]]}
     for name, matrix in theirs.items():
         if name in mine:

@@ -110,9 +110,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
 
+from dynsolve.errors import attempted
 from dynsolve.explain.context import Context
 from dynsolve.explain.matrix_factors import with_factors_in_front
 from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import Words, equation
+from dynsolve.quantities.family import FORMED
+from dynsolve.quantities.index import quantities
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 
@@ -127,8 +131,37 @@ def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[S
     wanted = set(Stage if stages is None else stages)
     for stage in stages_of(context.robot):
         if stage in wanted:
-            steps = _steps(stage)(context)
-            yield from with_factors_in_front(steps, context) if stage in _OF_BODIES else steps
+            yield from _of_stage(stage, context)
+
+
+def _of_stage(stage: Stage, context: Context) -> Iterator[Step]:
+    """The steps of a stage; where one fails, the bare results of those that are missing."""
+    shown: list[Step] = []
+
+    def explained() -> None:
+        steps = _steps(stage)(context)
+        for step in with_factors_in_front(steps, context) if stage in _OF_BODIES else steps:
+            shown.append(step)  # noqa: PERF402 - what comes before a failure stays
+
+    def bare() -> None:
+        told = {name for step in shown for name in (step.id, *step.also)}
+        shown.extend(step for step in bare_steps(stage, context) if step.id not in told)
+
+    attempted(explained, bare, f"the explanation of the stage {stage}")
+    yield from shown
+
+
+def bare_steps(stage: Stage, context: Context) -> Iterator[Step]:
+    """The results of a stage without a word."""
+    robot = context.robot
+    for name, quantity in quantities(robot).items():
+        family = quantity.family
+        if family.stage is not stage or family.kind not in FORMED or quantity.is_read_off or not family.json:
+            continue
+        if quantity.rule in context.values.rules and quantity.rule != "christoffel":  # they stand in C
+            letter = quantity.letter(robot) if family.has_letter else Words(name)
+            result = equation(letter, context.form(quantity.rule))
+            yield Step(id=name, stage=stage, title=name, result=(result,))
 
 
 def _steps(stage: Stage) -> Callable[[Context], Iterator[Step]]:

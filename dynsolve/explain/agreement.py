@@ -165,7 +165,7 @@ def skew_step(context: Context) -> Step:
         lines=rate or general,
         uses=() if rate or general else ("D",),
         concluding=_exchanged() if general else (),
-        entries=letters.entries("n", robot.n, robot.n) if robot.n > 1 else (),
+        entries=letters.entries("n", robot.n) if robot.n > 1 else (),
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),
         hint=(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from functools import cached_property
 from math import lcm
 from typing import TYPE_CHECKING, Any
@@ -10,9 +12,8 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.positivity import is_positive
-from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.trig_factor import ratio, trig_factors
 from dynsolve.derivation.configuration_check import Condition as Equality
 from dynsolve.derivation.configuration_check import Conditions
 from dynsolve.derivation.configurations import Inverse, without_number
@@ -21,11 +22,13 @@ from dynsolve.derivation.inverse.solving import Relation as Equation
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.sets import SingularSet
+from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms, is_numeric, leading_names, parallel_coordinates
 from dynsolve.explain.inverse_formulas import InverseFormulas
+from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
-from dynsolve.notation.tree import Matrix, Negative, Node, Number, Relation, Sum, Symbol, column
+from dynsolve.notation.tree import Matrix, Negative, Node, Number, Relation, Sum, Symbol, column, equation
 from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Robot
 
@@ -72,6 +75,13 @@ class ConfigurationForms:
         form = self.compactor(ring).form
         left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
         return Relation((left, right), (">" if bound.is_strict else "≥",))
+
+    def existence(self, name: str, exist: Sequence[Sequence[Bound]]) -> Iterator[Prose]:
+        """For which parameters the alternatives of a set are there that are not for all."""
+        for case, bounds in zip(self.alternatives(name), exist, strict=True):
+            if bounds:
+                together = side_by_side([equation(value, Number(0)) for value in case])
+                yield (together, " has solutions where ", side_by_side([*map(self.inequality, bounds)]), ".")
 
     @cached_property
     def balance(self) -> tuple[Node, ...]:
@@ -133,8 +143,13 @@ class ConfigurationForms:
             node, signed = self._signed(factor)
             shown.append((node, power))
             product = product * signed**power
-        number = value.poly.leading_coefficient() / product.poly.leading_coefficient()
-        return times(fraction(number), sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))))
+        number = ratio(value, product)
+        if not number.is_number:
+            shown.append((self.compactor(value.ring).form(number), 1))
+        return times(
+            number.number if number.is_number else Fraction(1),
+            sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))),
+        )
 
     def _signed(self, expr: Expr) -> tuple[Node, Expr]:
         """±expr with the sign that leaves fewer minus signs, as a formula and as it is."""

@@ -158,6 +158,8 @@ def _products(context: Context) -> tuple[Line, ...]:
     """D⁻¹ as an adjugate over a determinant, and A D⁻¹ Aᵀ, where they can be read."""
     D, A = context.values["D"], context.values["Ac"]
     inverse, scale = adjugate(D), determinant(D)
+    if scale.is_zero:
+        return ()
     square = quotient(A @ inverse @ A.T, scale)
     shown = scalar(context.forms.of(square))
     over = context.forms.of(quotient(inverse, scale))

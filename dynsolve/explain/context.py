@@ -49,6 +49,10 @@ class Context:
         """Whether every line is shown; of longer arms they would fill pages."""
         return is_short(self.robot, self.values)
 
+    def has_friction(self, k: int) -> bool:
+        """Whether a coordinate (from 0) has friction."""
+        return "friction" in self.values.rules and not self.values["friction"][k, 0].is_zero
+
     def form(self, name: str) -> Node:
         """The tree of a quantity."""
         return self.forms(name)

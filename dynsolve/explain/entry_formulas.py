@@ -22,7 +22,7 @@ ProductWriter = Callable[[Fraction | int, Iterable[Factor]], Node]
 
 @dataclass(frozen=True, slots=True)
 class EntryFormulas:
-    """The formulas of the energies, momenta and forces for given ways to write d_ij, c_ijk and g_k.
+    """The formulas of the energies, momenta and forces for given ways to write d_ij, c_ijk, g_k and friction.
 
     Indices count from 0.  Each pair of rates is written once: q̇_i q̇_j with i ≤ j.
     """
@@ -31,6 +31,7 @@ class EntryFormulas:
     d: Callable[[int, int], Node]
     c: ChristoffelSymbols
     g: Callable[[int], Node]
+    friction: Callable[[int], Node]
     product: ProductWriter = times
 
     def kinetic_energy(self) -> Node:
@@ -64,8 +65,8 @@ class EntryFormulas:
         return total([*terms, negated(self.g(k))])
 
     def force(self, k: int) -> Node:
-        """τ_k = Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k"""
-        return total([*self.acceleration_terms(k), *self._coriolis_terms(k), self.g(k)])
+        """τ_k = Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + friction_k + g_k"""
+        return total([*self.acceleration_terms(k), *self._coriolis_terms(k), self.friction(k), self.g(k)])
 
     def acceleration_terms(self, k: int) -> list[Node]:
         """d_kj q̈_j for every j"""

@@ -75,7 +75,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     elif not cases[0]:
         notes = (("Nothing is left to be 0: every configuration is an equilibrium.",),)
     else:
-        notes = (("Coordinates that do not occur are free.",), *_existence(shown, found))
+        notes = (("Coordinates that do not occur are free.",), *shown.existence("equilibria", found.exist))
     steady = bool(robot.questions.model.steady)
     forces: Node = moving.FORCES if steady else letters.G
     at_rest = (equation(letters.G, context.form("g")),) if is_small(context.form("g")) else ()
@@ -112,14 +112,6 @@ def _assumed(context: Context, shown: ConfigurationForms) -> Prose:
     if not assumed:
         return ()
     return ("Of the parameters it is given that ", side_by_side([*map(shown.inequality, assumed)]), ". ")
-
-
-def _existence(shown: ConfigurationForms, found: Equilibria) -> Iterator[Prose]:
-    """For which parameters the cases are there that are not for all."""
-    for case, bounds in zip(shown.equilibria, found.exist, strict=True):
-        if bounds:
-            conditions = side_by_side([shown.inequality(bound) for bound in bounds])
-            yield (_together(case), " has solutions where ", conditions, ".")
 
 
 def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -> Step:

@@ -199,15 +199,12 @@ class Forms:
         way = of_coordinate.get(quantity.family)
         if way is None:
             return None
-        form, k = way(quantity.index[0] - 1), quantity.index[0] - 1
-        if quantity.family is families.FORCE and "friction" in self.values.rules:
-            return total([form, self._entry("friction", k)])
-        return form
+        return way(quantity.index[0] - 1)
 
     @cached_property
     def _formulas(self) -> EntryFormulas:
         """The formulas in the entries of D and g and the Christoffel symbols, written by their forms."""
-        return EntryFormulas(self.robot.ring.names, self._d, self.christoffel, self._g)
+        return EntryFormulas(self.robot.ring.names, self._d, self.christoffel, self._g, self._friction)
 
     def _d(self, i: int, j: int) -> Node:
         D = self("D")
@@ -216,6 +213,9 @@ class Forms:
 
     def _g(self, k: int) -> Node:
         return self._entry("g", k)
+
+    def _friction(self, k: int) -> Node:
+        return self._entry("friction", k) if "friction" in self.values.rules else ZERO
 
     def _entry(self, vector: str, k: int) -> Node:
         form = self(vector)

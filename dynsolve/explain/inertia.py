@@ -17,7 +17,7 @@ from dynsolve.explain.density import density_step
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.mass_centers import mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
-from dynsolve.explain.shapes import SHAPES
+from dynsolve.explain.shapes import SHAPES, letters_of, shape_letters
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.turned_tensors import turning_of
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
@@ -36,9 +36,11 @@ from dynsolve.notation.tree import (
     Words,
     equation,
 )
+from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body
+from dynsolve.robot.shapes import MASS
 
 STAGE = Stage.INERTIA
 
@@ -198,12 +200,18 @@ def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...],
     shape = body.shape
     if shape is None or not shape.formulas:
         return None, (), ()
+    signs: dict[Node, Node] = {Symbol(name): sign for name, sign in shape_letters(context.robot).items()}
     formula = side_by_side([
-        equation(Letter("I", Row((letters.index_of(body.name), Words(axes)))), moment)
+        equation(
+            Letter("I", Row((letters.index_of(body.name), Words(axes)))),
+            mapped(moment, lambda part: signs.get(part, part)),
+        )
         for axes, moment in shape.formulas
     ])  # fmt: skip
-    named = [("m", body.mass, "kg"), *((letter, value, "m") for letter, value in shape.letters)]
-    given = [equation(Symbol(letter), measured(context.show(value), unit)) for letter, value, unit in named]
+    given = [
+        equation(signs[Symbol(letter)], measured(context.show(value), "kg" if letter == MASS else "m"))
+        for letter, value in letters_of(body)
+    ]
     given = [relation for relation in given if relation.parts[0] != relation.parts[1]]
     why: Prose = (f"{name_of(body).capitalize()} is a uniform {SHAPES[shape.kind]}",)
     if shape.axis:
@@ -219,10 +227,10 @@ def _parallel_axis(context: Context, body: Body) -> Step:
     b = body.name
     tensor = letters.tensor(context.robot, body)
     given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
-    r = Letter("r", style="bold")
+    d = letters.bold("d")
     mass = context.mass(body)
-    square = Product((Transpose(r), r, letters.bold("E")))
-    shift = Product((mass, Sum((square, Negative(Product((r, Transpose(r))))))))
+    square = Product((Transpose(d), d, letters.bold("E")))
+    shift = Product((mass, Sum((square, Negative(Product((d, Transpose(d))))))))
     H = context.values[f"H{body.link}"]
     relative = inertia.axes_in_link(context.robot, body, H)
     assert body.about_point is not None
@@ -233,12 +241,12 @@ def _parallel_axis(context: Context, body: Body) -> Step:
         title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
         why=(
             "The given tensor is about another point, but the kinetic energy needs the one about the mass "
-            "centre. r goes from the given point to the mass centre, in the body's axes; E is the identity.",
+            "centre. d goes from the given point to the mass centre, in the body's axes; E is the identity.",
         ),
         formula=equation(tensor, Sum((given, Negative(shift)))),
         source="parallel-axis theorem; Craig 6.3",
         working=(
-            equation(r, context.show(offset)),
+            equation(d, context.show(offset)),
             equation(shift, context.show(inertia.steiner(body.mass, offset))),
         ),
         result=(equation(tensor, context.form(f"I_body{b}")),),

@@ -15,6 +15,7 @@ from dynsolve.explain.definition_units import units_of
 from dynsolve.explain.parameter_meanings import meanings, told_together
 from dynsolve.explain.recurring import Definition
 from dynsolve.explain.roles import Role
+from dynsolve.explain.shapes import shape_letters
 from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.signs import shorthands
 from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
@@ -23,6 +24,8 @@ from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Function, Letter, Node, Product, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
+from dynsolve.quantities.robot_stages import stages_of
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
@@ -142,6 +145,7 @@ def notation(
         *general,
         *_of_shapes(robot, occurring - own),
     ]
+    lines += _of_drawing(robot, occurring.difference(*(line.kinds for line in lines)))
     shown = _merged(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
@@ -210,13 +214,20 @@ def _in_a_section(robot: Robot, short: Abbreviated) -> Iterator[Line]:
 
 def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
     """The letters of the formulas of this robot's uniform shapes, which those formulas alone have."""
-    shapes = [body.shape for body in robot.bodies if body.shape is not None]
-    used = {letter for shape in shapes for letter, _ in shape.letters} | ({MASS} if shapes else set())
-    names = [name for name in SHAPES if name in used and ("", "name", name) in occurring]
+    signs = {letter: sign.name for letter, sign in shape_letters(robot).items()}
+    used = [letter for letter in SHAPES if ("", "name", signs.get(letter, "")) in occurring]
     for unit in ("kg", "m"):
-        own = [name for name in names if (name == MASS) == (unit == "kg")]
+        own = [letter for letter in used if (letter == MASS) == (unit == "kg")]
         if own:
-            yield _named(own, f"{', '.join(SHAPES[name] for name in own)} of a uniform shape", unit)
+            meaning = f"{', '.join(SHAPES[letter] for letter in own)} of a uniform shape"
+            yield _named([signs[letter] for letter in own], meaning, unit)
+
+
+def _of_drawing(robot: Robot, unknown: set[Kind]) -> Iterator[Line]:
+    """The lengths of a drawing on which the table does not depend."""
+    names = sorted(name for _, kind, name in unknown if kind == "name" and name not in COUNTING)
+    if names and Stage.FRAMES in stages_of(robot):
+        yield _named(names, "lengths in the drawing alone", "m")
 
 
 def _counting(occurring: set[Kind]) -> Iterator[Inline]:

@@ -10,7 +10,7 @@ from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Skipped
-from dynsolve.derivation.regressor import combinations
+from dynsolve.derivation.regressor import combinations, known_names
 from dynsolve.document import Prose
 from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.context import Context
@@ -52,11 +52,15 @@ def steps(context: Context) -> Iterator[Step]:
     """The parameters and the regressor of the forces, and of a part of them where that is asked for."""
     wanted = context.wanted
     for linear in _ALL:
+        if {linear.a, linear.Y} & wanted and _forces(context, linear).is_zero:
+            why: Prose = (linear.forces, " is 0 in every state, so that there are no parameters in it.")
+            yield Step(linear.a, STAGE, _title(linear), why, detail=Detail.BRIEF)
+            continue
         if linear.a in wanted:
             yield _parameters(context, linear)
         if linear.Y in wanted:
             yield _regressor(context, linear)
-    if "Yr" in wanted:
+    if "Yr" in wanted and not context.values["tau"].is_zero:
         yield _with_references(context)
 
 
@@ -105,7 +109,7 @@ def _title(linear: _Linear) -> str:
 
 
 def _known(context: Context) -> Prose:
-    known = sorted(context.robot.questions.model.known)
+    known = sorted(known_names(context.robot))
     if not known:
         return ()
     return (*listed([Symbol(name) for name in known]), f" count{'s' * (len(known) == 1)} as known. ")

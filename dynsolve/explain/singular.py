@@ -24,6 +24,11 @@ _LOST = spong("4.10")
 _TITLE = "The singular configurations"
 _CASES = ("A product is 0 where one of its factors is. Lengths are not 0.",)
 """What a hint says of them, however many there are."""
+_SIMPLER = (
+    "Its rows may be turned among each other, as by other axes, and multiples of rows and columns added to "
+    "others: that leaves the rank as it is. Where an entry is never 0, its row and column can so be cleared "
+    "and count 1. "
+)
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -36,7 +41,7 @@ def steps(context: Context) -> Iterator[Step]:
         yield _skipped()
         return
     yield _rank(context, forms, found)
-    yield _alternatives(forms)
+    yield _alternatives(forms, found)
     for case in range(len(found.losses)):
         yield _loss(context, forms, found, case)
 
@@ -55,32 +60,43 @@ def _skipped() -> Step:
 
 def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> Step:
     rows, columns = context.values[_matrix(context)].shape
-    J = _letter(context)
-    if rows == columns == found.rank:
-        why: Prose = (J, " is square: it has an inverse unless its determinant is 0.")
-        results: tuple[Node, ...] = (equation(_det(J), forms.product(found.minors[0])),)
+    J, size = _letter(context), found.rank - found.pivots
+    of_all = f"the determinants of all its parts of {size} rows and columns are 0."
+    results = tuple(
+        equation(Row((Words("minor "), Number(k))), forms.product(m)) for k, m in enumerate(found.minors, 1)
+    )
+    working: tuple[Node, ...] = ()
+    if found.core is not None:
+        why: Prose = (J, f" is {rows}×{columns}, and its rank is {found.rank} almost everywhere. {_SIMPLER}")
+        if size:
+            more = f"{found.pivots} more than" if found.pivots else "as great as"
+            why += ("The rank of ", J, f" is {more} that of this matrix. It is less where {of_all}")
+            form = forms.compactor(found.core.ring).form
+            working = (tree.Matrix(tuple(tuple(map(form, row)) for row in found.core.rows)),)
+        else:
+            why += ("Nothing is left of ", J, ".")
+    elif rows == columns == found.rank:
+        why = (J, " is square: it has an inverse unless its determinant is 0.")
+        results = (equation(_det(J), forms.product(found.minors[0])),)
     else:
         why = (J, f" is {rows}×{columns}, and its rank is {found.rank} almost everywhere. It is less where "
-               f"the determinants of all its parts of {found.rank} rows and columns are 0.")  # fmt: skip
-        results = tuple(
-            equation(Row((Words("minor "), Number(k))), forms.product(m))
-            for k, m in enumerate(found.minors, 1)
-        )
+               f"{of_all}")  # fmt: skip
     return Step(
         id="singular_minors",
         stage=STAGE,
         title="What must vanish",
         why=why,
         source=_SOURCE,
+        working=working,
         result=results,
         listed=len(results) > 1,
         uses=(_matrix(context),),
     )
 
 
-def _alternatives(forms: ConfigurationForms) -> Step:
-    found = forms.singular
-    if not found:
+def _alternatives(forms: ConfigurationForms, found: SingularSet) -> Step:
+    cases = forms.singular
+    if not cases:
         return Step(
             id="singular",
             stage=STAGE,
@@ -96,8 +112,9 @@ def _alternatives(forms: ConfigurationForms) -> Step:
         id="singular",
         stage=STAGE,
         title=_TITLE,
-        why=(one if len(found) == 1 else several,),
-        result=tuple(_together(one) for one in found),
+        why=(one if len(cases) == 1 else several,),
+        result=tuple(map(_together, cases)),
+        notes=tuple(forms.existence("singular", found.exist)),
         detail=Detail.BRIEF,
         uses=("singular_minors",),
         hint=_CASES,

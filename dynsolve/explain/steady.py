@@ -8,12 +8,11 @@ from dynsolve.document import Prose
 from dynsolve.explain.citations import GOLDSTEIN
 from dynsolve.explain.context import Context
 from dynsolve.explain.writing import is_small, listed, side_by_side
-from dynsolve.notation.tree import Letter, Negative, Node, Parenthesized, Product, Sum, Symbol, equation
+from dynsolve.notation.tree import Negative, Node, Parenthesized, Product, Sum, Symbol, equation
 from dynsolve.quantities import letters
 
 SOURCE = GOLDSTEIN.section("2.7")
 FORCES = Sum((Product((letters.C, letters.QD)), letters.G))
-_ENERGY = Letter("V")
 SECOND = letters.partial_derivative(Parenthesized(FORCES), letters.Q)
 
 
@@ -48,7 +47,7 @@ def working(context: Context) -> tuple[Node, ...]:
 def energy(context: Context) -> tuple[Prose, Node]:
     """What the stability follows from, and the energy whose derivatives these forces are."""
     value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
-    shown = equation(_ENERGY, Sum((letters.P, Negative(letters.K))), value)
+    shown = equation(letters.STEADY_ENERGY, Sum((letters.P, Negative(letters.K))), value)
     said: Prose = (
         "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
         "Where V has a strict minimum, all second derivatives being positive together, the motion is stable",

@@ -162,10 +162,10 @@ def _questions(robot: Robot) -> Iterator[Line]:
         yield from _pose(robot)
     tip = [Letter(axis, Words("tip")) for axis in "xyz"]
     yield _line(tip, "coordinates of the origin of the last frame", "m")
-    if robot.questions.task is not None:
-        yield _line(letters.TASK, "task")
-    else:
-        yield _line(letters.bold("r"), "from the point of a given tensor to its mass centre", "m")
+    if robot.questions.points:
+        yield _line([_entry(axis, Symbol("P")) for axis in "xyz"], "coordinates of a named point", "m")
+    yield _line(letters.TASK, "task")
+    yield _line(letters.bold("d"), "from the point of a given tensor to its mass centre", "m")
     yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
     yield _line(letters.WEIGHTS, "weights of the joint rates")
     yield _line(Letter("N", style="script"), "null space of a matrix")
@@ -231,10 +231,21 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     yield _line(Letter("R", Row((_I, Words(","), _J)), None, "bold"), "turn j of body i")
     moments = [Letter("I", Row((_I, Words(axes)))) for axes in ("xx", "yy", "zz")]
     yield _line(moments, "principal moments of body i, a uniform shape", "kg m^2")
+    yield from _by_integration()
     yield _line(letters.bold("E"), "identity matrix")
     yield _line(Symbol("g"), "acceleration of gravity", "m/s^2")
     yield _line(letters.GRAVITY, "acceleration of gravity, a vector that points down", "m/s^2")
     yield _line(letters.height(_I), "height of the mass centre of body i", "m")
+
+
+def _by_integration() -> Iterator[Line]:
+    """What a rod is integrated in whose density varies."""
+    yield _line(Symbol("x"), "place along a rod, from its near end", "m")
+    yield _line(Symbol("rho"), "mass per length of a rod", "kg/m")
+    yield _line(Letter("x", Row((Words("c"), _I))), "place of the mass centre along body i", "m")
+    places = ((Words("near"), "its near end"), (Words("c"), "its mass centre"))
+    moments = [(Letter("I", Row((_I, Words(","), place))), told) for place, told in places]
+    yield _each(moments, ": the moment of inertia across body i about it", "kg m^2")
 
 
 def _own_tensors(robot: Robot) -> list[Node]:
@@ -294,7 +305,7 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     yield _each([coriolis, (_entry("c", _K, _J), "its entries")], "", rate)
     gravity = letters.G, "column of the gravity terms"
     yield _each([gravity, (_entry("g", _K), "its entries")], "", of_entries(robot, "N m", "N"))
-    yield from _linear()
+    yield from _linear(robot)
     skew = letters.bold("N"), "skew-symmetric matrix"
     yield _each([skew, (_entry("n", _I, _J), "its entries")], "", rate)
 
@@ -372,15 +383,19 @@ def _actions() -> Iterator[Line]:
     yield _each([(letters.FRICTION, "column of the friction"), (entry, "its entries")])
 
 
-def _linear() -> Iterator[Line]:
+def _linear(robot: Robot) -> Iterator[Line]:
     """The letters of the equations of motion, linear in the parameters."""
     parts = [(part, (letters.of_part("Y", part), letters.of_part("a", part))) for part in ("M", "g")]
     signs = [letters.REGRESSOR, *(Y for _, (Y, _) in parts), letters.of_part("Y", "r")]
-    yield _line(letters.bold("q", Symbol("r")), "reference of the coordinates, of which there are rates")
+    yield _line(
+        [letters.bold("q", Symbol("r")), *map(Symbol, robot.ring.plan.references)],
+        "reference of the coordinates, of which there are rates",
+    )
     yield _line(signs, "regressor: the factor of the parameters in the forces, in a part of them")
     near = [(letters.LINEAR_A, "matrix of the state"), (letters.LINEAR_B, "matrix of the inputs")]
     yield _each(near, " of the motion near the equilibrium")
     yield _line(letters.bold("q", Words("e")), "the equilibrium")
+    yield _line(letters.STEADY_ENERGY, "potential energy less the kinetic energy of a steady motion", "J")
     yield _each(
         [
             (letters.bold("F"), "factors of the rates in the friction"),

@@ -134,9 +134,7 @@ def _force(context: Context, q: Coordinate) -> Step:
 
 def _resisted(context: Context, q: Coordinate) -> tuple[Node, ...]:
     """The friction of a coordinate, where there is any."""
-    if "friction" not in context.values.rules or context.values["friction"][q.index - 1, 0].is_zero:
-        return ()
-    return (letters.friction(q.index),)
+    return (letters.friction(q.index),) if context.has_friction(q.index - 1) else ()
 
 
 def _driven_by(context: Context, q: Coordinate) -> Prose:

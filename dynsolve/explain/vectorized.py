@@ -72,7 +72,7 @@ def steps(context: Context) -> Iterator[Step]:
 
 
 def _names(context: Context, letter: str) -> tuple[tuple[Node, ...], ...]:
-    return letters.entries(letter, context.robot.n, context.robot.n)
+    return letters.entries(letter, context.robot.n)
 
 
 def _inertia(context: Context) -> Step:
@@ -317,6 +317,6 @@ def _gravity(context: Context) -> Step:
             letters.TAU,
             ": the partial derivatives of the potential energy.",
         ),
-        entries=letters.entries("g", context.robot.n, 1),
+        entries=letters.entries_of_column("g", context.robot.n),
         detail=Detail.BRIEF,
     )

@@ -228,7 +228,7 @@ def _task(parsed: ParsedTask | None) -> Task | None:
 
 
 def default_task(robot: Robot) -> Task:
-    """The coordinates of the tip that move."""
+    """The coordinates of the tip that move, or all where it never does."""
     tip = last_origin(robot)
     moving = [axis for axis in range(3) if robot.ring.depends_on_coordinates(tip[axis, 0])]
-    return Task(tuple(coordinate_of(TIP, axis) for axis in moving), is_default=True)
+    return Task(tuple(coordinate_of(TIP, axis) for axis in moving or range(3)), is_default=True)

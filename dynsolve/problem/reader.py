@@ -34,7 +34,7 @@ from dynsolve.problem.specification import CONVENTION, DRAWING, OF_A_TABLE, PROB
 from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import DHTable, read_table
 from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
-from dynsolve.robot.model import Convention
+from dynsolve.robot.model import Convention, Robot
 
 if TYPE_CHECKING:  # a file with a table needs neither
     from dynsolve.problem.candidates import ParsedCandidates
@@ -106,6 +106,8 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
     title = free_text(faults, fields.get("title"), "title") or Path(file).stem
     source = free_text(faults, fields.get("source"), "source")
     robot = build_robot(faults, parsed, exercise.asked, exercise.written)
+    if robot is not None:
+        _check_task(faults, fields, robot)
     faults.raise_errors()
     assert robot is not None
     problem = Problem(
@@ -126,6 +128,16 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         warnings=tuple(faults.warnings),
     )
     return Reading(problem, parsed, fields, faults)
+
+
+def _check_task(faults: Faults, fields: Fields, robot: Robot) -> None:
+    """The tip moves, where its coordinates are the task."""
+    task = robot.questions.task
+    if task is not None and task.is_default and not task.entries:
+        asking = (fields.get(key) for key in ("find", "marks", "velocity", "acceleration"))
+        span = next((node.span for node in asking if node is not None), (0, 0))
+        help = "say what it is to do: task: [q1], task: [P.x] of a point of `points`, or task: twist"
+        faults.error(span, "the tip of this arm does not move, so that it has no task", help)
 
 
 def _root_fields(faults: Faults, root: YamlNode | None) -> Fields | None:

@@ -63,6 +63,10 @@ class Kind(Enum):
     """A space, by a matrix whose columns span it."""
 
 
+FORMED = (Kind.VALUE, Kind.SPAN)
+"""The kinds of quantities that have a compact form."""
+
+
 Size = int | Literal["n", "m", "c", "any"]
 """Rows or columns; n is the number of coordinates, m that of the components of the task, c of constraints.
 

@@ -117,6 +117,7 @@ NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r"
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
 LOST = Row((Letter("N", style="script"), Parenthesized(Transpose(bold("J", Symbol("r"))))))
 TASK = bold("r")
+STEADY_ENERGY = Letter("V")
 TASK_OF_Q = Row((TASK, Parenthesized(Q)))
 FRAME_OF_Q = Row((bold("H"), Parenthesized(Q)))
 J_TASK = bold("J", Symbol("r"))
@@ -269,8 +270,11 @@ def entry(letter: str, *indices: int) -> Letter:
     return Letter(letter, Row(tuple(parts)))
 
 
-def entries(letter: str, n: int, columns: int) -> tuple[tuple[Node, ...], ...]:
-    """The names of the entries of a matrix; of a column vector, one index each."""
-    if columns == 1:
-        return tuple((entry(letter, i + 1),) for i in range(n))
-    return tuple(tuple(entry(letter, i + 1, j + 1) for j in range(columns)) for i in range(n))
+def entries(letter: str, n: int) -> tuple[tuple[Node, ...], ...]:
+    """The names of the entries of a square matrix."""
+    return tuple(tuple(entry(letter, i + 1, j + 1) for j in range(n)) for i in range(n))
+
+
+def entries_of_column(letter: str, n: int) -> tuple[tuple[Node, ...], ...]:
+    """The names of the entries of a column."""
+    return tuple((entry(letter, i + 1),) for i in range(n))

@@ -305,8 +305,9 @@ class _Page(MarkupPage):
             return
         matrix = _lone_matrix(node)
         widest = max(piece.width for piece in self.splitter.pieces(node))
-        if widest > PAGE and isinstance(node, Row) and not formula.optional:
-            for part in listed(node):
+        beside = list(listed(node)) if isinstance(node, Row) else []
+        if widest > PAGE and len(beside) > 1 and not formula.optional:
+            for part in beside:
                 yield from self.lines(part, formula, room)
         elif widest <= PAGE or matrix is None:
             yield self.broken(node, room)

@@ -72,8 +72,9 @@ class Typesetter:
 
     def _parts(self, node: Node, formula: Formula) -> Iterator[Line]:
         """Formulas that stand side by side with commas: as many on a line as fit, a wide one on its own."""
-        if isinstance(node, Row) and not all(self._fits(part) for part in listed(node)):
-            for part in listed(node):
+        beside = list(listed(node)) if isinstance(node, Row) else []
+        if len(beside) > 1 and not all(map(self._fits, beside)):
+            for part in beside:
                 yield from self._parts(part, formula)
         elif isinstance(node, Relation) and self.ruler.width(node) > self.room:
             yield from self._chain(node, formula)

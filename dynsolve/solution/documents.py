@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import (
@@ -21,6 +22,7 @@ from dynsolve.document import (
     Uses,
 )
 from dynsolve.document.figures import ArmFigure, Figure
+from dynsolve.errors import attempted
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import (
     CONSTANTS_LIST,
@@ -68,23 +70,44 @@ def solution_document(
     makes the pictures of steps that have one, where there can be any.
     """
     stages = None if stages is None else tuple(stages)
-    short = solution.abbreviated(abbreviate)
-    steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
+    made = partial(_document, solution, detail, stages, drawn)
+    names = "what is written in names"
+    short = attempted(lambda: solution.abbreviated(abbreviate), lambda: None, names)
+    return made(None) if short is None else attempted(lambda: made(short), lambda: made(None), names)
+
+
+def _document(
+    solution: Dynamics,
+    detail: Detail,
+    stages: tuple[str, ...] | None,
+    drawn: Drawn | None,
+    short: Abbreviated | None,
+) -> Document:
+    robot = solution.robot
+    steps = tuple(measured_steps(solution.explain(stages, short), robot, solution.style))
     derivation = (
         *_stages(solution, detail, steps, short, drawn),
-        *_numbers(solution, detail, stages),
-        *summary_blocks(
-            solution.robot, steps, detail, short, asked=solution.problem.find, is_short=solution.is_short
+        *_part("the numbers", lambda: _numbers(solution, detail, stages)),
+        *_part(
+            "the summary",
+            lambda: summary_blocks(
+                robot, steps, detail, short, asked=solution.problem.find, is_short=solution.is_short
+            ),
         ),
     )
-    stated = tuple(_statement(solution, stages))
+    stated = _part("what is given", lambda: _statement(solution, stages))
     return Document((
         *_opening(solution, _sources(steps, detail, short)),
         *stated,
-        *_notation(solution, (*stated, *derivation), detail, short),
+        *_part("the notation", lambda: _notation(solution, (*stated, *derivation), detail, short)),
         *derivation,
         *_closing(solution),
     ))  # fmt: skip
+
+
+def _part(what: str, made: Callable[[], Iterable[Block]]) -> tuple[Block, ...]:
+    """A part of the document beside its steps; nothing where it cannot be made."""
+    return attempted(lambda: tuple(made()), tuple, what)
 
 
 def _statement(solution: Dynamics, stages: Iterable[str] | None) -> Iterator[Block]:
@@ -242,8 +265,9 @@ def step_blocks(
     """
     if detail > Detail.BRIEF and step.why and not _opens_way(step):
         yield Text(step.why)
-    if detail > Detail.BRIEF and step.figure and drawn and (picture := drawn(step.figure)):
-        yield picture
+    if detail > Detail.BRIEF and (figure := step.figure) and drawn:
+        picture = attempted(lambda: drawn(figure), lambda: None, f"the picture of {step.title}")
+        yield from () if picture is None else (picture,)
     table = () if step.table is None else (Table(step.table.header, step.table.rows),)
     yield from () if step.table_last else table
     if detail > Detail.BRIEF:

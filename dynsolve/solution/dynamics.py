@@ -18,7 +18,7 @@ from dynsolve.explain.step import Step
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
-from dynsolve.quantities.family import Kind
+from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import quantities
 from dynsolve.robot.model import Robot
 from dynsolve.solution.given_axes import check_axes
@@ -210,15 +210,11 @@ def _with_state(problem: Problem) -> Problem:
     return with_reached_state(problem)
 
 
-_FORMULAS = (Kind.VALUE, Kind.SPAN)
-"""The kinds of quantities that have a compact form."""
-
-
 def _make_all(forms: Forms, progress: Progress) -> None:
     """Make every compact form that is shown; done only where somebody watches the progress."""
     known = quantities(forms.robot)
     made = [(rule.name, known.of_rule(rule.name)) for rule in course_rules(forms.robot)]
-    shown = [name for name, q in made if name != "christoffel" and (q is None or q.family.kind in _FORMULAS)]
+    shown = [name for name, q in made if name != "christoffel" and (q is None or q.family.kind in FORMED)]
     for done, name in enumerate(shown):
         progress(done, len(shown))
         forms(name)

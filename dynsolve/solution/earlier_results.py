@@ -59,8 +59,8 @@ class EarlierResults:
             if results is None:  # a further result of an earlier step, by its own label
                 labels.append(name)
                 continue
-            if place:
-                labels.append(results[int(place) - 1][1])
+            if place:  # a step that is shown in another form may not have it
+                labels += [label for _, label in results[int(place) - 1 : int(place)]]
                 continue
             cited = [label for node, label in results if not parts.isdisjoint(_left_sides(node))]
             labels += cited or [label for _, label in results]

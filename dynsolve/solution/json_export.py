@@ -120,6 +120,11 @@ class _Exporter:
             from dynsolve.solution.stability_export import beside_equilibria
 
             results |= dict(beside_equilibria(self.configurations, self.python))
+        if isinstance(results.get("singular"), list):
+            from dynsolve.solution.stability_export import existence
+
+            found = self.solution.values["singular"]
+            results |= dict(existence("singular", self.configurations, self.python, found.exist))
         if "inverse" in results and self.of is None:
             results |= dict(beside_branches(self.configurations, self.prose))
         return results | dict(table_results(self.solution, self.python))

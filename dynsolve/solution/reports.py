@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from dynsolve.errors import attempted
 from dynsolve.quantities.stages import Stage
 from dynsolve.render.formats import Format
 
@@ -60,7 +61,8 @@ def report(
     drawn = _drawn(solution.problem, style) if format in PICTURED else None
     document = solution_document(solution, shown, stages, Abbreviate(abbreviate), drawn)
     if solution.robot.has_table and format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
-        document = _with_picture(document, solution, star)
+        plain = document
+        document = attempted(lambda: _with_picture(plain, solution, star), lambda: plain, "the picture")
     return rendered(document, style, format, detail, fragment)
 
 

@@ -21,15 +21,27 @@ def beside_equilibria(shown: ConfigurationForms, printer: PythonPrinter) -> Iter
     found: Equilibria = shown.values["equilibria"]
 
     def written(bounds: Sequence[Bound]) -> list[str]:
-        return [plain_inequality(shown.inequality(bound), printer) for bound in bounds]
+        return inequalities(shown, printer, bounds)
 
     def told(point: Point) -> dict[str, Any]:
         conditions = {"stable_if": written(point.conditions)} if point.conditions else {}
         return {**angles(point.values), "stability": point.stability.value, **conditions}
 
     yield "equilibria_stability", [[told(point) for point in points] for points in found.points]
-    if any(found.exist):
-        yield "equilibria_exist", [written(bounds) for bounds in found.exist]
+    yield from existence("equilibria", shown, printer, found.exist)
+
+
+def existence(
+    name: str, shown: ConfigurationForms, printer: PythonPrinter, exist: Sequence[Sequence[Bound]]
+) -> Iterator[tuple[str, list[list[str]]]]:
+    """Beside a set of alternatives the inequalities under which each is there, if any is not always."""
+    if any(exist):
+        yield f"{name}_exist", [inequalities(shown, printer, bounds) for bounds in exist]
+
+
+def inequalities(shown: ConfigurationForms, printer: PythonPrinter, bounds: Sequence[Bound]) -> list[str]:
+    """Inequalities as text."""
+    return [plain_inequality(shown.inequality(bound), printer) for bound in bounds]
 
 
 def angles(values: Values) -> dict[str, str]:

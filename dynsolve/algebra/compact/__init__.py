@@ -27,6 +27,9 @@ it keeps the shorter result.
    (`atoms`; `ring_atoms` makes those of a ring); `monomials` has the arithmetic.
    `matrix_factor` finds what all entries of a matrix share.
 
+What comes out is held to its polynomial, and the plain polynomial stands in its place if it is not equal to
+it (`proof`).
+
 Add a form of sines and cosines in `trig_forms.trig_forms`: the choice takes it where it
 is cheaper, and nothing else needs to know.
 """

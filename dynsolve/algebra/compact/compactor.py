@@ -11,10 +11,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 
 from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.groups import angle_groups
 from dynsolve.algebra.compact.monomials import Monomial, Polynomial, multiply
+from dynsolve.algebra.compact.proof import Proof, plain_form
 from dynsolve.algebra.compact.ring_atoms import RingAtoms
 from dynsolve.algebra.compact.squares import square_in
 from dynsolve.algebra.compact.terms import (
@@ -32,6 +34,7 @@ from dynsolve.algebra.compact.trig_forms import TrigMonomial, TrigPolynomial
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
+from dynsolve.errors import attempted, warn_left_out
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import ZERO, Node
@@ -82,6 +85,7 @@ class Compactor:
         self._groups = angle_groups(ring, parallel)
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal)
+        self._proof = Proof(ring)
         self._angles_outside = angles_outside
         self._large = large
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
@@ -91,15 +95,23 @@ class Compactor:
     # -- the entrance ------------------------------------------------------------------------------
 
     def form(self, expr: Expr) -> Node:
-        """The compact tree of an expression."""
+        """The compact tree of an expression; its plain form where that is not equal to its value."""
         if expr.is_zero:
             return ZERO
         key = str(expr.poly)
         found = self._forms.get(key)
         if found is None:
-            layout, terms = read_terms(expr, [group.places for group in self._groups], self._atoms.kinds)
-            found = self._forms[key] = self.collector.with_plus(self._by_rates(layout, terms))
+            plain = partial(plain_form, expr)
+            found = attempted(partial(self._collected, expr), plain, "a compact form")
+            if not self._proof.holds(expr, found):
+                warn_left_out("a compact form", "it is not equal to its value")
+                found = plain()
+            self._forms[key] = found
         return found
+
+    def _collected(self, expr: Expr) -> Node:
+        layout, terms = read_terms(expr, [group.places for group in self._groups], self._atoms.kinds)
+        return self.collector.with_plus(self._by_rates(layout, terms))
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:
         """The compact trees of a matrix's entries."""

@@ -133,8 +133,9 @@ def read_terms(
     order = [*(i for _, places in present for i in places), *layout.symbols]
     if not order:
         return layout, {(): _factor(expr.poly.leading_coefficient())}
-    # Reading through a ring of these generators alone is several times faster.
-    small = fmpq_mpoly_ctx.get(("x", len(order)), Ordering.lex)
+    # Reading through a ring of these generators alone is several times faster.  FLINT has one context for
+    # one name and size, and projects nothing onto the polynomial's own: so it has another name.
+    small = fmpq_mpoly_ctx.get(("term", len(order)), Ordering.lex)
     place = {i: k for k, i in enumerate(order)}
     projected = expr.poly.project_to_context(small, {i: place[i] for i in used})
     return layout, {tuple(map(int, e)): _factor(f) for e, f in projected.to_dict().items()}

@@ -1,39 +1,59 @@
 """Verdicts on the branches of the inverse kinematics, whose values of the task are names.
 
-A branch is put into r(q) at values that random configurations reach, of a fixed seed; it is right
-where it gives them back, whatever its formula.
+A branch is put into r(q) at values that configurations in all quadrants reach, within the limits of the
+joints where there are any; it is right where it gives them back, whatever its formula.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.set_verdict import INCOMPLETE, SetVerdict
 from dynsolve.answers.submission import Part
-from dynsolve.derivation.configuration_check import on_branch, reaches, states_of
+from dynsolve.derivation.configuration_check import reaches, solution_of
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 from dynsolve.explain.configurations import ConfigurationForms
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tokens import ARCS
+from dynsolve.notation.tree import Function, Node
 from dynsolve.notation.tree_values import compile_trees
-from dynsolve.notation.walk import names_in, with_atan2_exchanged
+from dynsolve.notation.walk import names_in, walk, with_atan2_exchanged
 from dynsolve.robot.model import Robot
 
 Formulas = Mapping[str, Node]
 """A branch: the formula of each coordinate."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Values of the task that are reached, by name too, with the key's branches that are right there.
+
+    The others are there, but their conditions do not hold.
+    """
+
+    at: Mapping[str, float]
+    reached: Sequence[float]
+    right: Sequence[Mapping[str, float]]
+    others: Sequence[Mapping[str, float]]
+
+
 class BranchKey:
     """The branches of one problem; `r` is its task and `task` the formula of that.
 
-    `numbers` are the values that the problem gives.
+    `states` are configurations with values for the parameters.
     """
 
     def __init__(
-        self, robot: Robot, r: Matrix, task: Node, shown: ConfigurationForms, numbers: Mapping[str, float]
+        self,
+        robot: Robot,
+        r: Matrix,
+        task: Node,
+        shown: ConfigurationForms,
+        states: Sequence[Mapping[str, float]],
     ) -> None:
-        self.robot, self.shown, self.numbers = robot, shown, numbers
+        self.robot, self.shown, self.states = robot, shown, states
         self._task, self._angles = compile_trees([task]), angle_rows(r)
 
     def verdict(self, alternatives: Sequence[Sequence[Part]]) -> SetVerdict:
@@ -50,37 +70,57 @@ class BranchKey:
         free = self.shown.solved.solving.free if self.shown.solved is not None else ()
         return frozenset(q.name for q in self.robot.coordinates) - set(free)
 
-    def _compared(self, given: Sequence[Formulas]) -> SetVerdict:
-        names = self._names
-        for number, branch in enumerate(given, 1):
-            if not names <= branch.keys():
-                return SetVerdict(False, "branch_lacks_coordinate", number)
-        met = [False] * len(given)
-        is_incomplete = not given
-        for values in self._states():
+    @cached_property
+    def _places(self) -> list[_Place]:
+        """What is to be reached at each state, and what the key has there."""
+        solutions = [solution_of(branch) for branch in self.shown.inverse]
+        found = []
+        for values in self.states:
             reached = reaches(self._task, values)
-            at = {name: value for name, value in values.items() if name not in names}
+            at = {name: value for name, value in values.items() if name not in self._names}
             at |= dict(zip(self.robot.questions.reached, reached, strict=True))
-            theirs = [on_branch(in_order(branch), (), at) for branch in given]
-            for number, q in enumerate(theirs, 1):
+            sides: dict[bool, list[Mapping[str, float]]] = {True: [], False: []}
+            for q in (solution(at) for solution in solutions):
                 if q is not None:
-                    met[number - 1] = True
-                    if not near(reaches(self._task, q), reached, self._angles):
-                        return SetVerdict(False, "branch_misses", number)
-            branches = zip(self.shown.inverse, self.shown.when, strict=True)
-            mine = [q for q in (on_branch(*branch, at) for branch in branches) if q is not None]
-            present = [q for q in theirs if q is not None]
-            is_incomplete = is_incomplete or not all(
-                any(same_configuration(self.robot.ring, q, other) for other in present) for q in mine
-            )
-        if not all(met):
-            return SetVerdict(False, "branch_never_exists", met.index(False) + 1)
+                    sides[self._reaches(q, reached)].append(q)
+            found.append(_Place(at, reached, sides[True], sides[False]))
+        return found
+
+    def _reaches(self, q: Mapping[str, float], reached: Sequence[float]) -> bool:
+        return near(reaches(self._task, q), reached, self._angles)
+
+    def _is_among(self, q: Mapping[str, float], others: Iterable[Mapping[str, float]]) -> bool:
+        return any(same_configuration(self.robot.ring, q, other) for other in others)
+
+    def _compared(self, given: Sequence[Formulas]) -> SetVerdict:
+        for number, branch in enumerate(given, 1):
+            if not self._names <= branch.keys():
+                return SetVerdict(False, "branch_lacks_coordinate", number)
+        theirs = [solution_of(in_order(branch)) for branch in given]
+        met: list[set[bool]] = [set() for _ in given]
+        is_incomplete = not given
+        for place in self._places:
+            present = []
+            for solution, seen in zip(theirs, met, strict=True):
+                q = solution(place.at)
+                if q is not None and not self._is_among(q, place.others):
+                    present.append(q)
+                    seen.add(self._reaches(q, place.reached))
+            is_incomplete = is_incomplete or not all(self._is_among(q, present) for q in place.right)
+        for number, (branch, seen) in enumerate(zip(given, met, strict=True), 1):
+            if seen == {True, False} and _has_half_a_turn(branch):
+                return SetVerdict(False, "quadrant_lost", number)
+            if seen != {True}:
+                return SetVerdict(False, "branch_misses" if seen else "branch_never_exists", number)
         if is_incomplete and (self.robot.questions.all_branches or not given):
             return SetVerdict(False, "branches_missing" if given else "is_reachable")
         return SetVerdict(True, notes=(INCOMPLETE,) if is_incomplete else ())
 
-    def _states(self) -> Iterator[dict[str, float]]:
-        return ({**values, **self.numbers} for values in states_of(self.robot))
+
+def _has_half_a_turn(branch: Formulas) -> bool:
+    """Whether an angle comes from a function whose values go half way round."""
+    parts = (part for node in branch.values() for part in walk(node))
+    return any(isinstance(part, Function) and part.name in {*ARCS} - {"atan2"} for part in parts)
 
 
 def branches_of(alternatives: Sequence[Sequence[Part]]) -> list[dict[str, Node]]:

@@ -1,7 +1,7 @@
 """Verdicts on sets of configurations: singular ones, and the branches of the inverse kinematics.
 
 They are held in numbers, at points of a fixed seed.  A branch is put into r(q) at values that
-random configurations reach; it is right where it gives them back, whatever its formula.  Of a set
+configurations of samples reach; it is right where it gives them back, whatever its formula.  Of a set
 of equations, points on each alternative are found by Newton's method: at every point of the key
 the student's set must hold, and at every point of the student's the Jacobian must lose rank.
 """
@@ -14,6 +14,7 @@ from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING
 
+from dynsolve.algebra.sampling import WIDEST
 from dynsolve.answers.judging.branches import BranchKey
 from dynsolve.answers.judging.equilibria import EquilibriumKey
 from dynsolve.answers.judging.held_equations import held_equations
@@ -23,6 +24,7 @@ from dynsolve.derivation.balance_check import balanced_points, is_balanced
 from dynsolve.derivation.configuration_check import (
     rank_of,
     states_of,
+    with_half_turns,
     zero_near,
 )
 from dynsolve.derivation.equilibrium_check import balanced_forces
@@ -89,7 +91,9 @@ class ConfigurationKey:
 
             return TargetKey(self.shown.target, self.exact, self.robot.questions.all_branches)
         (task,) = self.values.rules["inverse"].inputs
-        return BranchKey(self.robot, self.values[task], self.forms(task), self.shown, self.numbers)
+        form = self.forms(task)
+        states = [*map(self._limited, self._states(compile_trees([form])))]
+        return BranchKey(self.robot, self.values[task], form, self.shown, states)
 
     @cached_property
     def _equilibria(self) -> EquilibriumKey:
@@ -135,8 +139,17 @@ class ConfigurationKey:
             names |= set(self.robot.questions.reached)
         return names_in(*(part.node for one in answer.alternatives for part in one)) <= names
 
-    def _states(self) -> Iterator[dict[str, float]]:
-        return ({**values, **self.numbers} for values in states_of(self.robot))
+    def _states(self, program: Program) -> list[dict[str, float]]:
+        return [{**values, **self.numbers} for values in states_of(self.robot, program)]
+
+    def _limited(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The configuration, moved into the limits of the joints in proportion."""
+        limited = dict(values)
+        for one in self.robot.questions.limits:
+            low, high = compile_trees([one.low, one.high]).run(values)
+            widest = pi if one.coordinate in self._turning else WIDEST
+            limited[one.coordinate] = low + (high - low) * (values[one.coordinate] + widest) / (2 * widest)
+        return limited
 
     # -- equations ---------------------------------------------------------------------------------
 
@@ -166,11 +179,11 @@ class ConfigurationKey:
     def _turning(self) -> tuple[str, ...]:
         return tuple(q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
 
+    @cached_property
+    def _starts(self) -> list[dict[str, float]]:
+        return self._states(self._jacobian)
+
     def _points(self, zeros: Program) -> Iterator[dict[str, float]]:
-        """Configurations at which everything is 0, looked for all around the circle."""
-        for values in self._states():
-            turned = {name: values[name] + pi for name in self._turning}
-            for start in (values, {**values, **turned}):
-                found = zero_near(self.robot, zeros, start)
-                if found is not None:
-                    yield found
+        """Configurations at which everything is 0, looked for from all quadrants."""
+        found = (zero_near(self.robot, zeros, start) for start in self._starts)
+        return with_half_turns(self.robot, zeros, (q for q in found if q is not None))

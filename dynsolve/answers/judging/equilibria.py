@@ -13,7 +13,8 @@ from math import pi
 from dynsolve.answers.judging.held_equations import held_equations
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import Part
-from dynsolve.derivation.equilibrium_check import in_balance, is_zero, starts, zero_near
+from dynsolve.derivation.configuration_check import is_zero, with_half_turns
+from dynsolve.derivation.equilibrium_check import in_balance, starts, zero_near
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees
@@ -58,10 +59,9 @@ class EquilibriumKey:
     def _points(self, conditions: tuple[Node, ...]) -> Iterator[dict[str, float]]:
         """Configurations at which everything is 0; any at all where there is no condition."""
         program = compile_trees(list(conditions))
-        for start in starts(self.robot, self.numbers):
-            found = zero_near(self.robot, program, start) if conditions else start
-            if found is not None:
-                yield found
+        begun = starts(self.robot, self.numbers)
+        found = (zero_near(self.robot, program, start) if conditions else start for start in begun)
+        return with_half_turns(self.robot, program, (q for q in found if q is not None))
 
     def _turned(self, q: dict[str, float]) -> Iterator[dict[str, float]]:
         """The configuration, and those that are the same by whole turns of angles that turn together."""

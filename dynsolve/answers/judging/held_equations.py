@@ -8,9 +8,10 @@ from math import pi, remainder
 
 from dynsolve.derivation.configuration_check import NO_VALUE
 from dynsolve.derivation.reached import CLOSE
-from dynsolve.notation.tree import Function, Node
+from dynsolve.notation.tokens import ARCS
+from dynsolve.notation.tree import Function, Node, Number
 from dynsolve.notation.tree_values import Program, compile_trees
-from dynsolve.notation.walk import names_in, walk
+from dynsolve.notation.walk import mapped, names_in, walk
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,12 @@ def held_equations(
     are_angles = []
     for node in nodes:
         within = names_in(node).intersection(coordinates)
-        turned = any(isinstance(part, Function) and within & names_in(part) for part in walk(node))
+        outside = mapped(node, _without_angle)
+        turned = any(isinstance(part, Function) and within & names_in(part) for part in walk(outside))
         are_angles.append(bool(within) and within <= set(periodic) and not turned)
     return HeldEquations(compile_trees(nodes), tuple(are_angles))
+
+
+def _without_angle(part: Node) -> Node:
+    """0 for an angle that a function gives, which like a coordinate counts modulo 2π."""
+    return Number(0) if isinstance(part, Function) and part.name in ARCS else part

@@ -10,19 +10,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from random import Random
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.fraction import RationalExpr, add, equal, multiply
 from dynsolve.algebra.fraction_matrix import FractionMatrix, fraction_of
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.sampling import samples
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.judging.other_solutions import Other
 from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.rate_check import orthonormal
-from dynsolve.derivation.verification import SEED
 
 if TYPE_CHECKING:
     from dynsolve.answers.judging.answer_values import AnswerValue
@@ -140,7 +140,7 @@ class OwnConstraint:
         ours, keys = self._numbers(mine, at), self._numbers(theirs, at)
         if ours is None or keys is None:
             return float("inf")
-        size = max(1.0, *(abs(x) for row in keys for x in row))
+        size = max((1.0, *(abs(x) for row in keys for x in row)))
         return (
             max(
                 abs(a - b)
@@ -164,21 +164,11 @@ class OwnConstraint:
 
     @cached_property
     def states(self) -> list[dict[str, float]]:
-        """Random states with h = 0 and A_c q̇ = 0."""
-        random = Random(SEED)  # noqa: S311 - the same states every time are wanted
-        found: list[dict[str, float]] = []
-        for _ in range(_TRIES):
-            state = self._state(random)
-            if state is not None:
-                found.append(state)
-            if len(found) == STATES:
-                break
-        return found
+        """States with h = 0 and A_c q̇ = 0."""
+        tried = map(self._state, islice(samples(self.ring), _TRIES))
+        return list(islice((state for state in tried if state is not None), STATES))
 
-    def _state(self, random: Random) -> dict[str, float] | None:
-        at = {name: random.uniform(0.4, 1.6) for name in self.ring.parameters}
-        for q in self.robot.coordinates:
-            at |= {name: random.uniform(-1.5, 1.5) for name in (q.name, q.velocity, q.acceleration)}
+    def _state(self, at: dict[str, float]) -> dict[str, float] | None:
         try:
             if not self._moved_to_zero(at):
                 return None

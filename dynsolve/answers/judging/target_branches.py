@@ -94,13 +94,13 @@ class TargetKey:
         """The values of a branch, None where it has none."""
         unknown = {name: 0.0 for name, _ in self._coordinates if name not in branch}
         at = {**self.target.numbers, **unknown}
-        values = on_branch(in_order(branch), (), at)
+        values = on_branch(in_order(branch), at)
         if values is None:
             return None
         slack, task = dict.fromkeys(values, 0.0), self.target.task_at(values)
         task_slack = [0.0] * len(task)
         for moved in _moved(branch, self.exact):
-            there = on_branch(in_order(moved), (), at)
+            there = on_branch(in_order(moved), at)
             if there is None:
                 continue
             for name, kind in self._coordinates:
@@ -121,7 +121,7 @@ class TargetKey:
 
     def _is(self, one: _Given, key: Configuration) -> bool:
         free = {name: one.values[name] for name in key.free}
-        mine = on_branch(key.formulas, (), {**self.target.numbers, **free}) if free else key.numbers
+        mine = on_branch(key.formulas, {**self.target.numbers, **free}) if free else key.numbers
         return mine is not None and all(
             abs(gap(kind, one.values[name], mine[name])) <= one.slack[name] * (1 + CLOSE) + CLOSE
             for name, kind in self._coordinates

@@ -1,4 +1,4 @@
-"""The sets of choices that solve the task: every solution is put into r(q), at random reachable points.
+"""The sets of choices that solve the task: every solution is put into r(q), at points that samples reach.
 
 An equation that was squared on the way may have solutions that the task has not.  A branch
 is kept where it solves the task wherever it exists; all of them together must hold the
@@ -7,21 +7,18 @@ configuration that each point was made from.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
-from random import Random
+from itertools import islice, product
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
+from dynsolve.algebra.sampling import ENOUGH, samples
 from dynsolve.derivation.inverse.solving import Relation, Solving
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 
-POINTS = 12
-"""So many random configurations are tried."""
-
-MORE_POINTS = 48
-"""So many where there are conditions, which may leave a branch few of them."""
+MOST = 8 * ENOUGH
+"""So many samples are tried for a branch that exists at few of them, as where a3 > a1 + a2."""
 
 Choice = tuple[int, ...]
 """Of each step of a solving which of its solutions is taken, from 0."""
@@ -40,11 +37,12 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
 
     Where there are conditions on the values, these may tell at which.
     """
-    random = Random(2006)  # noqa: S311  (test points, the same in every run)
     candidates = [Branch(choice) for choice in product(*(range(step.count) for step in solving.solved))]
     verdicts: dict[Branch, set[bool]] = {branch: set() for branch in candidates}
-    for _ in range(MORE_POINTS if solving.conditions > 0 else POINTS):
-        state = random_state(solving, random)
+    enough = 3 * ENOUGH if solving.conditions > 0 else ENOUGH
+    for number, state in enumerate(islice(samples(solving.ring), MOST)):
+        if number >= enough and all(verdicts.values()):
+            break
         reached = reach_of(solving, state)
         found = False
         for branch in candidates:
@@ -88,18 +86,3 @@ def solves_task(solving: Solving, q: Mapping[str, float], reached: Mapping[str, 
     """Whether r(q) is what was asked for; angles modulo 2π."""
     mine = [evaluate(entry, q) for entry in solving.task.entries]
     return near(mine, [reached[name] for name in solving.values], angle_rows(solving.task))
-
-
-def random_state(solving: Solving, random: Random) -> dict[str, float]:
-    """Values of the coordinates and of the parameters, lengths positive."""
-    return dict(_values(solving, random))
-
-
-def _values(solving: Solving, random: Random) -> Iterator[tuple[str, float]]:
-    ring = solving.ring
-    size = random.choice((1, 4))  # some lengths of joints are long beside those of links
-    for name, kind in ring.coordinates:
-        yield name, random.uniform(-3, 3) if kind == "revolute" else random.uniform(-2, 2) * size
-    for name in ring.parameters:
-        if name not in solving.values:
-            yield name, random.uniform(0.5, 1.5)

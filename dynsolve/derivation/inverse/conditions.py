@@ -10,33 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from math import pi
-from random import Random
 
 from dynsolve.algebra.floats import evaluate
+from dynsolve.algebra.sampling import ENOUGH, Sample, numbered, samples
 from dynsolve.derivation.elimination import rank, shortest_step
-from dynsolve.derivation.inverse.branches import (
-    Branch,
-    configuration,
-    random_state,
-    reach_of,
-    solves_task,
-)
+from dynsolve.derivation.inverse.branches import MOST, Branch, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.solving import Relation, Solving
 from dynsolve.derivation.reached import CLOSE
 
 Values = Mapping[str, float]
-
-POINTS, FEW = 24, 6
-"""So many random configurations are tried; few of a pose, which has twelve values."""
 
 _AWAY = 0.7
 """So far from values that are reached, or from their mirror images, others are taken; all are about 1."""
 
 _AWAY_FROM_ROTATION = 0.15
 """The same for the entries of a rotation, of which others are then made."""
-
-_HALF_TURNS = ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
 
 _STEP = 1e-5
 _NEWTON_STEPS = 20
@@ -57,7 +47,7 @@ class _Conditions:
 
     def found(self) -> tuple[Relation, ...]:
         """The simplest relations without coordinates, and the components that these do not bring about."""
-        points = list(self._points())
+        points = list(islice(self._points(), ENOUGH))
         solved = [at for at in points if self._solves(at)]
         chosen = self._independent(solved)
         places = [*points, *self._elsewhere((*self.solving.identities, *chosen), solved)]
@@ -73,10 +63,8 @@ class _Conditions:
         return tuple(chosen)
 
     def _points(self) -> Iterator[dict[str, float]]:
-        """Values of the task and of the parameters, of random configurations, where the branch exists."""
-        random = Random(1981)  # noqa: S311  (test points, the same in every run)
-        for _ in range(FEW if self.solving.identities else POINTS):
-            state = random_state(self.solving, random)
+        """Values of the task and of the parameters, of samples, where the branch exists."""
+        for state in islice(samples(self.solving.ring), MOST):
             given = {**state, **reach_of(self.solving, state)}
             if configuration(self.solving, self.branch, given) is not None:
                 yield given
@@ -99,11 +87,10 @@ class _Conditions:
 
     def _elsewhere(self, chosen: Sequence[Relation], points: Sequence[Values]) -> Iterator[Values]:
         """Values that no configuration was taken for, at which the branch exists and relations hold."""
-        random = Random(1977)  # noqa: S311  (test points, the same in every run)
-        for at in points:
-            for signs in ([1] * len(self.solving.values), self._signs(random)):
+        for at, sample in zip(points, numbered(), strict=False):
+            for signs in ([1] * len(self.solving.values), self._signs(sample)):
                 moved = {
-                    name: sign * at[name] + random.uniform(-self._away, self._away)
+                    name: sign * at[name] + sample.random.uniform(-self._away, self._away)
                     for name, sign in zip(self.solving.values, signs, strict=True)
                 }
                 found = self._met(chosen, {**at, **moved})
@@ -114,12 +101,13 @@ class _Conditions:
     def _away(self) -> float:
         return _AWAY_FROM_ROTATION if self.solving.identities else _AWAY
 
-    def _signs(self, random: Random) -> list[int]:
+    def _signs(self, sample: Sample) -> list[int]:
         """Signs of the values of a mirror image; a rotation is turned by half turns, and stays one."""
         if not self.solving.identities:
-            return random.choices((1, -1), k=len(self.solving.values))
-        rows, columns = random.choices(_HALF_TURNS, k=2)
-        return [*random.choices((1, -1), k=3), *(a * b for a in rows for b in columns)]
+            return [sample.side() for _ in self.solving.values]
+        position = [sample.side() for _ in range(3)]
+        rows, columns = ((a, b, a * b) for a, b in ((sample.side(), sample.side()) for _ in range(2)))
+        return [*position, *(a * b for a in rows for b in columns)]
 
     def _met(self, chosen: Sequence[Relation], start: Values) -> Values | None:
         """Values at which relations between values hold, by Newton's method; None where it leads to none."""

@@ -9,8 +9,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Pair
-from dynsolve.algebra.positivity import is_positive
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.trig_factor import trig_quotient
 
 
 @dataclass(frozen=True)
@@ -29,25 +28,34 @@ class Condition:
         return value
 
     def reduced_together(self, others: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Several expressions where this holds, up to a factor that all of them share and is never 0."""
+        """Several expressions where this holds, up to a positive factor that all of them share."""
         for pair, sine, cosine in self._turn:
             return tuple(_at_angle(other, pair, sine, cosine) for other in others)
         for index, factor, rest in self._length:
             highest = max(
                 (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
             )
-            return tuple(_at_length(other, index, factor, rest, highest) for other in others)
-        return tuple(other.ring.zero if self._divides(other) else other for other in others)
+            even = highest + highest % 2
+            return tuple(_at_length(other, index, factor, rest, even) for other in others)
+        return tuple(other.ring.zero if self._divides(other) else self._remainder(other) for other in others)
+
+    def _remainder(self, other: Expr) -> Expr:
+        """Another expression less a multiple of this one, where that is shorter."""
+        rest = Expr(other.ring, other.ring.reduce(divmod(other.poly, self.expr.poly)[1]))
+        return rest if len(rest) < len(other) else other
 
     def _divides(self, other: Expr) -> bool:
-        return other.is_zero or any(
-            factor == self.expr or factor == -self.expr for factor, _ in trig_factors(other)
-        )
+        return trig_quotient(other, self.expr) is not None
 
     @property
     def fixes_coordinate(self) -> bool:
         """Whether an angle has few values, or a length one, where this holds."""
         return bool(self._turn or self._length)
+
+    @property
+    def fixes_length(self) -> bool:
+        """Whether it is a length that has few values."""
+        return bool(self._length)
 
     @property
     def keeps_values(self) -> bool:
@@ -69,14 +77,14 @@ class Condition:
 
     @cached_property
     def _length(self) -> list[tuple[int, Expr, Expr]]:
-        """(generator d, m, n) where the condition is m d + n = 0 with m > 0 and free of coordinates."""
+        """(generator d, m, n) where the condition is m d + n = 0 with m free of coordinates."""
         ring = self.expr.ring
         for name, kind in ring.coordinates:
             if kind != "prismatic":
                 continue
             index = ring.symbol_indices[(name, 0)]
             factor = ring.coefficient(self.expr, name)
-            if (is_positive(factor) or is_positive(-factor)) and not ring.depends_on_coordinates(factor):
+            if not factor.is_zero and not ring.depends_on_coordinates(factor):
                 return [(index, factor, self.expr - factor * ring.generator(index))]
         return []
 

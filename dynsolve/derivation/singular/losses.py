@@ -17,8 +17,10 @@ from itertools import combinations
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, minors, work
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.trig_factor import trig_factors, trig_quotient
 from dynsolve.derivation.singular.conditions import Condition
+from dynsolve.derivation.singular.core import core
+from dynsolve.derivation.singular.zeros import follows
 
 Direction = tuple[Expr, ...]
 """w, a component for each row of J."""
@@ -45,19 +47,30 @@ class Loss:
     jacobian: Matrix
 
 
-def loss(jacobian: Matrix, conditions: Sequence[Condition], greatest: int) -> Loss:
+def loss(
+    jacobian: Matrix, core_of_it: tuple[int, Matrix], conditions: Sequence[Condition], greatest: int
+) -> Loss:
     """What a Jacobian of greatest rank `greatest` loses where all conditions hold."""
-    flat = _reduced(jacobian.entries, conditions)
-    columns = jacobian.shape[1]
-    held = Matrix.of(jacobian.ring, (flat[i : i + columns] for i in range(0, len(flat), columns)))
-    rank = next(k for k in range(greatest - 1, -1, -1) if k == 0 or _has_rank(held, k, conditions))
+    pivots, rest = core_of_it
+    more, there = core(_held(rest, conditions))
+    pivots += more
+    sizes = range(min(greatest - 1 - pivots, *there.shape), 0, -1)
+    rank = pivots + next((k for k in sizes if _has_rank(there, k, conditions)), 0)
+    held = _held(jacobian, conditions)
     directions = tuple(_directions(held, rank, conditions))
     is_short = all(sum(map(len, direction)) <= LONGEST for direction in directions)
     return Loss(rank, directions if is_short else (), held)
 
 
+def _held(matrix: Matrix, conditions: Sequence[Condition]) -> Matrix:
+    """A matrix where the conditions hold, up to a factor."""
+    flat, columns = _reduced(matrix.entries, conditions), matrix.shape[1]
+    return Matrix.of(matrix.ring, (flat[i : i + columns] for i in range(0, len(flat), columns or 1)))
+
+
 def _has_rank(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
-    return any(not _reduced((minor,), conditions)[0].is_zero for minor in minors(matrix, k))
+    known = [condition.expr for condition in conditions]
+    return any(not follows(minor, known) for minor in minors(matrix, k))
 
 
 def _directions(matrix: Matrix, rank: int, conditions: Sequence[Condition]) -> Iterator[Direction]:
@@ -82,14 +95,17 @@ def _direction(
     is_large = len(matrix.rows) > MOST_SEARCHED
     if is_large:
         choices = sorted((m for m in choices if m.work <= MOST_WORK), key=lambda minors: minors.work)
+    known = [condition.expr for condition in conditions]
     found: list[Direction] = []
     for choice in choices:
         values = dict(zip(rows, _reduced(choice.cofactors(), conditions), strict=True))
-        if not values[row].is_zero:
+        if not follows(values[row], known):
             zero = matrix.ring.zero
-            found.append(_without_shared(tuple(values.get(i, zero) for i in range(len(matrix.rows)))))
-            if is_large:
-                break
+            direction = _without_shared(tuple(values.get(i, zero) for i in range(len(matrix.rows))))
+            if all(follows(matrix.ring.dot(direction, column), known) for column in matrix.T.rows):
+                found.append(direction)
+                if is_large:
+                    break
     return min(found, key=lambda direction: sum(map(len, direction)), default=None)
 
 
@@ -128,7 +144,7 @@ def _without_shared(direction: Direction) -> Direction:
     values = [value for value in direction if not value.is_zero]
     for factor, times in trig_factors(min(values, key=len)):
         for _ in range(times):
-            divided = [_divided(value, factor) for value in direction]
+            divided = [trig_quotient(value, factor) for value in direction]
             if any(value is None for value in divided):
                 break
             direction = tuple(value for value in divided if value is not None)
@@ -136,20 +152,3 @@ def _without_shared(direction: Direction) -> Direction:
     sign = -1 if all(f < 0 for value in direction for f in value.poly.coeffs()) else 1
     shared = Fraction(abs(int(leading.p)), int(leading.q)) * sign
     return tuple(value * (1 / shared) for value in direction)
-
-
-def _divided(value: Expr, factor: Expr) -> Expr | None:
-    """value / factor where it is one of its factors, and None where it is none."""
-    if value.is_zero:
-        return value
-    product, number, is_found = value.ring.one, value.poly.leading_coefficient(), False
-    for other, times in trig_factors(value):
-        product = product * other**times
-        is_found = is_found or other == factor
-    if not is_found:
-        return None
-    number = number / product.poly.leading_coefficient()
-    result = value.ring.one
-    for other, times in trig_factors(value):
-        result = result * other ** (times - (other == factor))
-    return Expr(value.ring, result.poly * number)

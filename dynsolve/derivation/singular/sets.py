@@ -7,82 +7,171 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import minors
+from dynsolve.algebra.minors import minors, parts, work
 from dynsolve.algebra.positivity import is_positive
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.trig_factor import squares, trig_factors
+from dynsolve.derivation.existence import conditions
+from dynsolve.derivation.parameter_signs import ParameterSigns
 from dynsolve.derivation.singular.conditions import Condition
+from dynsolve.derivation.singular.core import core
 from dynsolve.derivation.singular.losses import Loss, loss
+from dynsolve.derivation.singular.zeros import can_hold, follows
 
 Alternative = tuple[Condition, ...]
 """Conditions that hold together."""
 
-MOST_ALTERNATIVES = 64
-"""So many alternatives are looked at."""
+MOST_CASE_TERMS = 5000
+"""So many terms the cases may have together; where they have more nothing is said."""
 
-MOST_TERMS = 200
+MOST_TERMS = 1000
 """A Jacobian with more terms is not looked at."""
 
-MOST_MINOR_TERMS = 1500
-"""Nor are minors with more terms together."""
+MOST_CONDITION_TERMS = 80
+"""An alternative with more terms could not be read, nor held to be there."""
+
+MOST_WORK = 3000
+"""The products of terms that the minors of a Jacobian may come to; of more those of its core are taken."""
+
+MOST_CORE_WORK = 30_000
+"""Nor is a core whose minors may come to more."""
+
+
+class TooLong(Exception):
+    """There are more cases than are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
 class SingularSet:
     """Where a matrix of greatest rank `rank` has less: at any of the `alternatives`.
 
-    `minors` are the expressions that vanish there, all in one ring.  `losses` are the rank and
-    what is lost at each alternative.
+    `minors` are the expressions that vanish there, all in one ring: those of the Jacobian, or of its
+    `core`, whose rank is less by `pivots`.  `losses` are the rank and what is lost at each alternative,
+    `exist` what the parameters must satisfy for it to be there.
     """
 
     rank: int
     minors: tuple[Expr, ...]
     alternatives: tuple[Alternative, ...]
     losses: tuple[Loss, ...] = ()
+    exist: tuple[tuple[Bound, ...], ...] = ()
+    pivots: int = 0
+    core: Matrix | None = None
 
 
 def singular_set(jacobian: Matrix) -> SingularSet | None:
     """Where a Jacobian loses rank; `jacobian` is in a ring of one angle a coordinate.
 
     Parameters count as positive: no alternative is a condition on them.  None where the
-    Jacobian or its minors are too long.
+    Jacobian, its minors or the cases are too long.
     """
     if sum(map(len, jacobian.entries)) > MOST_TERMS:
         return None
-    for rank in range(min(jacobian.shape), 0, -1):
-        found = tuple(minors(jacobian, rank))
-        if found:
-            if sum(map(len, found)) > MOST_MINOR_TERMS:
-                return None
-            alternatives = common_zeros(found)
-            losses = tuple(loss(jacobian, conditions, rank) for conditions in alternatives)
-            return SingularSet(rank, found, alternatives, losses)
-    return SingularSet(0, (), ())
+    pivots, rest = core(jacobian)
+    rank = _rank(rest)
+    if rank is None:
+        return None
+    is_full = pivots + rank == min(jacobian.shape)
+    if is_full and minors_work(jacobian, pivots + rank) <= MOST_WORK:
+        shown, found = None, tuple(minors(jacobian, pivots + rank))
+    else:
+        shown, found = rest, tuple(minors(rest, rank)) if rank else ()
+    try:
+        alternatives = common_zeros(found) if found else ()
+    except TooLong:
+        return None
+    exist = {one: bounds for one in alternatives if (bounds := existence(one)) is not None}
+    losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank) for one in exist)
+    return SingularSet(
+        pivots + rank,
+        found,
+        tuple(exist),
+        losses,
+        tuple(exist.values()),
+        0 if shown is None else pivots,
+        shown,
+    )
+
+
+def _rank(matrix: Matrix) -> int | None:
+    """The greatest rank; None where its minors are too long."""
+    for size in range(min(matrix.shape), 0, -1):
+        if minors_work(matrix, size) > MOST_CORE_WORK:
+            return None
+        if any(True for _ in minors(matrix, size)):
+            return size
+    return 0
+
+
+def existence(alternative: Alternative) -> tuple[Bound, ...] | None:
+    """What the parameters must satisfy for an alternative to be there; None where it never is."""
+    return conditions([condition.expr for condition in alternative], ParameterSigns())
 
 
 def common_zeros(values: Sequence[Expr]) -> tuple[Alternative, ...]:
-    """Where expressions are all 0, the alternatives with the fewest conditions alone."""
-    found: list[Alternative] = []
-    for alternative in _alternatives(tuple(values), ()):
-        if not any(set(known) <= set(alternative) for known in found):
-            found = [known for known in found if not set(alternative) <= set(known)]
-            found.append(alternative)
-        if len(found) >= MOST_ALTERNATIVES:
-            break
-    found = [one for one in found if not any(other is not one and _implies(one, other) for other in found)]
+    """Where expressions are all 0: alternatives of as few conditions as say it, none within another.
+
+    Raises TooLong.
+    """
+    found = list(dict.fromkeys(map(_without_repeated, _Cases().of(tuple(values), ()))))
+    if any(sum(len(condition.expr) for condition in one) > MOST_CONDITION_TERMS for one in found):
+        raise TooLong
+    for one in list(found):
+        if any(other is not one and _implies(one, other) for other in found):
+            found.remove(one)
     return tuple(_merged(found))
 
 
-def _alternatives(values: tuple[Expr, ...], held: Alternative) -> Iterator[Alternative]:
-    left = [value for value in dict.fromkeys(values) if not value.is_zero]
-    if not left:
+@dataclass
+class _Cases:
+    """The choices of a factor of each expression, and the terms that were looked at."""
+
+    terms: int = 0
+
+    def of(self, values: tuple[Expr, ...], held: Alternative) -> Iterator[Alternative]:
+        """The choices with which all values are 0, where some conditions hold already."""
+        self.terms += 1 + sum(map(len, values))
+        if self.terms > MOST_CASE_TERMS:
+            raise TooLong
+        known = [condition.expr for condition in held]
+        left = [value for value in dict.fromkeys(values) if not follows(value, known)]
+        if not left:
+            yield from self._settled(held)
+            return
+        choices = [[factor for factor, _ in trig_factors(value) if _may_vanish(factor)] for value in left]
+        for factor in min(choices, key=_effort):
+            condition, parts = Condition(factor), squares(factor)
+            if len(parts) > 1:
+                yield from self.of((*parts, *left), held)
+            elif not held or can_hold([*known, factor]):
+                rest = tuple(condition.reduced(value) for value in left)
+                yield from self.of(rest, tuple(dict.fromkeys((*held, condition))))
+
+    def _settled(self, held: Alternative) -> Iterator[Alternative]:
+        """Conditions of which none makes another shorter, or gives it a value of a coordinate."""
+        for known in sorted(held, key=lambda one: (not one.fixes_coordinate, one.fixes_length)):
+            others = {one: known.reduced(one.expr) for one in held if one is not known}
+            moved = {one: value for one, value in others.items() if value != one.expr}
+            if moved:
+                yield from self.of(tuple(moved.values()), tuple(one for one in held if one not in moved))
+                return
         yield held
-        return
-    choices = [[factor for factor, _ in trig_factors(value) if _may_vanish(factor, held)] for value in left]
-    for factor in min(choices, key=_effort):
-        condition = Condition(factor)
-        rest = tuple(condition.reduced(value) for value in left)
-        yield from _alternatives(rest, (*held, condition))
+
+
+def _without_repeated(alternative: Alternative) -> Alternative:
+    """An alternative without the conditions that follow from its others, the longest left out first."""
+    kept = list(alternative)
+    for condition in sorted(alternative, key=lambda one: -len(one.expr)):
+        others = [other.expr for other in kept if other is not condition]
+        if follows(condition.expr, others):
+            kept.remove(condition)
+    return tuple(kept)
+
+
+def minors_work(matrix: Matrix, size: int) -> int:
+    """The products of terms that all minors of a size may come to."""
+    return sum(map(work, parts(matrix, size)))
 
 
 def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
@@ -90,28 +179,15 @@ def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
     return len(factors), sum(not Condition(factor).fixes_coordinate for factor in factors)
 
 
-def _may_vanish(factor: Expr, held: Alternative) -> bool:
-    """Whether a factor is 0 at some configuration where the conditions hold, as far as its form shows.
-
-    Where sin q = 0, cos q is ±1, and its square shows that it is not 0.
-    """
-    if not factor.ring.depends_on_coordinates(factor):
-        return False
-    square = factor * factor
-    for condition in held:
-        square = condition.reduced(square)
-    return not is_positive(square) and not is_positive(factor) and not is_positive(-factor)
+def _may_vanish(factor: Expr) -> bool:
+    """Whether a factor is 0 at some configuration, as far as its form shows."""
+    return factor.ring.depends_on_coordinates(factor) and not is_positive(factor) and not is_positive(-factor)
 
 
 def _implies(one: Alternative, other: Alternative) -> bool:
     """Whether `other` holds wherever `one` does."""
-    for wanted in other:
-        value = wanted.expr
-        for condition in one:
-            value = condition.reduced(value)
-        if not value.is_zero:
-            return False
-    return not all(condition in one for condition in other) or len(other) < len(one)
+    known = [condition.expr for condition in one]
+    return all(condition in one or follows(condition.expr, known) for condition in other)
 
 
 def _merged(alternatives: list[Alternative]) -> Iterator[Alternative]:

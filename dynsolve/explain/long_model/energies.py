@@ -103,7 +103,7 @@ def coordinate_derivative(model: LongModel, q: Coordinate, step: Step) -> Step:
 
 
 def force(model: LongModel, q: Coordinate, step: Step) -> Step:
-    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k"""
+    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + friction + g_k"""
     result = equation(driving_row(model.context, q), model.formulas.force(q.index - 1))
     why = " Collected by the accelerations and the rates."
     return with_result(step, result, why)

@@ -40,7 +40,7 @@ class LongModel:
     def formulas(self) -> EntryFormulas:
         """The formulas in d_ij, c_ijk and g_k."""
         names = self.context.robot.ring.names
-        return EntryFormulas(names, self.d, self.c, self.g, _with_number_in_front)
+        return EntryFormulas(names, self.d, self.c, self.g, self.friction, _with_number_in_front)
 
     def d(self, i: int, j: int) -> Node:
         """The name of d_ij."""
@@ -54,6 +54,10 @@ class LongModel:
     def g(self, k: int) -> Node:
         """The name of g_k."""
         return ZERO if self.short.g.rows[k][0] == ZERO else letters.entry("g", k + 1)
+
+    def friction(self, k: int) -> Node:
+        """The name of the friction of a coordinate."""
+        return letters.friction(k + 1) if self.context.has_friction(k) else ZERO
 
 
 def _with_number_in_front(coefficient: Fraction | int, factors: Iterable[Factor]) -> Node:

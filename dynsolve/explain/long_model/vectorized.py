@@ -154,7 +154,7 @@ def _on_symbols(model: LongModel) -> Prose:
 
 def coriolis(model: LongModel, step: Step) -> Step:
     """C by its Christoffel symbols: an entry that stands for all, and those that are zero."""
-    names = chain.from_iterable(letters.entries("c", model.n, model.n))
+    names = chain.from_iterable(letters.entries("c", model.n))
     named = list(zip(names, chain.from_iterable(_in_symbols(model).rows), strict=True))
     full = [equation(name, entry) for name, entry in named if entry != ZERO]
     zero = [name for name, entry in named if entry == ZERO]

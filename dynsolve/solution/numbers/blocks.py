@@ -92,9 +92,9 @@ def _results(
 
 def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:
     """The names of the entries of a matrix that may be too wide for the page."""
-    n = robot.n
-    small = {"D": ("d", n), "C": ("c", n), "g": ("g", 1)}
-    return letters.entries(small[name][0], n, small[name][1]) if name in small else ()
+    if name == "g":
+        return letters.entries_of_column("g", robot.n)
+    return letters.entries(name.lower(), robot.n) if name in ("D", "C") else ()
 
 
 def _remark(robot: Robot, stage: Stage) -> Iterator[Block]:

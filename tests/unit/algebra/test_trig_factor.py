@@ -9,7 +9,7 @@ from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.trig_factor import leading, squares, trig_factors, trig_quotient
 from dynsolve.notation.text import read
 
 COORDINATES = [("d1", "prismatic"), ("q2", "revolute"), ("q3", "revolute")]
@@ -25,6 +25,10 @@ FACTORS = [
     ["cos(q2) - 1", "sin(q3)"],
     ["L*sin(q2) - d1*cos(q3)", "L + l*cos(q2)"],
     ["d1", "d1 - L"],
+    ["sqrt(2)*sin(q2) + cos(q3)", "sin(q2)"],
+    ["d1 + sqrt(2)*L", "d1 + sqrt(2)*L", "cos(q2) - sqrt(2)/2"],
+    ["d1 + sqrt(6)*L*sin(q2)", "sqrt(2)*L + sqrt(3)*cos(q3)", "1 + cos(q2)"],
+    ["sin(q2)*cos(q3) + sqrt(3)*cos(q2)*sin(q3)", "L*cos(q2) + l*sqrt(3)*sin(q3)"],
 ]
 
 
@@ -34,7 +38,8 @@ def ring_of(texts: list[str]) -> Ring:
 
 
 def same_up_to_a_number(a: Expr, b: Expr) -> bool:
-    return bool(a.poly * b.poly.leading_coefficient() == b.poly * a.poly.leading_coefficient())
+    quotient = trig_quotient(a, b)
+    return quotient is not None and leading(quotient) == quotient
 
 
 @pytest.mark.parametrize("texts", FACTORS, ids=" · ".join)
@@ -58,3 +63,19 @@ def test_what_is_irreducible_stays_whole() -> None:
 
 def test_a_number_has_no_factors() -> None:
     assert trig_factors(ring_of([]).constant(6)) == ()
+
+
+def test_a_quotient_keeps_its_number() -> None:
+    ring = ring_of(["sqrt(2)"])
+    a, b = (value_of(ring, read(text).tree) for text in ("-3*sqrt(2)*sin(q2)", "d1 + cos(q3)"))
+    assert trig_quotient(a * b, b) == a
+    assert trig_quotient(a * b, b + b * b) is None
+
+
+def test_what_must_be_0_where_a_sum_of_squares_is() -> None:
+    ring = ring_of(["L", "l"])
+    found = squares(value_of(ring, read("L + L*cos(q2)*cos(q3)").tree))
+    zero = ["(1 + cos(q2))*(1 + cos(q3))", "(1 - cos(q2))*(1 - cos(q3))"]
+    wanted = [value_of(ring, read(text).tree) for text in zero]
+    assert len(found) == 2 and all(any(same_up_to_a_number(a, b) for b in found) for a in wanted)
+    assert squares(value_of(ring, read("L + d1*cos(q2)").tree)) == ()

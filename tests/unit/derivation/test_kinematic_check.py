@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import dynsolve
 from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
@@ -54,3 +55,11 @@ def test_one_wrong_sign_is_found(name: str) -> None:
     rows = tuple(tuple(Negative(entry) for entry in row) for row in matrix.rows)
     with pytest.raises(VerificationError, match="differs from the motion of the arm"):
         verify_kinematics(robot, {**results, name: Matrix(rows)})
+
+
+@pytest.mark.parametrize(
+    "asked", ["r, Jr, det", "singular, inverse", "nullspace, rangespace, lost", "Jr_dot"]
+)
+def test_a_tip_that_never_moves_has_a_task_all_the_same(asked: str) -> None:
+    arm = "gravity: none\ndh: [{theta: q1*, d: d1, alpha: 180deg}, {theta: q2*, d: d2}]\n"
+    assert dynsolve.solve(f"{arm}find: [{asked}]\n").steps

@@ -20,9 +20,9 @@ from dynsolve.notation.mathml import MathMLPrinter
 from dynsolve.notation.tree import Function, Letter, Node, Sum, Symbol
 from dynsolve.notation.typst import TypstPrinter
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
-from dynsolve.notation.walk import children
 from dynsolve.render import latex, markdown
 from dynsolve.solution.documents import solution_document
+from tests.strangers.held import signs_in
 from tests.support import ALL_PROBLEMS, solved
 
 TOLD_IN_WORDS = {TRANSPOSED, *(("", "name", name) for name in COUNTING)}
@@ -56,17 +56,7 @@ def document(problem: str, detail: Detail = Detail.FULL) -> Document:
 
 @cache
 def signs(problem: str) -> set[Node]:
-    """Every name, letter and shorthand of a report, without the letters inside indices."""
-    style = solved(problem).style
-    found: set[Node] = set()
-    pending = list(formulas_in(document(problem).blocks))
-    while pending:
-        node = pending.pop()
-        if kind_of(node, style):
-            found.add(node)
-        elif not isinstance(node, Letter):
-            pending += children(node)
-    return found
+    return signs_in(document(problem).blocks, solved(problem).style)
 
 
 @pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING, TAKEN])

@@ -12,6 +12,8 @@ _BRANCH = "Put the branch into r(q), at values for which you know a configuratio
 _SLIPS = (
     Slip("atan2_order", "the order of atan2", "The arguments of atan2 are exchanged: it takes y first.",
          "atan2(y, x) is the angle of the point (x, y)."),
+    Slip("quadrant_lost", "a quadrant", "Branch {number} gives the values of the task in some quadrants "
+         "only.", "arctan(y/x), arcsin and arccos go half way round; atan2(y, x) looks at both signs."),
     Slip("branch_misses", "a branch", "Branch {number} does not give the values of the task.", _BRANCH),
     Slip("branch_never_exists", "a branch", "Branch {number} gives no configuration at values that the arm "
          "reaches.", "Look at the arguments of roots, arccos and arcsin, and at what each formula needs."),

@@ -1,7 +1,7 @@
-"""A student's table against the key's, by the mechanism: at values of the letters drawn from a fixed seed.
+"""A student's table against the key's, by the mechanism: at values of its letters in either order.
 
 An equality of two tables is an equality of polynomials in sines, cosines and lengths; what holds at
-several random points to nine digits holds.
+several such points to nine digits holds.
 """
 
 from __future__ import annotations
@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import islice
 from math import degrees, pi, remainder
-from random import Random
 
+from dynsolve.algebra.sampling import numbered
 from dynsolve.answers.judging.mechanism.chains import Chain, NumberRow, chain_of
 from dynsolve.answers.judging.mechanism.matching import Match, Matching, Mismatch, is_seen
 from dynsolve.answers.judging.mechanism.tables import Table, TableError, TableRow, key_table, read_table
@@ -26,7 +27,6 @@ ROUNDED = 2e-3
 NO_VALUE = (ArithmeticError, ValueError, KeyError, TypeError)
 """What a cell raises that has no value: a root of -1, a name that the problem does not have."""
 
-_SEED = 20_060_302
 _DRAWS = 3
 _TRIES = 200
 
@@ -251,12 +251,13 @@ def _base_is_free(problem: Problem) -> bool:
 
 
 def _draws(problem: Problem, key: Table) -> Iterator[dict[str, float]]:
-    """Values of the letters at which the key has one: lengths and angles between 0.4 and 1.6."""
-    random = Random(_SEED)  # noqa: S311 - the same values every time are wanted
+    """Values of the letters at which the key has one: rising, falling, and as they are drawn."""
     names = (*problem.robot.ring.parameters, *sorted(names_in(*(c for row in key for c in row.constants))))
-    found = 0
-    for _ in range(_TRIES):
-        letters = {name: random.uniform(0.4, 1.6) for name in dict.fromkeys(names)} | {"pi": pi}
+    names, found = tuple(dict.fromkeys(names)), 0
+    for sample in islice(numbered(), _TRIES):
+        drawn = [sample.positive() for _ in names]
+        values = (sorted(drawn), sorted(drawn, reverse=True), drawn)[sample.k % 3]
+        letters = dict(zip(names, values, strict=True)) | {"pi": pi}
         try:
             for row in key:
                 row.numbers(letters)

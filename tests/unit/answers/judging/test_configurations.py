@@ -130,6 +130,33 @@ SETS = [
     (PLANAR_RPRP, "[q2 = 0, sin(q3) = 0]", "wrong", "not_singular"),
 ]
 
+SPHERICAL = """
+gravity: none
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2* + 90deg, alpha: 90deg}, {d: q3*}]
+find: [singular]
+"""
+THREE_LINKS = """
+gravity: none
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+task: [tip.x, tip.y]
+find: [singular]
+"""
+STRETCHED = [f"q2 = {second} and q3 = {third}" for second in ("0", "pi") for third in ("0", "pi")]
+SETS += [
+    (ELBOW, "[sin(q3) = 0, q2 = atan2(L2 + L3*c3, L3*s3), q2 = atan2(-L2 - L3*c3, -L3*s3)]", "correct", ""),
+    (ELBOW, "[sin(q3) = 0, q3 = acos(-L2*c2/L3) - q2, q3 = -acos(-L2*c2/L3) - q2]", "correct", ""),
+    (ELBOW, "[sin(q3) = 0, q2 = atan((L2 + L3*c3)/(L3*s3))]", "wrong", "configurations_missing"),
+    (ELBOW, "[sin(q3) = 0, q2 = atan2(L2 + L3*c3, L3*s3)]", "wrong", "configurations_missing"),
+    (ELBOW, "[sin(q3) = 0, q3 = acos(-L2*c2/L3) - q2]", "wrong", "configurations_missing"),
+    (SPHERICAL, "[q3 = 0, q2 = ±pi/2]", "correct", ""),
+    (SPHERICAL, "[q3 = 0, q2 = pi/2]", "wrong", "configurations_missing"),
+    (THREE_LINKS, f"[{', '.join(STRETCHED)}]", "correct", ""),
+    *(
+        (THREE_LINKS, f"[{', '.join(one for one in STRETCHED if one != left)}]", "wrong",
+         "configurations_missing") for left in STRETCHED
+    ),
+]  # fmt: skip
+
 # The same sets as students write them on a page.
 WRITTEN = [
     (TWO_LINKS, "q2 = 0 or pi"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -95,3 +96,22 @@ def test_verdicts(problem: str, written: str, code: str, tmp_path: Path) -> None
     (found,) = report.answers
     assert str(found.verdict) == ("wrong" if code else "correct"), found
     assert [one.code for one in found.diagnosis] == ([code] if code else [])
+
+
+THREE_LINKS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
+find: [equilibria]
+"""
+STRAIGHT = list(product(("pi/2", "-pi/2"), ("0", "pi"), ("0", "pi")))
+
+
+@pytest.mark.parametrize("left", [None, *STRAIGHT])
+def test_each_of_eight_counts(left: tuple[str, str, str] | None) -> None:
+    """Links that hang or stand, each on its own: no choice of them may be forgotten."""
+    kept = [one for one in STRAIGHT if one != left]
+    written = ", ".join(f'"q1 = {a} and q2 = {b} and q3 = {c}"' for a, b, c in kept)
+    report = dynsolve.check(THREE_LINKS, f"answers:\n  equilibria: [{written}]\n")
+    codes = [one.code for one in report.answers[0].diagnosis]
+    assert codes == (["equilibria_missing"] if left else [])

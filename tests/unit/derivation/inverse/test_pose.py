@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import cache
-from random import Random
+from itertools import islice
 
 import pytest
 
-from dynsolve.derivation.inverse.branches import branches, configuration, random_state, reach_of, solves_task
+from dynsolve.algebra.sampling import samples
+from dynsolve.derivation.inverse.branches import MOST, branches, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.pose import solve_pose
 from dynsolve.derivation.inverse.solving import Solving
 from dynsolve.derivation.inverse.subproblems import TwoLines
@@ -105,9 +106,7 @@ def test_the_parts_and_the_branches(name: str) -> None:
     kept = branches(solving(name))
     assert kept is not None
     assert len(kept) == count
-    random = Random(7)
-    for _ in range(3):
-        state = random_state(solving(name), random)
+    for state in islice(samples(solving(name).ring, first=MOST), 3):
         reached = reach_of(solving(name), state)
         found = [configuration(solving(name), branch, {**state, **reached}) for branch in kept]
         there = [q for q in found if q is not None]

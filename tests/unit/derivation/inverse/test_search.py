@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import islice
+from math import exp
 from random import Random
 
 import pytest
 
-from dynsolve.derivation.inverse.branches import branches, configuration, random_state, reach_of, solves_task
+from dynsolve.algebra.sampling import samples
+from dynsolve.derivation.inverse.branches import MOST, branches, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.search import solve_task
 from dynsolve.derivation.inverse.solving import Solving
+from dynsolve.derivation.reached import same_configuration
 from dynsolve.derivation.rules import derive
 from dynsolve.problem import read_problem
 
@@ -55,9 +59,7 @@ def test_every_branch_solves_the_task(table: str, task: str, steps: str, count: 
     assert found is not None
     kept = branches(found)
     assert kept is not None
-    random = Random(7)
-    for _ in range(20):
-        state = random_state(found, random)
+    for state in islice(samples(found.ring, first=MOST), 20):
         reached = reach_of(found, state)
         there = [q for q in (configuration(found, b, {**state, **reached}) for b in kept) if q is not None]
         assert there
@@ -72,3 +74,28 @@ def test_a_coordinate_that_does_not_occur_is_free() -> None:
     found = solving("dh: [{theta: q1*, a: l1}, {theta: q2*}]")
     assert found is not None
     assert found.free == ("q2",)
+
+
+SELDOM = [
+    "dh: [{theta: q1*, d: d1, a: a1}, {d: q2*, a: a2, alpha: 90deg}, {theta: q3* + 180deg, d: d3, a: a3}]",
+    "dh: [{theta: q1* + 90deg, a: a1, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, d: d3, a: a3}]",
+    "dh: [{theta: 90deg, d: q1*, a: a1, alpha: 180deg}, {theta: q2* + 180deg, a: a2, alpha: 90deg}, "
+    "{theta: q3* - 90deg, d: d3, a: a3}]",
+    "dh: [{theta: q1* - 90deg, a: a1}, {d: q2*, a: a2, alpha: 90deg}, {theta: q3*, d: d3, a: a3}]",
+]
+
+
+@pytest.mark.parametrize("table", SELDOM)
+def test_a_branch_that_exists_for_some_lengths_only_is_not_lost(table: str) -> None:
+    """Every configuration is on a branch, as where a3 > a1 + a2; lengths are of every size."""
+    found = solving(table)
+    assert found is not None
+    kept = branches(found)
+    assert kept is not None
+    random = Random(7)
+    for _ in range(200):
+        state = {name: exp(random.uniform(-1.5, 1)) for name in found.ring.parameters}
+        state |= {name: random.uniform(-3, 3) for name in found.ring.names}
+        state |= reach_of(found, state)
+        there = [q for q in (configuration(found, branch, state) for branch in kept) if q is not None]
+        assert any(same_configuration(found.ring, q, state, 1e-5) for q in there)

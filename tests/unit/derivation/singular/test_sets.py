@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.transfer import Transfer
 from dynsolve.derivation.inverse.unknowns import search_ring
 from dynsolve.derivation.rules import derive
-from dynsolve.derivation.singular.sets import SingularSet, singular_set
+from dynsolve.derivation.singular.sets import singular_set
 from dynsolve.notation.python import to_python
 from dynsolve.problem import read_problem
+from tests.support import ROOT
 
 # (the table, the task, the rank, the alternatives; official results of INF3480 2010, 2012 (UiO) and
 # Robotics 1, 2022 and 2023 (Sapienza), and of Spong, Hutchinson, Vidyasagar, section 4.9)
@@ -28,10 +31,16 @@ ARMS = [
 ]  # fmt: skip
 
 
-def set_of(table: str, task: str) -> SingularSet:
+def set_of(table: str, task: str) -> Any:
     robot = read_problem(f"{table}\n{task}\nfind: [Jr]\n").robot
     ring = search_ring(robot.ring, (), {})
     return singular_set(derive(robot)["Jr"].map(Transfer(robot.ring, ring)))
+
+
+OFFSET = """
+dh: [{theta: q1*, d: L1, alpha: 90deg, a: a1}, {theta: q2*, a: L2, d: e}, {theta: q3*, a: L3, alpha: 90deg},
+     {theta: q4*, a: L4}]
+"""
 
 
 @pytest.mark.parametrize(("table", "task", "rank", "alternatives"), ARMS)
@@ -41,3 +50,26 @@ def test_the_alternatives(table: str, task: str, rank: int, alternatives: list[l
     written = [sorted(to_python(form(c.expr)) for c in one) for one in found.alternatives]
     assert found.rank == rank
     assert sorted(written) == sorted(sorted(one) for one in alternatives)
+
+
+def test_what_cannot_hold_together_is_not_listed() -> None:
+    """Its minors vanish for q₂ + q₃ = 0 and L₃ = a₁ alone, or never: that is a condition on lengths."""
+    found = set_of(OFFSET, "task: twist")
+    assert (found.rank, found.alternatives) == (4, ())
+    assert found.pivots == 2 and sum(map(len, found.minors)) < 30
+
+
+def test_what_is_there_for_some_lengths_alone_says_for_which() -> None:
+    found = set_of(
+        "dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, a: L2}, {d: d3*, alpha: 90deg}, "
+        "{theta: q4*, a: L4}]", "",
+    )  # fmt: skip
+    form = Compactor(found.minors[0].ring).form
+    told = [[to_python(form(bound.value)) for bound in bounds] for bounds in found.exist]
+    assert told == [["L4 - L2"], ["L4 - L2"], [], []]
+
+
+def test_what_is_too_long_is_left_out_by_count() -> None:
+    """Seven joints and a point: the cases have too many terms, and no clock decides."""
+    table = (ROOT / "problems" / "panda-7r.yaml").read_text("utf-8").split("dh:")[1].split("masses:")[0]
+    assert set_of(f"dh:{table}", "task: [tip.x, tip.y, tip.z]") is None

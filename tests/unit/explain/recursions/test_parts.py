@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from random import Random
-
 import pytest
 
 import dynsolve
-from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.arm_values import arms
 from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Node, Relation
 from dynsolve.notation.tree_values import compile_trees
@@ -28,7 +26,7 @@ def last(node: Node) -> Node:
 def adds_up(solution: Solution, step: Step) -> bool:
     """Whether the values of the parts, at a random state, are together that of the result."""
     (line,), (result,) = step.lines, step.result
-    values, _ = draw(solution.robot, Random(step.id))
+    values, _ = next(arms(solution.robot))
     *parts, whole = compile_trees([last(node) for node in (*line.formulas, result)]).run(values)
     return all(abs(sum(part[i][0] for part in parts) - whole[i][0]) < 1e-9 for i in range(3))
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import pytest
 
+from dynsolve.answers.judging.mechanism.comparison import TableComparer
 from dynsolve.answers.table_verdict import HELD
+from dynsolve.problem import read_problem
 from tests.unit.answers.hands import codes, judged
 from tests.unit.problem.test_drawing import FOUR_JOINTS, OFFSET_ARM, PAINTING_ARM, RPR, RRRP
 
@@ -176,3 +180,11 @@ def test_decimals_are_rounded() -> None:
     answer = judged(PAINTING_ARM + DRAWN, "DH", rows)
     assert answer.verdict == "correct"
     assert answer.notes == ("rounded", HELD)
+
+
+def test_tables_are_compared_with_any_two_letters_in_either_order() -> None:
+    rows = ", ".join(f"{{theta: q{k}*, d: d{k}, a: a{k}, alpha: 90deg}}" for k in range(1, 7))
+    drawn = TableComparer(read_problem(f"dh: [{rows}]\n", "own.yaml")).letters
+    names = [name for name in drawn[0] if name != "pi"]
+    assert len(names) == 13  # with g
+    assert all(any(at[a] < at[b] for at in drawn) for a, b in permutations(names, 2))

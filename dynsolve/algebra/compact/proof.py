@@ -1,0 +1,120 @@
+"""Whether a compact form is its polynomial, and the plain form that stands in its place if it is not.
+
+Both are evaluated at one random point over the integers modulo a prime, at which sin² + cos² = 1 and every
+inverse inverts.  Two polynomials of degree d that differ agree there with probability d/p, less than 10⁻¹⁶
+(Schwartz, Fast probabilistic algorithms for verification of polynomial identities, J. ACM 1980).  Where
+roots stand in a ring, a form is multiplied out again in it.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+from dynsolve.algebra.angles import angle_node
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator, is_sign
+from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import value_of
+from dynsolve.notation.build import times, total
+from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
+
+PRIME = 2**61 - 1
+
+
+class Proof:
+    """Holds forms of one ring to their values; parts that trees share are evaluated once."""
+
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+        self._exact = any(g.kind in ("root", "constant") for g in ring.generators)
+        self._point = () if self._exact else _random_point(ring)
+        self._known: dict[Node, int] = {}
+
+    def holds(self, expr: Expr, form: Node) -> bool:
+        """Whether a form is an expression."""
+        return value_of(self.ring, form) == expr if self._exact else self._tree(form) == self._poly(expr.poly)
+
+    def _poly(self, poly: Any) -> int:
+        return _residue(poly(*self._point))
+
+    def _tree(self, node: Node) -> int:
+        found = self._known.get(node)
+        if found is None:
+            found = self._known[node] = self._evaluated(node) % PRIME
+        return found
+
+    def _evaluated(self, node: Node) -> int:
+        match node:
+            case Sum(terms):
+                return sum(map(self._tree, terms))
+            case Product(factors):
+                product = 1
+                for factor in factors:
+                    product = product * self._tree(factor) % PRIME
+                return product
+            case Negative(argument):
+                return -self._tree(argument)
+            case Power(base, Number(exponent, 1)):
+                return pow(self._tree(base), exponent, PRIME)
+            case Quotient(numerator, denominator):
+                return self._tree(numerator) * pow(self._tree(denominator), -1, PRIME)
+            case Number(p, q):
+                return p * pow(q, -1, PRIME)
+        return self._poly(value_of(self.ring, node).poly)
+
+
+def _residue(value: Any) -> int:
+    """A rational number modulo the prime."""
+    return int(value.p) * pow(int(value.q), -1, PRIME) % PRIME
+
+
+def _random_point(ring: Ring) -> tuple[int, ...]:
+    """A value for each generator."""
+    random = Random(PRIME)  # noqa: S311 - the same point every time is wanted
+    point = [-1 if is_sign(g.node) else random.randrange(1, PRIME) for g in ring.generators]
+    for pair in ring.pairs:
+        half = random.randrange(1, PRIME)  # the tangent of half the angle
+        below = pow(1 + half * half, -1, PRIME)
+        point[pair.sine], point[pair.cosine] = 2 * half * below % PRIME, (1 - half * half) * below % PRIME
+    for index, denominator in ring.inverses.items():
+        point[index] = pow(_residue(denominator(*point)), -1, PRIME)
+    return tuple(point)
+
+
+def plain_form(expr: Expr) -> Node:
+    """The terms of an expression as they stand in its ring, nothing collected.
+
+    >>> from dynsolve.algebra.angles import Angle
+    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.notation.python import to_python
+    >>> ring = build_ring([("q1", "revolute")], [Symbol("l")], [Angle.of("q1")])
+    >>> to_python(plain_form((ring.symbol("l") * 2 - ring.one) * ring.sin(Angle.of("q1"))))
+    '2*sin(q1)*l - sin(q1)'
+    """
+    ring = expr.ring
+    terms = []
+    for exponents, factor in expr.poly.to_dict().items():
+        parts = [
+            (plain_form(Expr(ring, ring.inverses[g.index])), -int(e))
+            if g.kind == "inverse"
+            else (_node(g, ring), int(e))
+            for g, e in zip(ring.generators, exponents, strict=True)
+            if e
+        ]
+        terms.append(times(Fraction(int(factor.p), int(factor.q)), parts))
+    return total(terms)
+
+
+def _node(g: Generator, ring: Ring) -> Node:
+    """What a generator is printed as."""
+    match g.kind:
+        case "symbol":
+            return Symbol(g.name, g.dots)
+        case "sin" | "cos":
+            return Function(g.kind, angle_node(g.angle, ring.names))
+        case "constant":
+            return Function("cos", angle_node(g.angle, ring.names))
+    assert g.node is not None
+    return Function("sqrt", g.node) if g.kind == "root" else g.node

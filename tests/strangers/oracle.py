@@ -1,0 +1,321 @@
+"""Whether what is printed is true: every line of a report, evaluated as it stands in the formula tree.
+
+The evaluator here shares no code with the program.  At a random state it gives every member of an equation a
+number or a matrix of numbers; members of one equation must agree.  A letter (K₁, ∂L/∂q̇₁, σ₂) means what the
+results in the JSON say; one that has no result there means what the first equation says that defines it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from random import Random
+from typing import Any
+
+import numpy as np
+
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Node
+
+CONDITIONAL = (
+    "conserved", "simple poses", "gravity is balanced", "positive definite",  # checks, at poses of their own
+    "Frames from the drawing", "Singular", "Inverse", "Rates and", "Forces from outside", "Equilib",
+    "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
+)  # fmt: skip
+"""In the titles of steps whose equations are conditions (q₂ = 0) or hold under some: they are passed over."""
+
+TOLERANCE = 1e-8
+"""The relative difference that counts as rounding: of the sum of the sizes of what is added up."""
+
+
+class Unknown(Exception):
+    """A formula without a value: one with a running index, say."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number, or a matrix, with the size of what it was added up from."""
+
+    value: Any
+    size: Any
+
+    @property
+    def is_matrix(self) -> bool:
+        return isinstance(self.value, np.ndarray)
+
+    def close_to(self, other: Value) -> bool:
+        mine, theirs = _plain(self.value), _plain(other.value)
+        if np.shape(mine) != np.shape(theirs):
+            return False
+        size = np.maximum(_plain(self.size), _plain(other.size))
+        return bool(np.all(np.abs(np.subtract(mine, theirs)) <= TOLERANCE * np.maximum(size, 1e-3)))
+
+
+def _plain(value: Any) -> Any:
+    """A matrix of one entry as that entry."""
+    return value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
+
+
+@dataclass
+class Point:
+    """What symbols and letters are at a random state; those that are `free` are nothing there.
+
+    The forces of motors are free where something acts from outside, or where there are passive coordinates:
+    these are 0 in a motion and not in any state.
+    """
+
+    known: dict[Node, Value] = field(default_factory=dict)
+    free: set[Node] = field(default_factory=set)
+
+    def value(self, node: Node) -> Value:
+        """The value of a formula.  Raises Unknown."""
+        found = self.known.get(node)
+        return self._of(node) if found is None else found
+
+    def _of(self, node: Node) -> Value:
+        match node:
+            case tree.Number(p, q):
+                return Value(p / q, abs(p / q))
+            case tree.Degrees(p, q):
+                return Value(math.radians(p / q), 1.0)
+            case tree.Symbol("pi", 0):
+                return Value(math.pi, math.pi)
+            case tree.Symbol(name, dots, True):
+                return self.value(tree.Symbol(name, dots))
+            case tree.Sum(terms):
+                return self._sum([self.value(term) for term in terms])
+            case tree.Negative(argument):
+                inner = self.value(argument)
+                return Value(-inner.value, inner.size)
+            case tree.Parenthesized(argument) | tree.Slashed(argument):
+                return self.value(argument)
+            case tree.Product(factors):
+                return self._product([self.value(factor) for factor in factors])
+            case tree.Quotient(numerator, denominator):
+                above, below = self.value(numerator), self.value(denominator)
+                if below.is_matrix or not below.value:
+                    raise Unknown
+                return Value(above.value / below.value, above.size / abs(below.value))
+            case tree.Power(base, exponent):
+                return self._power(base, exponent)
+            case tree.Function():
+                return self._function(node)
+            case tree.Matrix(rows):
+                entries = [[self.value(entry) for entry in row] for row in rows]
+                if any(entry.is_matrix for row in entries for entry in row):
+                    raise Unknown
+                return Value(
+                    np.array([[e.value for e in row] for row in entries]),
+                    np.array([[e.size for e in row] for row in entries]),
+                )
+            case tree.Transpose(argument):
+                inner = self.value(argument)
+                return Value(np.transpose(inner.value), np.transpose(inner.size))
+            case tree.Cross(left, right):
+                a, b = self.value(left), self.value(right)
+                if np.size(a.value) != 3 or np.size(b.value) != 3:
+                    raise Unknown
+                crossed = np.cross(np.ravel(a.value), np.ravel(b.value)).reshape(3, 1)
+                return Value(crossed, np.full((3, 1), np.max(a.size) * np.max(b.size) * 2))
+        raise Unknown
+
+    @staticmethod
+    def _sum(parts: list[Value]) -> Value:
+        if len({np.shape(part.value) for part in parts}) > 1:
+            raise Unknown
+        return Value(sum(part.value for part in parts), sum(part.size for part in parts))
+
+    @staticmethod
+    def _product(parts: list[Value]) -> Value:
+        value, size = 1.0, 1.0
+        for part in parts:
+            if isinstance(value, np.ndarray) and part.is_matrix:
+                if value.shape[-1] != part.value.shape[0]:
+                    raise Unknown
+                value, size = value @ part.value, size @ part.size
+            else:
+                value, size = value * part.value, size * part.size
+        return Value(value, size)
+
+    def _power(self, base: Node, exponent: Node) -> Value:
+        match exponent:
+            case tree.Number(p, 1):
+                inner = self.value(base)
+                if inner.is_matrix:
+                    raise Unknown
+                return Value(inner.value**p, inner.size**p)
+            case tree.Negative(tree.Number(1, 1)):
+                inner = self.value(base)
+                if not inner.is_matrix:
+                    return Value(1 / inner.value, abs(1 / inner.value))
+                if inner.value.shape[0] != inner.value.shape[1] or np.linalg.cond(inner.value) > 1e6:
+                    raise Unknown
+                inverse = np.linalg.inv(inner.value)
+                return Value(inverse, np.abs(inverse) * np.linalg.cond(inner.value))
+        raise Unknown
+
+    def _function(self, node: tree.Function) -> Value:
+        functions: Mapping[str, Any] = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "abs": abs}
+        if isinstance(node.argument, tree.Arguments):
+            if node.name != "atan2":
+                raise Unknown
+            y, x = map(self.value, node.argument.parts)
+            return Value(math.atan2(y.value, x.value), math.pi)
+        inner = self.value(node.argument)
+        if inner.is_matrix:
+            raise Unknown
+        if node.name == "sqrt":
+            if inner.value < 0:
+                raise Unknown
+            return Value(math.sqrt(inner.value), math.sqrt(inner.size))
+        if node.name == "sgn":
+            return Value(math.copysign(1.0, inner.value), 1.0)
+        if node.name not in functions:
+            raise Unknown
+        return Value(functions[node.name](inner.value), max(1.0, abs(inner.size)))
+
+
+# -- a state of a robot, and a report held to it ----------------------------------------------------
+
+
+def random_point(solution: Any, seed: int) -> Point:
+    """The symbols at random, and the letters of all results by what the JSON says of them."""
+    from dynsolve.notation.python import PythonPrinter
+    from dynsolve.quantities import letters
+    from dynsolve.quantities.index import quantities
+
+    random = Random(seed)
+    robot, point, names = solution.robot, Point(), {}
+    for g in robot.ring.generators:
+        if g.kind == "symbol":
+            text = g.name + ("", "_dot", "_ddot")[g.dots]
+            names[text] = random.uniform(0.3, 2.7)
+            if g.name in robot.ring.names:
+                names[text] = random.uniform(-3, 3)
+            point.known[tree.Symbol(g.name, g.dots)] = Value(names[text], abs(names[text]))
+        elif g.kind in ("sin", "cos"):
+            for atom, _ in g.angle.terms:
+                for name, _ in atom:
+                    names.setdefault(name, random.uniform(0.1, 1.4))
+                    point.known.setdefault(tree.Symbol(name), Value(names[name], abs(names[name])))
+    printer = PythonPrinter()
+    functions = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt, "pi": math.pi, "__builtins__": {}}
+    functions["sgn"] = lambda x: math.copysign(1.0, x)
+
+    def result(form: Node) -> Value:
+        if isinstance(form, tree.Matrix):
+            numbers = np.array([[eval(printer.text(e), functions, names) for e in row] for row in form.rows])  # noqa: S307
+            return Value(numbers, np.abs(numbers))
+        number = eval(printer.text(form), functions, names)  # noqa: S307
+        return Value(number, abs(number))
+
+    for quantity in quantities(robot).values():
+        family = quantity.family
+        if (
+            not family.has_letter
+            or quantity.rule not in solution.values.rules
+            or family.kind.value != "value"
+        ):
+            continue
+        if quantity.rule == "christoffel":
+            i, j, k = quantity.index
+            value = result(solution.forms.christoffel(i - 1, j - 1, k - 1))
+        else:
+            form = solution.forms(quantity.rule)
+            if isinstance(form, tree.Words):
+                continue
+            value = result(form)
+            if quantity.is_read_off and value.is_matrix:
+                place = quantity.entry if len(quantity.entry) == 2 else (quantity.entry[0], 0)
+                value = Value(value.value[place], value.size[place])
+        point.known[quantity.letter(robot)] = value
+    coordinates = [q.name for q in robot.coordinates]
+    if robot.questions.loads or robot.questions.constraints or robot.actions.passive:
+        point.free = {letters.TAU, *map(letters.force, robot.coordinates)}
+    for letter in point.free:
+        point.known.pop(letter, None)
+    for dots in range(3):
+        column = np.array([[point.known[tree.Symbol(name, dots)].value] for name in coordinates])
+        point.known[letters.bold("q", dots=dots)] = Value(column, np.abs(column))
+    return point
+
+
+@dataclass(frozen=True)
+class Untrue:
+    """Two members of an equation that are not equal."""
+
+    where: str
+    left: Node
+    right: Node
+    numbers: str
+
+
+def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Iterator[Untrue]:
+    """The false equations of a report, in its order; `evaluated` counts [equations that were held, all]."""
+    count = [0, 0] if evaluated is None else evaluated
+    fold, own = "", set[Node]()
+    for where, relation in relations(blocks):
+        if where != fold:  # a letter without an index, θ of a row, means what it does in its step
+            for letter in own:
+                del point.known[letter]
+            fold, own = where, set()
+        if any(word in where for word in CONDITIONAL):
+            continue
+        count[1] += 1
+        members: list[tuple[Node, Value]] = []
+        left_open: list[Node] = []
+        for part, sign in zip(relation.parts, ("=", *relation.signs), strict=True):
+            if sign not in ("=", "≈", tree.NAMED):
+                members, left_open = [], []
+            try:
+                members.append((part, point.value(part)))
+            except (Unknown, ZeroDivisionError, OverflowError):
+                if part not in point.free and isinstance(part, tree.Letter | tree.Symbol | tree.Derivative):
+                    left_open.append(part)
+        count[0] += len(members) + len(left_open) > 1
+        for part in left_open if members else ():
+            point.known[part] = members[-1][1]
+            if _is_of_step(part):
+                own.add(part)
+        for (a, x), (b, y) in pairwise(members):
+            if not x.close_to(y):
+                yield Untrue(where, a, b, f"{_plain(x.value)} and {_plain(y.value)}")
+
+
+def _is_of_step(node: Node) -> bool:
+    """Whether a letter has no index, as θ of a row of the table; h is the name of a Christoffel symbol."""
+    match node:
+        case tree.Letter(_, sub):
+            return sub is None
+        case tree.Symbol(name):
+            return name != "h" and not any(map(str.isdigit, name))
+    return False
+
+
+def relations(blocks: Any, where: str = "") -> Iterator[tuple[str, tree.Relation]]:
+    """Every equation of a report with the step that it stands in."""
+    from dynsolve import document
+    from dynsolve.notation.walk import walk
+
+    for block in blocks:
+        match block:
+            case document.Heading():
+                where = block.text
+            case document.Fold():
+                yield from relations(block.blocks, f"{where} > {block.title}")
+                continue
+        nodes: list[Node] = []
+        match block:
+            case document.Formula():
+                nodes = [block.node]
+            case document.Equations():
+                nodes = list(block.nodes)
+            case document.Text() | document.Note() | document.Uses():
+                nodes = [part for part in block.parts if isinstance(part, Node)]
+            case document.List():
+                nodes = [part for item in block.items for part in item if isinstance(part, Node)]
+            case document.Table():
+                nodes = [cell for row in block.rows for cell in row if isinstance(cell, Node)]
+        yield from ((where, part) for part in walk(*nodes) if isinstance(part, tree.Relation))

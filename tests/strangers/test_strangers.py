@@ -1,0 +1,146 @@
+"""Drawn mechanisms, and those that once failed, held to what `held` says; and that faults would be found."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.compact.proof import Proof
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Formula
+from dynsolve.explain.abbreviations import Abbreviate
+from dynsolve.explain.exchanges import Exchange
+from dynsolve.explain.recurring import _Writer
+from dynsolve.explain.step import Detail
+from dynsolve.notation.build import negated, times
+from dynsolve.notation.tree import Node, Relation, Sum
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.walk import mapped, walk
+from dynsolve.problem.specification import PROBLEM
+from dynsolve.solution.documents import solution_document
+from dynsolve.solution.dynamics import Dynamics
+from tests.strangers.generator import stranger, written
+from tests.strangers.held import Refused, faults
+from tests.strangers.oracle import CONDITIONAL, Untrue, random_point, relations, untrue
+
+SEEDS = range(100)
+CASES = sorted((Path(__file__).parent / "cases").glob("*.yaml"))
+MOST_REFUSED = 0.05
+"""The share of drawn files that may be refused: what is drawn is meant to be valid."""
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_stranger_is_solved_and_nothing_false_is_printed(seed: int) -> None:
+    try:
+        assert faults(written(stranger(seed)), seed) == []
+    except Refused as refused:
+        assert "help:" in str(refused)
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.stem)
+def test_what_failed_once_stays_mended(case: Path) -> None:
+    assert faults(case.read_text("utf-8")) == []
+
+
+def test_every_key_of_the_problem_file_is_drawn() -> None:
+    drawn = Counter(key for seed in range(3000) for key in stranger(seed))
+    assert set(PROBLEM.names) - set(drawn) <= {"strict", "also"}  # they judge answers, and change no solution
+
+
+# -- the oracle finds what it is there for -----------------------------------------------------------
+
+
+ELBOW = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {d: d3*, alpha: 90deg}]
+masses:
+  - {mass: m1, link: 1, center: {near: [lc1, 0, 0]}, inertia: {zz: I1}}
+  - {mass: m2, link: 2, center: {near: [lc2, 0, 0]}, inertia: {zz: I2}}
+  - {mass: m3, link: 3, center: [0, 0, z3], inertia: {xx: I3, yy: I3, zz: J3}}
+"""
+
+
+def false_lines(abbreviate: Abbreviate = Abbreviate.NEVER, problem: str = ELBOW) -> list[Untrue]:
+    solution = dynsolve.solve(problem)
+    document = solution_document(solution, Detail.FULL, None, abbreviate)
+    return list(untrue(document.blocks, random_point(solution, 1)))
+
+
+@pytest.mark.parametrize("abbreviate", Abbreviate)
+def test_nothing_is_false_where_nothing_is_planted(abbreviate: Abbreviate) -> None:
+    assert false_lines(abbreviate) == []
+
+
+def test_a_fault_in_the_exchange_of_names_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    put = Exchange.put
+    monkeypatch.setattr(Exchange, "put", lambda self, node: put(replace(self, name=negated(self.name)), node))
+    found = false_lines(Abbreviate.AUTO, "elbow-3r")
+    assert any("σ" in to_unicode(one.left) + to_unicode(one.right) for one in found)
+
+
+def test_a_fault_in_what_recurs_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    named = _Writer._named
+
+    def wrong(self: _Writer, node: Node, meaning: Node, shortest: int) -> Node:
+        found = named(self, node, meaning, shortest)
+        return times(2, [(found, 1)]) if found != meaning else found
+
+    monkeypatch.setattr(_Writer, "_named", wrong)
+    monkeypatch.setattr(Dynamics, "_verified", lambda self, short: short)  # which would find it, too
+    assert false_lines(Abbreviate.ALWAYS)
+
+
+@pytest.mark.parametrize("quantity", ["Kv2", "rc2", "Kw2", "Jv2", "christoffel"])
+def test_a_compact_form_of_another_value_is_found(quantity: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where neither the proof of the form nor the verification of the results would find it."""
+    value = dynsolve.solve(ELBOW).values[quantity]
+    entries = value.values() if isinstance(value, dict) else getattr(value, "entries", (value,))
+    wrong_one = str(next(entry for entry in entries if not entry.is_number).poly)
+    collected = Compactor._collected
+
+    def wrong(self: Compactor, expr: Expr) -> Node:
+        form = collected(self, expr)
+        return times(3, [(form, 1)]) if str(expr.poly) == wrong_one else form
+
+    monkeypatch.setattr(Compactor, "_collected", wrong)
+    monkeypatch.setattr(Proof, "holds", lambda self, expr, form: True)
+    assert false_lines()
+
+
+def test_a_sign_that_is_turned_anywhere_is_found() -> None:
+    """In each equation by itself; some only define a letter, which others then would show to be wrong."""
+    solution = dynsolve.solve(ELBOW)
+    document = solution_document(solution, Detail.FULL, None, Abbreviate.NEVER)
+    held, found = 0, 0
+    for where, relation in relations(document.blocks):
+        turned = next(_turned(relation), None)
+        if turned is None or any(word in where for word in CONDITIONAL):
+            continue
+        point, count = random_point(solution, 1), [0, 0]
+        list(untrue((Formula(relation),), point, count))
+        if count[0]:
+            held += 1
+            found += bool(list(untrue((Formula(turned),), random_point(solution, 1))))
+    assert held > 40
+    assert found > 0.85 * held
+
+
+def _turned(relation: Relation) -> Iterator[Node]:
+    """The equation with the sign of the last term of a sum in its last member turned."""
+    *before, last = relation.parts
+    for part in walk(last):
+        if isinstance(part, Sum):
+            *terms, term = part.terms
+            turned = partial(_put, part, Sum((*terms, negated(term))))
+            yield Relation((*before, mapped(last, turned)), relation.signs)
+
+
+def _put(part: Node, other: Node, node: Node) -> Node:
+    return other if node == part else node
