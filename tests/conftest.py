@@ -32,6 +32,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark as slow what is done with a large robot."""
     for item in items:
         given = item.callspec.params.values() if hasattr(item, "callspec") else ()
-        names = {value.stem if isinstance(value, Path) else str(value) for value in given}
+        names = {
+            value.stem if isinstance(value, Path) else value
+            for value in given
+            if isinstance(value, Path | str)
+        }
         if names & LARGE:
             item.add_marker(pytest.mark.slow)

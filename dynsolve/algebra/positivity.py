@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import cos, radians, sin
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
+from dynsolve.notation.tree import Number
 
 
 def is_nonnegative(expr: Expr) -> bool:
     """Whether every term has a positive factor and no coordinate, sine or cosine to an odd power.
 
-    Parameters count as positive, as lengths and masses are, save those that the ring's plan calls signed.
+    Parameters count as positive, as lengths and masses are, save those that the ring's plan calls signed;
+    so do roots of numbers, and sines and cosines of constant angles that are positive.
 
     >>> from dynsolve.algebra.build import build_ring
     >>> from dynsolve.notation.tree import Symbol
@@ -44,7 +48,19 @@ def parameters(expr: Expr) -> frozenset[int]:
     """The generators that count as positive."""
     ring = expr.ring
     names = {*ring.names, *ring.plan.signed}
-    return frozenset(g.index for g in ring.generators if g.kind == "symbol" and g.name not in names)
+    return frozenset(
+        g.index for g in ring.generators if (g.kind == "symbol" and g.name not in names) or _is_constant(g)
+    )
+
+
+def _is_constant(g: Generator) -> bool:
+    """Whether a generator is a positive number."""
+    if g.kind == "root":
+        return isinstance(g.node, Number)
+    if g.kind not in ("sin", "cos", "constant") or not g.angle.is_constant:
+        return False
+    angle = radians(g.angle.degrees)
+    return (sin(angle) if g.kind == "sin" else cos(angle)) > 0
 
 
 def _holds_only(exponents: Sequence[int], places: frozenset[int]) -> bool:

@@ -40,22 +40,22 @@ class Sample:
 
     def angle(self) -> float:
         """An angle in (-π, π)."""
-        sine, cosine = self._side(), self._side()
+        sine, cosine = self.side(), self.side()
         acute = self.random.uniform(_END, pi / 2 - _END)
         return sine * (acute if cosine > 0 else pi - acute)
 
     def signed(self) -> float:
         """A number of either sign."""
-        sign = self._side()
+        sign = self.side()
         return sign * (
-            self.random.uniform(_END, 0.8) if self._side() < 0 else self.random.uniform(0.8, WIDEST)
+            self.random.uniform(_END, 0.8) if self.side() < 0 else self.random.uniform(0.8, WIDEST)
         )
 
     def positive(self) -> float:
         """The value of a parameter."""
-        return self.random.uniform(0.2, 0.7) if self._side() < 0 else self.random.uniform(1.0, 1.8)
+        return self.random.uniform(0.2, 0.7) if self.side() < 0 else self.random.uniform(1.0, 1.8)
 
-    def _side(self) -> int:
+    def side(self) -> int:
         """+1 or -1; half of the sides begin with each."""
         higher, place = divmod(self._sides, len(_MASKS))
         self._sides += 1

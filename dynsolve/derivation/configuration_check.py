@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
-from math import hypot, pi
+from math import pi
 from operator import mul
 from typing import Any
 
 from dynsolve.algebra.sampling import ENOUGH
 from dynsolve.derivation.arm_values import states_with
-from dynsolve.derivation.elimination import rank
+from dynsolve.derivation.elimination import rank, shortest_step
 from dynsolve.derivation.inverse.branches import MOST
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
 from dynsolve.errors import VerificationError
@@ -32,18 +32,29 @@ SMALL = 1e-9
 
 Values = Mapping[str, float]
 
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """Two formulas that are to be equal, angles modulo 2π."""
+
+    sides: tuple[Node, Node]
+    is_angle: bool = False
+
+
+Conditions = tuple[Condition, ...]
+
 NO_VALUE = (KeyError, ValueError, TypeError, ArithmeticError)
 """What is raised where a formula has no real value, or lacks one of a name."""
 
 
 def verify_inverse(
-    robot: Robot, r: Node, angles: Sequence[bool], branches: Sequence[Mapping[str, Node]]
+    robot: Robot, r: Node, angles: Sequence[bool], branches: Sequence[tuple[Mapping[str, Node], Conditions]]
 ) -> None:
-    """Put every branch into r(q), whose components are lengths or `angles`.
+    """Put every branch into r(q), whose components are lengths or `angles`, where its conditions hold.
 
     Raises VerificationError where one is none, or one is missing.
     """
-    task, solutions = compile_trees([r]), [solution_of(branch) for branch in branches]
+    task, solutions = compile_trees([r]), [solution_of(*branch) for branch in branches]
     for values in states_of(robot, task, MOST):  # not those that the branches were found with
         reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
@@ -86,21 +97,31 @@ def on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | N
     return solution_of(branch)(given)
 
 
-def solution_of(branch: Mapping[str, Node]) -> Callable[[Values], dict[str, float] | None]:
-    """The same for many places."""
+def holds(condition: Condition, values: Values) -> bool:
+    """Whether both sides of a condition are the same."""
+    return solution_of({}, (condition,))(values) is not None
+
+
+def solution_of(
+    branch: Mapping[str, Node], when: Conditions = ()
+) -> Callable[[Values], dict[str, float] | None]:
+    """The same as `on_branch` for many places; None where a condition does not hold, too."""
     try:
         programs = {name: compile_trees([formula]) for name, formula in branch.items()}
+        sides = compile_trees([side for one in when for side in one.sides])
     except NO_VALUE:
         return lambda given: None
+    turns = [one.is_angle for one in when]
 
     def at(given: Values) -> dict[str, float] | None:
         q = dict(given)
-        for name, program in programs.items():
-            try:
+        try:
+            for name, program in programs.items():
                 (q[name],) = program.run(q)
-            except NO_VALUE:
-                return None
-        return q
+            values = sides.run(q)
+        except NO_VALUE:
+            return None
+        return q if near(values[1::2], values[::2], turns) else None
 
     return at
 
@@ -190,35 +211,13 @@ def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | N
             [(a[k] - b[k]) / (2 * DIFFERENCE) for a, b in zip(ahead, behind, strict=True)]
             for k in range(len(f))
         ]
-        step = _step(f, rows)
+        step = shortest_step(f, rows)
         for name, x in zip(names, step, strict=True):
             at[name] += x
         moved = max(map(abs, step), default=0.0)
         if moved < SMALL and max(map(abs, f)) < CLOSE**2:
             return at
     return None
-
-
-def _step(values: Sequence[float], rows: Sequence[Sequence[float]]) -> list[float]:
-    """The shortest step after which each value, changed by its gradient, is 0.
-
-    One gradient after the other, each without its part along those before it; one that lies in their
-    span is an equation that repeats another.
-    """
-    step = [0.0] * len(rows[0])
-    across: list[list[float]] = []
-    for value, row in zip(values, rows, strict=True):
-        left = list(row)
-        for one in across:
-            along = sum(map(mul, row, one))
-            left = [x - along * y for x, y in zip(left, one, strict=True)]
-        length, whole = hypot(*left), hypot(*row)
-        if length < SMALL or length < DIFFERENCE * whole:
-            continue
-        across.append([x / length for x in left])
-        short = (value + sum(map(mul, row, step))) / length
-        step = [x - short * y for x, y in zip(step, across[-1], strict=True)]
-    return step
 
 
 def rank_of(rows: Sequence[Sequence[float]]) -> int:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.sampling import samples
+from dynsolve.derivation.elimination import rank
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.rates import whole_or_task
 from dynsolve.quantities.robot_stages import asked_stages
@@ -21,6 +23,12 @@ if TYPE_CHECKING:
     from dynsolve.derivation.inverse.branches import Branch
     from dynsolve.derivation.inverse.solving import Solving
     from dynsolve.derivation.singular.sets import SingularSet
+
+
+NO_CLOSED_FORM = "no closed form was found"
+REDUNDANT = "the arm has more joints than the task: infinitely many configurations reach it"
+
+_STEP = 1e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +71,7 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
     `r` is r(q), m×1, or of a pose its position and the rows of its rotation, 12×1.
     """
     from dynsolve.derivation.inverse.branches import branches
+    from dynsolve.derivation.inverse.conditions import with_conditions
     from dynsolve.derivation.inverse.pose import solve_pose
     from dynsolve.derivation.inverse.search import solve_task
 
@@ -70,10 +79,26 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
     is_pose = task is not None and task.is_pose
     solving = solve_pose(robot, r, names) if is_pose else solve_task(r, names)
     found = None if solving is None else branches(solving)
+    if solving is not None and found is not None and solving.conditions > 0:
+        found = with_conditions(solving, found)
     if solving is None or found is None:
         has_target = robot.questions.target is not None and not without_number(robot, r)
-        return NoClosedForm() if has_target else Skipped("no closed form was found")
+        return NoClosedForm() if has_target else Skipped(REDUNDANT if is_redundant(r) else NO_CLOSED_FORM)
     return Inverse(solving, found)
+
+
+def is_redundant(r: Matrix) -> bool:
+    """Whether joints can move and leave the task where it is, at a sample."""
+    names, at = r.ring.names, next(samples(r.ring))
+    ends = [
+        [evaluate(entry, {**at, name: at[name] + step}) for entry in r.entries]
+        for name in names for step in (_STEP, -_STEP)
+    ]  # fmt: skip
+    columns = [
+        [(a - b) / (2 * _STEP) for a, b in zip(*pair, strict=True)]
+        for pair in zip(ends[::2], ends[1::2], strict=True)
+    ]
+    return rank(columns, _STEP) < len(names)
 
 
 def without_number(robot: Robot, r: Matrix) -> str:

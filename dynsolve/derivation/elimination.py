@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
+from operator import mul
 
 Rows = Sequence[Sequence[float]]
+
+_SMALL = 1e-9
+_ALONG = 1e-6
+"""What of a gradient is no direction of its own: a length, and a part of the gradient."""
 
 
 def solved(matrix: Rows, right: Sequence[float]) -> list[float]:
@@ -84,3 +90,25 @@ def is_positive_definite(matrix: Rows, rounding: float = 0.0) -> bool:
             factor = row[k] / pivot[k]
             row[k:] = [a - factor * b for a, b in zip(row[k:], pivot[k:], strict=True)]
     return True
+
+
+def shortest_step(values: Sequence[float], rows: Rows) -> list[float]:
+    """The shortest step after which each value, changed by its gradient, is 0.
+
+    One gradient after the other, each without its part along those before it; one that lies in their
+    span is an equation that repeats another.
+    """
+    step = [0.0] * len(rows[0])
+    across: list[list[float]] = []
+    for value, row in zip(values, rows, strict=True):
+        left = list(row)
+        for one in across:
+            along = sum(map(mul, row, one))
+            left = [x - along * y for x, y in zip(left, one, strict=True)]
+        length, whole = hypot(*left), hypot(*row)
+        if length < _SMALL or length < _ALONG * whole:
+            continue
+        across.append([x / length for x in left])
+        short = (value + sum(map(mul, row, step))) / length
+        step = [x - short * y for x, y in zip(step, across[-1], strict=True)]
+    return step

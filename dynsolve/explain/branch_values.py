@@ -12,13 +12,11 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.surd_angles import SurdAngle
 from dynsolve.algebra.surd_values import Exact, NoValue, Undetermined, exact_value
 from dynsolve.algebra.surds import NotExact
-from dynsolve.notation.build import cost, negated, times, total
+from dynsolve.errors import AlgebraError
+from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import ZERO, Negative, Node, Number, Product, Quotient, Sum, Symbol
 from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
-from dynsolve.notation.walk import mapped
-
-LONGEST = 60
-"""A formula with more operations is no help to a reader; its value stands alone."""
+from dynsolve.notation.walk import mapped, names_in
 
 DIGITS = 12
 """So many digits has a value that has no formula."""
@@ -58,16 +56,16 @@ class BranchValues:
                 raise ZeroDivisionError from None
             raise Unreal(name, error.function, error.argument) from None
         except Undetermined:
-            self._set_free(name, place)
+            self.set_free(name, place)
         except NotExact:
             try:
                 self.numbers[name] = number_of(name, formula, self.numbers)
             except _NoDirection:
-                self._set_free(name, place)
+                self.set_free(name, place)
         else:
             self.exact[name], self.numbers[name] = value, float(value)
 
-    def _set_free(self, name: str, place: float) -> None:
+    def set_free(self, name: str, place: float) -> None:
         """Put an angle at a place; several at places that differ, lest they be free only together."""
         self.numbers[name] = self.free[name] = place * (1 + len(self.free))
         if not place:
@@ -79,28 +77,28 @@ def branch_values(
 ) -> BranchValues:
     """Every coordinate of a branch; raises as `BranchValues.put` does."""
     found = BranchValues(dict(numbers), dict(exact))
+    for name in sorted(names_in(*branch.values()) - {*branch, *numbers}):
+        found.set_free(name, place)
     for name, formula in branch.items():
         found.put(name, formula, place)
     return found
 
 
 def shown(name: str, branch: Mapping[str, Node], found: BranchValues, written: Mapping[str, Node]) -> Node:
-    """A coordinate as a formula: its exact value, else its formula with numbers in it, else a decimal."""
-    if name in found.exact:
-        return found.exact[name].node
-    formula = with_numbers(branch[name], written)
-    return formula if cost(formula) <= LONGEST else decimal(found.numbers[name])
+    """A coordinate as a formula: its exact value, else its formula with numbers in it."""
+    return found.exact[name].node if name in found.exact else with_numbers(branch[name], written, found.exact)
 
 
-def with_numbers(formula: Node, written: Mapping[str, Node]) -> Node:
-    """A formula with the given formulas in place of names."""
+def with_numbers(formula: Node, written: Mapping[str, Node], exact: Mapping[str, Exact]) -> Node:
+    """A formula with the given formulas in place of names, each part that has an exact value as that."""
 
     def put(part: Node) -> Node:
-        if not isinstance(part, Symbol) or part.name not in written:
-            return part
-        return written[part.name]
+        try:
+            return exact_value(part, exact).node
+        except AlgebraError:
+            return _folded(written.get(part.name, part) if isinstance(part, Symbol) else part)
 
-    return mapped(formula, lambda part: _folded(put(part)))
+    return mapped(formula, put)
 
 
 def _folded(part: Node) -> Node:

@@ -14,8 +14,11 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.positivity import is_positive
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.trig_factor import ratio, trig_factors
+from dynsolve.derivation.configuration_check import Condition as Equality
+from dynsolve.derivation.configuration_check import Conditions
 from dynsolve.derivation.configurations import Inverse, without_number
 from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.derivation.inverse.solving import Relation as Equation
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.sets import SingularSet
@@ -176,7 +179,7 @@ class ConfigurationForms:
             return None
         from dynsolve.explain.target import TargetForms
 
-        branches = self.inverse if self.solved is not None else None
+        branches = None if self.solved is None else list(zip(self.inverse, self.when, strict=True))
         (task,) = self.values.rules["inverse"].inputs
         return TargetForms(self.robot, self.values[task], Forms(self.robot, self.values)(task), branches)
 
@@ -193,6 +196,17 @@ class ConfigurationForms:
             }
             for branch in self.solved.branches
         )
+
+    @cached_property
+    def when(self) -> tuple[Conditions, ...]:
+        """Of each branch the conditions under which it gives r(q) = r."""
+        if self.solved is None:
+            return ()
+        return tuple(tuple(map(self._equality, branch.when)) for branch in self.solved.branches)
+
+    def _equality(self, relation: Equation) -> Equality:
+        left, right = (self.inverse_formulas.form(side) for side in (relation.left, relation.right))
+        return Equality((left, right), relation.is_angle)
 
     def _written_out(self, formula: Node) -> Node:
         """A formula with what is put for the names that were given on the way."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.algebra.positivity import is_nonnegative, is_positive
+from dynsolve.derivation.configuration_check import Conditions
 from dynsolve.derivation.inverse.equations import Given, OfPoint, OfTurn, Origin, Squared, Turned
 from dynsolve.derivation.inverse.solving import Part, Solving
 from dynsolve.derivation.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
@@ -220,10 +221,10 @@ class _Explainer:
             id=_id_of_branches(self.forms),
             stage=STAGE,
             title="The solution" if count == 1 else f"The {count} solutions",
-            why=(*why, f", each put into {self._task} to see that it gives what is asked. A coordinate that "
-                 "stands in a formula is that of the same line."),
+            why=(*why, ", each put into ", self._task, " to see that it gives what is asked. A coordinate "
+                 "that stands in a formula is that of the same line."),
             table=table,
-            notes=tuple(self._free_coordinates()),
+            notes=(*self._conditions(), *self._free_coordinates()),
             detail=Detail.BRIEF,
             uses=tuple(f"inverse_{name}" for name in names),
             hint=("Put every choice among these into ", self._task,
@@ -253,14 +254,30 @@ class _Explainer:
                     row.append((_SIGNS if self.formulas.has_signs(step) else _ORDINALS)[index])
             yield tuple(row)
 
+    def _conditions(self) -> Iterator[Prose]:
+        """Where the branches are solutions, those with the same conditions together."""
+        lines: dict[Conditions, list[str]] = {}
+        for number, when in enumerate(self.forms.when, 1):
+            lines.setdefault(when, []).append(str(number))
+        for when, numbers in lines.items():
+            if when:
+                several = len(numbers) > 1
+                which = listed(numbers) if len(lines) > 1 else ()
+                start = ("Lines " if several else "Line ") if which else "They" if several else "This"
+                conditions = listed([equation(*one.sides) for one in when])
+                yield (start, *which, " hold where " if several else " holds where ", *conditions,
+                       " alone: the joints give ", self._task, " no other values.")  # fmt: skip
+
     def _free_coordinates(self) -> Iterator[Prose]:
         free = self.solving.free
-        if free:
-            verb = " does" if len(free) == 1 else " do"
-            yield (
-                *listed([Symbol(name) for name in free]),
-                f"{verb} not change the task, and may be anything.",
-            )
+        sums = [step for step in self.solving.solved if isinstance(step, Remainder)]
+        bound = [name for name in free if any(name in dict(step.others) for step in sums)]
+        if bound:
+            yield (*listed(list(map(Symbol, bound))), " may be anything; the others follow.")
+        unused = [name for name in free if name not in bound]
+        if unused:
+            verb = " does" if len(unused) == 1 else " do"
+            yield (*listed(list(map(Symbol, unused))), f"{verb} not change the task, and may be anything.")
 
 
 # -- words -----------------------------------------------------------------------------------------

@@ -227,11 +227,11 @@ class InverseFormulas:
 
     @_solutions.register
     def _remainder(self, step: Remainder) -> tuple[Node, ...]:
-        others = [times(rate, [(Symbol(name), 1)]) for name, rate in step.others]
-        rest = [] if step.rest.is_zero else [self._form(step.rest)]
-        value = Symbol(step.value)
-        taken = [*others, *rest]
-        terms = [*taken, negated(value)] if step.rate < 0 else [value, *map(negated, taken)]
+        given, others = (
+            [times(rate, [(Symbol(name), 1)]) for name, rate in terms] for terms in (step.given, step.others)
+        )
+        taken = [*others, *([] if step.rest.is_zero else [self._form(step.rest)])]
+        terms = [*taken, *map(negated, given)] if step.rate < 0 else [*given, *map(negated, taken)]
         size = abs(step.rate)
         return (total(terms) if size == 1 else times(1 / size, [(total(terms), 1)]),)
 

@@ -13,6 +13,7 @@ from dynsolve.explain.branch_values import decimal
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.target import Configuration, Lost, TargetForms
 from dynsolve.explain.writing import listed
+from dynsolve.notation.build import cost
 from dynsolve.notation.tree import Degrees, Function, Negative, Node, Number, Relation, Symbol, equation
 from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import letters
@@ -20,6 +21,9 @@ from dynsolve.quantities.stages import Stage
 
 _DIGITS = 4
 _LIMITS = "Limits"
+
+LONGEST = 60
+"""A formula with more operations is no help to a reader; its value stands alone."""
 
 _TITLE = "The configurations that reach it"
 _HINT = (
@@ -45,8 +49,7 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
 
 def given_numbers(forms: TargetForms) -> tuple[Node, ...]:
     """What the values of the task are."""
-    names = forms.robot.questions.reached
-    return tuple(equation(Symbol(name), forms.written[name]) for name in names)
+    return tuple(equation(Symbol(name), value) for name, value in forms.given)
 
 
 # -- one configuration -----------------------------------------------------------------------------
@@ -81,11 +84,13 @@ def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
     formula, value = one.formulas[name], one.numbers[name]
     if rational_value(formula) == 0 or _depends(one, name):
         return equation(Symbol(name), formula)
+    if cost(formula) > LONGEST:
+        formula = decimal(value)
     shown = [node for node in (formula, decimal(value, _DIGITS)) if not _is_decimal(node) or node != formula]
     if rational_value(formula) is not None:
         shown = [decimal(value, _DIGITS)] if _is_decimal(formula) else [formula]
     if _turns(forms, name):
-        if not _has_function(formula) and not _is_decimal(formula):  # a part of π
+        if names_in(formula) <= {"pi"} and not _has_function(formula) and not _is_decimal(formula):
             return Relation((Symbol(name), formula, _in_degrees(value)), ("=", "="))
         shown.append(_in_degrees(value))
     return Relation((Symbol(name), *shown), ("≈" if _is_decimal(formula) else "=", *["≈"] * (len(shown) - 1)))
@@ -201,13 +206,20 @@ def reason(forms: TargetForms) -> Prose:
         return ()
     if forms.is_family:
         return ("The configurations that reach this do not stand alone: there are infinitely many.",)
+    if forms.unmet:
+        return ("No configuration reaches this: no joint gives ", letters.TASK_OF_Q, " these values.")
     if forms.lost:
         return ("No configuration reaches this: no branch is real.",)
     return ("No configuration that reaches this was found: Newton's method from 200 of them led to none.",)
 
 
 def _lost(forms: TargetForms) -> Iterator[Prose]:
-    """Why branches are not real, those with one reason together."""
+    """Why branches are not real or no solutions, those with one reason together."""
+    for condition, unmet in groupby(forms.unmet, key=lambda one: one.condition):
+        numbers = listed([str(one.branch) for one in unmet])
+        which = "Branch " if len(numbers) == 1 else "Branches "
+        needs = " needs " if len(numbers) == 1 else " need "
+        yield which, *numbers, needs, equation(*condition.sides), ", which does not hold here."
 
     def why(lost: Lost) -> tuple[str, str, str]:
         return lost.coordinate, lost.function, repr(lost.argument)

@@ -17,6 +17,7 @@ from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.surd_values import Exact, exact_value
 from dynsolve.algebra.surds import NotExact
+from dynsolve.derivation.configuration_check import Condition, Conditions, holds
 from dynsolve.derivation.reached import CLOSE, angle_rows, gap, near, same_configuration
 from dynsolve.explain.branch_values import BranchValues, Unreal, branch_values, decimal, number_of, shown
 from dynsolve.notation.build import negated, total
@@ -49,6 +50,14 @@ class Configuration:
 
 
 @dataclass(frozen=True, slots=True)
+class Unmet:
+    """A branch with a condition that does not hold at these numbers."""
+
+    branch: int
+    condition: Condition
+
+
+@dataclass(frozen=True, slots=True)
 class Lost:
     """A branch that is not real at these numbers: the coordinate would be `function` of `argument`."""
 
@@ -61,12 +70,16 @@ class Lost:
 class TargetForms:
     """What reaches the target of a robot.
 
-    `r` is the task and `task` its formula; `branches` are the formulas of its closed form, None
-    where it has none.
+    `r` is the task and `task` its formula; `branches` are the formulas of its closed form with their
+    conditions, None where it has none.
     """
 
     def __init__(
-        self, robot: Robot, r: Matrix, task: Node, branches: Sequence[Mapping[str, Node]] | None
+        self,
+        robot: Robot,
+        r: Matrix,
+        task: Node,
+        branches: Sequence[tuple[Mapping[str, Node], Conditions]] | None,
     ) -> None:
         assert robot.questions.target is not None
         self.robot, self.r, self.task, self.branches = robot, r, task, branches
@@ -77,8 +90,12 @@ class TargetForms:
     @cached_property
     def written(self) -> dict[str, Node]:
         """The formulas of the parameters and of the values of the task, by name."""
-        values = zip(self.robot.questions.reached, self.target.values, strict=True)
-        return {**dict(self.target.numbers), **dict(values)}
+        return {**dict(self.target.numbers), **dict(self.given)}
+
+    @property
+    def given(self) -> Iterator[tuple[str, Node]]:
+        """The values of the task by name, as they are written."""
+        return zip(self.robot.questions.reached, self.target.values, strict=True)
 
     @cached_property
     def exact(self) -> dict[str, Exact]:
@@ -141,6 +158,11 @@ class TargetForms:
         return tuple(one for one in self._at_target if isinstance(one, Lost))
 
     @property
+    def unmet(self) -> tuple[Unmet, ...]:
+        """The branches with a condition that does not hold at these numbers."""
+        return tuple(one for one in self._at_target if isinstance(one, Unmet))
+
+    @property
     def is_searched(self) -> bool:
         """Whether configurations are looked for in numbers, too."""
         return self.branches is None or None in self._at_target
@@ -150,11 +172,16 @@ class TargetForms:
         return tuple(one for one in self._at_target if isinstance(one, Configuration))
 
     @cached_property
-    def _at_target(self) -> tuple[Configuration | Lost | None, ...]:
+    def _at_target(self) -> tuple[Configuration | Lost | Unmet | None, ...]:
         """Each branch at the target; None where its formulas say nothing there."""
-        return tuple(self._branch(number, one) for number, one in enumerate(self.branches or (), 1))
+        return tuple(self._branch(number, *one) for number, one in enumerate(self.branches or (), 1))
 
-    def _branch(self, number: int, branch: Mapping[str, Node]) -> Configuration | Lost | None:
+    def _branch(
+        self, number: int, branch: Mapping[str, Node], when: Conditions
+    ) -> Configuration | Lost | Unmet | None:
+        for one in when:
+            if names_in(*one.sides).isdisjoint(branch) and not holds(one, self.numbers):
+                return Unmet(number, one)
         try:
             found = branch_values(branch, self.numbers, self.exact)
             others = [self._elsewhere(branch, place) for place in _OTHER_PLACES] if found.free else []
@@ -164,6 +191,9 @@ class TargetForms:
             return None
         names = self.robot.ring.names
         unused = {name: 0.0 for name in names if name not in branch}
+        for one in when:
+            if not holds(one, {**unused, **found.numbers}):
+                return Unmet(number, one)
         if not all(self.reaches({**unused, **one.numbers}) for one in (found, *others)):
             return None
         return Configuration(

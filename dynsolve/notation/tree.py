@@ -34,6 +34,10 @@ class Node:
             object.__setattr__(self, "_hash", found)
             return found
 
+    def __str__(self) -> str:
+        """Nothing: a formula among words stands there as itself, and a printer of the page's writes it."""
+        raise TypeError(f"{type(self).__name__} has no text of its own: a printer writes it")
+
 
 _T = TypeVar("_T")
 

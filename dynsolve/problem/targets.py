@@ -39,16 +39,19 @@ class TargetBuilder:
         self.numbers: dict[str, Node] = {name: read(text).tree for name, text in written.items()}
 
     def names(self, reach: ParsedReach) -> tuple[str, ...]:
-        """The names of the values, where `reach` names them; the same names as numbers are a fault."""
-        found = reach.names(self._known)
-        if found and len(found) < len(reach.cells):
-            first = next(cell for cell in reach.cells if cell.tree in map(_symbol, found))
+        """The names of the values, where `reach` names them all, perhaps with numbers under `values`.
+
+        Names without a number beside numbers are a fault.
+        """
+        found, unknown = reach.names(self.parameters), reach.names(self._known)
+        if unknown and len(unknown) < len(reach.cells):
+            first = next(cell for cell in reach.cells if cell.tree in map(_symbol, unknown))
             self.faults.error(
                 first.span,
                 f"reach names {first.text}, and gives other values as numbers",
                 "name all values of the task, or give a number for each",
             )
-        return found
+        return found if len(found) == len(reach.cells) else ()
 
     def target(self, reach: ParsedReach, angles: Sequence[bool]) -> Target | None:
         """What r(q) is to be in numbers, None where `reach` names its values, or is not given.
@@ -65,7 +68,9 @@ class TargetBuilder:
                 help = "write a number: an angle is asked for where the task has a sum of joint angles"
                 self.faults.error(cell.span, f"{cell.what} is a length, not an angle", help)
         self._check(reach.cells)
-        return Target(tuple(cell.tree for cell in reach.cells), tuple(self.numbers.items()))
+        named = {_symbol(name): self.numbers.get(name) for name in reach.names(self.parameters)}
+        values = tuple(named.get(cell.tree) or cell.tree for cell in reach.cells)
+        return Target(values, tuple(self.numbers.items()))
 
     def check_rotation(self, reach: ParsedReach) -> None:
         """The last nine values of a pose are the rows of a rotation: orthonormal, right-handed."""

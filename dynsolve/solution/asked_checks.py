@@ -132,7 +132,8 @@ def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wante
     shown = ConfigurationForms(robot, values)
     if "inverse" in wanted and shown.solved is not None:
         (task,) = values.rules["inverse"].inputs
-        verify_inverse(robot, forms(task), angle_rows(values[task]), shown.inverse)
+        branches = list(zip(shown.inverse, shown.when, strict=True))
+        verify_inverse(robot, forms(task), angle_rows(values[task]), branches)
     if "inverse" in wanted and shown.target is not None:
         configurations = [(c.formulas, c.free) for c in shown.target.configurations]
         target = shown.target

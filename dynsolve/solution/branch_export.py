@@ -3,21 +3,53 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from dynsolve.algebra.surd_angles import PI
+from dynsolve.notation.build import times
 from dynsolve.notation.python import PythonPrinter
+from dynsolve.notation.tree import Degrees, Node, Number
+from dynsolve.notation.walk import mapped
 
 if TYPE_CHECKING:
     from dynsolve.document import Prose
     from dynsolve.explain.configurations import ConfigurationForms
+    from dynsolve.explain.target import TargetForms
 
 _DIGITS = 15
 
 
-def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dict[str, str]]:
-    """The branches, or where the target is given in numbers, the configurations that reach it."""
-    branches = forms.inverse if forms.target is None else [c.formulas for c in forms.target.configurations]
-    return [{name: python.text(value) for name, value in branch.items()} for branch in branches]
+def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dict[str, Any]]:
+    """The branches in the names of the values of the task, each with the conditions under which it is one."""
+    found: list[dict[str, Any]] = []
+    for branch, when in zip(forms.inverse, forms.when, strict=True):
+        found.append({name: _text(python, value) for name, value in branch.items()})
+        if when:
+            found[-1]["when"] = [" = ".join(_text(python, side) for side in one.sides) for one in when]
+    return found
+
+
+def configuration_results(target: TargetForms, python: PythonPrinter) -> list[dict[str, str]]:
+    """The configurations that reach given numbers, their formulas exact where they come from a branch."""
+    return [
+        {name: _text(python, _exact(f) if one.branches else f) for name, f in one.formulas.items()}
+        for one in target.configurations
+    ]
+
+
+def _exact(formula: Node) -> Node:
+    """A formula with fractions for decimals."""
+    return mapped(formula, lambda part: Number(part.p, part.q) if isinstance(part, Number) else part)
+
+
+def _text(python: PythonPrinter, formula: Node) -> str:
+    """A formula as text, its degrees as parts of π, so that no rounded number stands in it."""
+    return python.text(mapped(formula, _in_radians))
+
+
+def _in_radians(part: Node) -> Node:
+    return times(Fraction(part.p, 180 * part.q), [(PI, 1)]) if isinstance(part, Degrees) else part
 
 
 def beside_branches(forms: ConfigurationForms, write: Callable[[Prose], str]) -> Iterator[tuple[str, Any]]:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from dynsolve.derivation.configurations import NO_CLOSED_FORM
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Inline, Prose, Reference, Verbatim
 from dynsolve.explain.citations import by_itself
@@ -25,10 +26,10 @@ from dynsolve.quantities.family import Family, Kind, Owner
 from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.robot_stages import derived_stages
 from dynsolve.robot.model import Robot
-from dynsolve.solution.branch_export import beside_branches, branch_results
+from dynsolve.solution.branch_export import beside_branches, branch_results, configuration_results
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.numbers import measures
-from dynsolve.solution.numbers.given import Given
+from dynsolve.solution.numbers.given import Given, parameters
 from dynsolve.solution.numbers.results import Numbers, State, Valued
 from dynsolve.solution.numbers.rounding import DIGITS
 from dynsolve.solution.table_export import table_results
@@ -78,15 +79,19 @@ def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[
             "max_relative_error": verification.max_relative_error,
         },
         **({} if short is None else {"abbreviated": exporter.abbreviated(short)}),
-        **({} if solution.numbers is None else _number_sections(solution, solution.numbers)),
+        **_with_target(
+            {} if solution.numbers is None else _number_sections(solution, solution.numbers), exporter
+        ),
     }
 
 
 class _Exporter:
     """Keeps one printer of each notation, so that what trees share is printed once."""
 
-    def __init__(self, solution: Dynamics, forms: Callable[[str], Node] | None = None) -> None:
-        self.solution = solution
+    def __init__(
+        self, solution: Dynamics, forms: Callable[[str], Node] | None = None, of: Valued | State | None = None
+    ) -> None:
+        self.solution, self.of = solution, of
         self.forms = forms or solution.forms
         self.python = PythonPrinter()
         self.latex = LatexPrinter(solution.style)
@@ -120,12 +125,14 @@ class _Exporter:
 
             found = self.solution.values["singular"]
             results |= dict(existence("singular", self.configurations, self.python, found.exist))
-        if "inverse" in results:
+        if "inverse" in results and self.of is None:
             results |= dict(beside_branches(self.configurations, self.prose))
         return results | dict(table_results(self.solution, self.python))
 
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
+        if quantity.family.kind is Kind.BRANCHES and self.of is not None:
+            return self.branches_in_numbers(self.of)
         match quantity.family.kind:
             case Kind.EQUATIONS | Kind.CONDITIONS | Kind.BRANCHES if isinstance(
                 self.solution.values[quantity.rule], Skipped
@@ -139,6 +146,8 @@ class _Exporter:
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in found]
             case Kind.VERDICTS:
                 return verdict_results(self.solution, self.python, self.unicode)
+            case Kind.BRANCHES if self.configurations.solved is None:
+                return {"skipped": NO_CLOSED_FORM}
             case Kind.BRANCHES:
                 return branch_results(self.configurations, self.python)
         form = self.forms(quantity.rule)
@@ -150,6 +159,17 @@ class _Exporter:
         if quantity.family.kind is Kind.SPAN:
             return [list(vector) for vector in zip(*rows, strict=True)]
         return [entry for (entry,) in rows] if quantity.family.is_vector else rows
+
+    def branches_in_numbers(self, of: Valued | State) -> Any:
+        """What reaches the target; where there is none, the branches of the robot with numbers."""
+        if self.configurations.target is not None:
+            return configuration_results(self.configurations.target, self.python)
+        from dynsolve.explain.configurations import ConfigurationForms
+
+        found = of.values["inverse"]
+        if isinstance(found, Skipped):
+            return {"skipped": found.why}
+        return branch_results(ConfigurationForms(of.robot, of.values), self.python)
 
     @cached_property
     def configurations(self) -> ConfigurationForms:
@@ -241,7 +261,7 @@ def _number_sections(solution: Dynamics, numbers: Numbers) -> dict[str, Any]:
 
     def results(of: Valued | State) -> dict[str, Any]:
         digits = of.digits if of.digits != DIGITS else NUMBER_DIGITS
-        return _Exporter(solution, lambda name: of.shown(name, digits)).results()
+        return _Exporter(solution, lambda name: of.shown(name, digits), of).results()
 
     sections: dict[str, Any] = {}
     if numbers.given.entries:
@@ -252,6 +272,15 @@ def _number_sections(solution: Dynamics, numbers: Numbers) -> dict[str, Any]:
         sections["at"] = {"given": _given(numbers.state.given), "results": results(numbers.state)}
     if sections:
         sections["units"] = {name: _plain(unit) for name, unit in _units(numbers.robot)}
+    return sections
+
+
+def _with_target(sections: dict[str, Any], exporter: _Exporter) -> dict[str, Any]:
+    """The sections, `values` with what reaches the numbers of `reach`, which needs no others than its own."""
+    solution = exporter.solution
+    if "inverse" in solution.robot.questions.asked and (target := exporter.configurations.target) is not None:
+        values = sections.setdefault("values", {"given": _given(parameters(solution.problem, ()))})
+        values.setdefault("results", {})["inverse"] = configuration_results(target, exporter.python)
     return sections
 
 

@@ -210,9 +210,10 @@ def test_what_reaches_numbers_is_what_newton_finds(name: str) -> None:
     ]
     r = np.array([math.radians(float(t[:-3])) if t.endswith("deg") else float(t) for t in texts])
     numbers = f"values: {json.dumps(lengths)}\nreach: [{', '.join(texts)}]\n"
-    results = solve_json(f"gravity: none\n{ARMS[name]}\n{numbers}find: [inverse]\n")["results"]
-    listed = [np.array([q[n] for n in this.names]) for q in results["inverse_decimals"]]
-    exact = [this.configuration({n: code(f) for n, f in q.items()}, lengths) for q in results["inverse"]]
+    solution = solve_json(f"gravity: none\n{ARMS[name]}\n{numbers}find: [inverse]\n")
+    listed = [np.array([q[n] for n in this.names]) for q in solution["results"]["inverse_decimals"]]
+    at_numbers = solution["values"]["results"]["inverse"]
+    exact = [this.configuration({n: code(f) for n, f in q.items()}, lengths) for q in at_numbers]
     assert len(listed) == len(exact) > 0
     for q, same in zip(listed, exact, strict=True):
         assert this.is_same(q, same) and this.gap(q, r, lengths) < 1e-9

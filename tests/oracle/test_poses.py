@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -58,7 +59,7 @@ class Arm:
         self.turning = np.array([row[0] is not None for row in rows])
         table = ", ".join(self._written(k, *row) for k, row in enumerate(rows, 1))
         results = solve_json(f"gravity: none\ndh: [{table}]\ntask: pose\nfind: [inverse]\n")["results"]
-        self.branches: list[dict[str, str]] = results["inverse"]
+        self.branches: list[dict[str, Any]] = results["inverse"]
 
     @staticmethod
     def _written(k: int, d: float | None, a: float, alpha: float) -> str:
@@ -79,10 +80,14 @@ class Arm:
         found = (self._configuration(branch, dict(given)) for branch in self.branches)
         return [q for q in found if q is not None]
 
-    def _configuration(self, branch: Mapping[str, str], values: dict[str, float]) -> Vector | None:
+    def _configuration(self, branch: Mapping[str, Any], values: dict[str, float]) -> Vector | None:
         try:
             for name, formula in branch.items():
-                values[name] = eval(formula, dict(KNOWN), values)  # noqa: S307 - results of our own
+                if name != "when":
+                    values[name] = eval(formula, dict(KNOWN), values)  # noqa: S307 - results of our own
+            for condition in branch.get("when", ()):
+                left, right = (eval(side, dict(KNOWN), values) for side in condition.split(" = "))  # noqa: S307
+                assert math.isclose(left, right, abs_tol=1e-9)
         except ValueError:  # beyond reach
             return None
         return np.array([values[f"q{k}"] for k in range(1, len(self.rows) + 1)])

@@ -6,7 +6,8 @@ joints where there are any; it is right where it gives them back, whatever its f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from dynsolve.algebra.matrix import Matrix
@@ -23,6 +24,19 @@ from dynsolve.robot.model import Robot
 
 Formulas = Mapping[str, Node]
 """A branch: the formula of each coordinate."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Values of the task that are reached, by name too, with the key's branches that are right there.
+
+    The others are there, but their conditions do not hold.
+    """
+
+    at: Mapping[str, float]
+    reached: Sequence[float]
+    right: Sequence[Mapping[str, float]]
+    others: Sequence[Mapping[str, float]]
 
 
 class BranchKey:
@@ -57,31 +71,42 @@ class BranchKey:
         return frozenset(q.name for q in self.robot.coordinates) - set(free)
 
     @cached_property
-    def _solutions(self) -> list[Callable[[Mapping[str, float]], dict[str, float] | None]]:
-        return [solution_of(branch) for branch in self.shown.inverse]
+    def _places(self) -> list[_Place]:
+        """What is to be reached at each state, and what the key has there."""
+        solutions = [solution_of(branch) for branch in self.shown.inverse]
+        found = []
+        for values in self.states:
+            reached = reaches(self._task, values)
+            at = {name: value for name, value in values.items() if name not in self._names}
+            at |= dict(zip(self.robot.questions.reached, reached, strict=True))
+            sides: dict[bool, list[Mapping[str, float]]] = {True: [], False: []}
+            for q in (solution(at) for solution in solutions):
+                if q is not None:
+                    sides[self._reaches(q, reached)].append(q)
+            found.append(_Place(at, reached, sides[True], sides[False]))
+        return found
+
+    def _reaches(self, q: Mapping[str, float], reached: Sequence[float]) -> bool:
+        return near(reaches(self._task, q), reached, self._angles)
+
+    def _is_among(self, q: Mapping[str, float], others: Iterable[Mapping[str, float]]) -> bool:
+        return any(same_configuration(self.robot.ring, q, other) for other in others)
 
     def _compared(self, given: Sequence[Formulas]) -> SetVerdict:
-        names = self._names
         for number, branch in enumerate(given, 1):
-            if not names <= branch.keys():
+            if not self._names <= branch.keys():
                 return SetVerdict(False, "branch_lacks_coordinate", number)
         theirs = [solution_of(in_order(branch)) for branch in given]
         met: list[set[bool]] = [set() for _ in given]
         is_incomplete = not given
-        for values in self.states:
-            reached = reaches(self._task, values)
-            at = {name: value for name, value in values.items() if name not in names}
-            at |= dict(zip(self.robot.questions.reached, reached, strict=True))
+        for place in self._places:
             present = []
             for solution, seen in zip(theirs, met, strict=True):
-                if (q := solution(at)) is not None:
+                q = solution(place.at)
+                if q is not None and not self._is_among(q, place.others):
                     present.append(q)
-                    seen.add(near(reaches(self._task, q), reached, self._angles))
-            is_incomplete = is_incomplete or not all(
-                any(same_configuration(self.robot.ring, q, other) for other in present)
-                for q in (solution(at) for solution in self._solutions)
-                if q is not None
-            )
+                    seen.add(self._reaches(q, place.reached))
+            is_incomplete = is_incomplete or not all(self._is_among(q, present) for q in place.right)
         for number, (branch, seen) in enumerate(zip(given, met, strict=True), 1):
             if seen == {True, False} and _has_half_a_turn(branch):
                 return SetVerdict(False, "quadrant_lost", number)

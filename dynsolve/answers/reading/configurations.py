@@ -42,6 +42,9 @@ from dynsolve.notation.walk import mapped, names_in, with_atan2_exchanged
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.spelling import key
 
+CONDITIONS = "when"
+"""The key beside a branch for the conditions under which it holds."""
+
 MOST_ITEMS = 64
 """More alternatives, with every ± written out, are not read."""
 
@@ -208,7 +211,7 @@ def _texts(text: str, items: Iterable[YamlNode]) -> Iterator[list[list[str]]]:
 def _branch(text: str, node: YamlNode, names: Sequence[str]) -> Iterator[tuple[str, str]]:
     """The formulas of a branch, by coordinate; those of a list in the order of the coordinates."""
     if node.style == "mapping":
-        yield from yaml_values.pairs_of(text, node)
+        yield from (pair for pair in yaml_values.pairs_of(text, node) if pair[0] != CONDITIONS)
         return
     items = yaml_values.items_of(text, node) if node.style == "list" else []
     if len(items) != len(names):

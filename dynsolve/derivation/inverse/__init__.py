@@ -15,6 +15,8 @@ counts as known from then on.
     names         names for what becomes known: a wrist's centre, the entries of its rotation
     pose          a full pose, part by part: from such points, and from the rotation that is left
     branches      the sets of signs that solve the task, found by putting in
+    relations     equations between the values of the task alone, from those of a search
+    conditions    those under which a branch solves a task with more components than joints move
     numeric       configurations that reach numbers, by Newton's method from many starts
 
 Spong, Hutchinson, Vidyasagar, section 3.3 (2006); Craig, chapter 4; Paul, Robot Manipulators (1981);

@@ -14,7 +14,7 @@ from itertools import islice, product
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.sampling import ENOUGH, samples
-from dynsolve.derivation.inverse.solving import Solving
+from dynsolve.derivation.inverse.solving import Relation, Solving
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 
 MOST = 8 * ENOUGH
@@ -26,17 +26,22 @@ Choice = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """One solution: `choice` says which value each step takes."""
+    """One solution: `choice` says which value each step takes, `when` under which conditions it is one."""
 
     choice: Choice
+    when: tuple[Relation, ...] = ()
 
 
 def branches(solving: Solving) -> tuple[Branch, ...] | None:
-    """The branches that solve the task; None where some solve it at some points only, or one is not found."""
+    """The branches that solve the task; None where one is not found, or some solve it at some points only.
+
+    Where there are conditions on the values, these may tell at which.
+    """
     candidates = [Branch(choice) for choice in product(*(range(step.count) for step in solving.solved))]
     verdicts: dict[Branch, set[bool]] = {branch: set() for branch in candidates}
+    enough = 3 * ENOUGH if solving.conditions > 0 else ENOUGH
     for number, state in enumerate(islice(samples(solving.ring), MOST)):
-        if number >= ENOUGH and all(verdicts.values()):
+        if number >= enough and all(verdicts.values()):
             break
         reached = reach_of(solving, state)
         found = False
@@ -48,9 +53,9 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
                 found = found or (solves and same_configuration(solving.ring, q, state))
         if not found:
             return None
-    if any(len(seen) > 1 for seen in verdicts.values()):
+    if solving.conditions <= 0 and any(len(seen) > 1 for seen in verdicts.values()):
         return None
-    return tuple(branch for branch, seen in verdicts.items() if seen == {True})
+    return tuple(branch for branch, seen in verdicts.items() if True in seen)
 
 
 def reach_of(solving: Solving, state: Mapping[str, float]) -> dict[str, float]:

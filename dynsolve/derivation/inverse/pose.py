@@ -15,14 +15,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations_with_replacement
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.transfer import Transfer
 from dynsolve.derivation.inverse.chain import Chain, chain_of, inverse
 from dynsolve.derivation.inverse.equations import Equation, OfPoint, OfTurn, System, lineage
 from dynsolve.derivation.inverse.names import Names
+from dynsolve.derivation.inverse.relations import length
 from dynsolve.derivation.inverse.search import search
-from dynsolve.derivation.inverse.solving import FixedPoint, Part, Solving, Turn
+from dynsolve.derivation.inverse.solving import FixedPoint, Part, Relation, Solving, Turn
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.inverse.unknowns import Unknowns, search_ring
 from dynsolve.robot.model import Robot
@@ -57,7 +60,39 @@ def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | N
     parts = _parts(start, unknowns, names)
     if parts is None:
         return None
-    return Solving(ring, pose, tuple(values), frozenset(), tuple(_needed(parts)), ())
+    made = pose.map(Transfer(pose.ring, ring)).entries
+    whole = [Relation(ring.symbol(name), entry) for name, entry in zip(values, made, strict=True)]
+    fixed = [one for one in whole if not ring.depends_on_coordinates(one.right)]
+    told = sorted((*_of_points(start, names), *fixed), key=length)
+    identities = tuple(_orthonormal(H))
+    return Solving(
+        ring,
+        pose,
+        tuple(values),
+        frozenset(),
+        tuple(_needed(parts)),
+        (),
+        tuple(whole),
+        tuple(told),
+        identities,
+    )
+
+
+def _orthonormal(H: Matrix) -> Iterator[Relation]:
+    """What holds between the entries of every rotation: its rows are of length 1, at right angles."""
+    ring = H.ring
+    for i, j in combinations_with_replacement(H.rows[:3], 2):
+        yield Relation(ring.dot(i[:3], j[:3]), ring.one if i is j else ring.zero)
+
+
+def _of_points(block: _Block, names: Names) -> Iterator[Relation]:
+    """The coordinates of points, in the hand and in the base, that no joint changes."""
+    whole = block.point(names, 0, len(block.chain.screws), from_hand=False)
+    for point in (*([whole] if whole else []), *_points(block, names)):
+        meant = {point.known.ring.symbol(d.name): d.value for d in point.definitions}
+        for known, made in zip(point.known.entries, point.made.entries, strict=True):
+            if not made.ring.depends_on_coordinates(made):
+                yield Relation(meant.get(known, known), made)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
 
@@ -19,7 +20,8 @@ from dynsolve.derivation.inverse.equations import (
     turned_systems,
     turns,
 )
-from dynsolve.derivation.inverse.solving import Part, Solving
+from dynsolve.derivation.inverse.relations import relations
+from dynsolve.derivation.inverse.solving import Part, Relation, Solving
 from dynsolve.derivation.inverse.subproblems import Remainder, Solved, TwoLines, recognized
 from dynsolve.derivation.inverse.unknowns import Unknowns, search_ring
 
@@ -35,10 +37,10 @@ def solve_task(task: Matrix, values: Sequence[str]) -> Solving | None:
 
     `task` is r(q), m×1; coordinates that do not occur in it are free.
     """
-    sums = dict(_angle_sums(task, values))
-    given = {remainder.coordinate: remainder.value for remainder in sums.values()}
-    ring = search_ring(task.ring, values, given)
-    carry = Transfer(task.ring, ring, _angles(sums.values()))
+    given, sums = _angle_sums(task, values)
+    angles = {name: one.angle_of(name) for name, one in given.items()}
+    ring = search_ring(task.ring, values, angles)
+    carry = Transfer(task.ring, ring, angles)
     r = tuple(carry(entry) for entry in task.entries)
     names = [name for name in ring.names if name not in given]
     unknowns = Unknowns(ring, tuple(names), tuple(values))
@@ -51,28 +53,39 @@ def solve_task(task: Matrix, values: Sequence[str]) -> Solving | None:
         for k, (entry, value) in enumerate(zip(r, values, strict=True))
         if k not in sums
     )
-    steps = search([rest], unknowns)
+    seen: list[Equation] = []
+    steps = search([rest], unknowns, seen)
     if {step.coordinate for step in steps} != set(unknowns.names):
         return None
-    last = [_in_ring(remainder, carry) for remainder in sums.values()]
-    angles = frozenset(given.values())
-    return Solving(ring, task, tuple(values), angles, (Part((*steps, *last)),), free)
-
-
-def _in_ring(remainder: Remainder, carry: Transfer) -> Remainder:
-    return Remainder(
-        remainder.coordinate, remainder.rate, remainder.value, remainder.others, carry(remainder.rest)
+    last = [one.remainder(name, carry) for name, one in given.items()]
+    bound = tuple(one.relation(values[k], carry) for k, one in sums.items() if not one.rates)
+    return Solving(
+        ring,
+        task,
+        tuple(values),
+        frozenset(values[k] for k in sums),
+        (Part((*steps, *last)),),
+        free,
+        (*bound, *(Relation(e.left, e.right) for e in rest)),
+        (*bound, *relations(steps, (*rest, *seen))),
     )
 
 
-def search(given: Sequence[System], unknowns: Unknowns) -> tuple[Solved, ...]:
-    """The steps from some systems to the unknowns, each the simplest there is, as far as they lead."""
+def search(
+    given: Sequence[System], unknowns: Unknowns, seen: list[Equation] | None = None
+) -> tuple[Solved, ...]:
+    """The steps from some systems to the unknowns, each the simplest there is, as far as they lead.
+
+    The equations that are made on the way are added to `seen`.
+    """
     systems = list(given)
     sums: list[Equation] = []
     steps: list[Solved] = []
     while unknowns.names:
         systems = _grown([tuple(arranged(e, unknowns) for e in s) for s in systems], unknowns)
         added = [tuple(_sums(system)) for system in systems]
+        if seen is not None:
+            seen += chain.from_iterable((*systems, *added))
         best = min(_solvable(systems, added, sums, unknowns), key=_effort, default=None)
         if best is None:
             break
@@ -127,23 +140,75 @@ def _solvable(
 # -- sums of angles in the task --------------------------------------------------------------------
 
 
-def _angle_sums(task: Matrix, values: Sequence[str]) -> Iterator[tuple[int, Remainder]]:
-    """The components of the task that are sums of angles, by their index: each gives its last coordinate."""
-    taken: set[str] = set()
+@dataclass(frozen=True, slots=True)
+class _Sum:
+    """Σ given = Σ rate·q + rest, between values of the task and angles."""
+
+    given: Mapping[str, Fraction]
+    rates: Mapping[str, Fraction]
+    rest: Expr
+
+    def without(self, name: str, other: _Sum) -> _Sum:
+        """The sum after a coordinate is taken from another one."""
+        if name not in self.rates:
+            return self
+        factor = self.rates[name] / other.rates[name]
+        return _Sum(
+            _combined(self.given, other.given, factor),
+            _combined(self.rates, other.rates, factor),
+            self.rest - other.rest * factor,
+        )
+
+    def angle_of(self, name: str) -> Angle:
+        """A coordinate as an angle of the values and of the others."""
+        parts = [Angle.of(value, rate) for value, rate in self.given.items()]
+        parts += [Angle.of(other, -rate) for other, rate in self.rates.items() if other != name]
+        constant = _constant_angle(self.rest)
+        assert constant is not None
+        return sum(parts, -constant) * (1 / self.rates[name])
+
+    def remainder(self, name: str, carry: Transfer) -> Remainder:
+        """The coordinate from the values and from the others, in the ring of the search."""
+        others = tuple((other, rate) for other, rate in self.rates.items() if other != name)
+        return Remainder(name, self.rates[name], tuple(self.given.items()), others, carry(self.rest))
+
+    def relation(self, value: str, carry: Transfer) -> Relation:
+        """What a value must be, where no coordinate is left."""
+        ring = carry.target
+        others = (ring.symbol(name) * rate for name, rate in self.given.items() if name != value)
+        return Relation(ring.symbol(value), sum((-e for e in others), carry(self.rest)), is_angle=True)
+
+
+def _combined(
+    one: Mapping[str, Fraction], other: Mapping[str, Fraction], factor: Fraction
+) -> dict[str, Fraction]:
+    found = {
+        name: one.get(name, Fraction(0)) - factor * other.get(name, Fraction(0)) for name in {**one, **other}
+    }
+    return {name: rate for name, rate in found.items() if rate}
+
+
+def _angle_sums(task: Matrix, values: Sequence[str]) -> tuple[dict[str, _Sum], dict[int, _Sum]]:
+    """(the sum that gives each coordinate, none of the others in it; the components that are sums)
+
+    A component whose coordinates all stand in others is left without any.
+    """
+    solved: dict[str, _Sum] = {}
+    found: dict[int, _Sum] = {}
     for k, (entry, value) in enumerate(zip(task.entries, values, strict=True)):
-        found = _angle_sum(entry)
-        if found is None:
+        one = _angle_sum(entry, value)
+        if one is None:
             continue
-        rates, rest = found
-        name = next((name for name in reversed(rates) if name not in taken), None)
-        if name is not None:
-            taken.add(name)
-            others = tuple((other, rate) for other, rate in rates.items() if other != name)
-            yield k, Remainder(name, rates[name], value, others, rest)
+        for name, other in solved.items():
+            one = one.without(name, other)
+        found[k] = one
+        for last in [name for name in task.ring.names if name in one.rates][-1:]:
+            solved = {name: other.without(last, one) for name, other in solved.items()} | {last: one}
+    return solved, found
 
 
-def _angle_sum(entry: Expr) -> tuple[dict[str, Fraction], Expr] | None:
-    """(the rate of each angle, the rest) of Σ rate·q + rest, the rest without coordinates."""
+def _angle_sum(entry: Expr, value: str) -> _Sum | None:
+    """A component Σ rate·q + rest, the rest without coordinates."""
     ring = entry.ring
     rates: dict[str, Fraction] = {}
     rest = entry
@@ -157,17 +222,19 @@ def _angle_sum(entry: Expr) -> tuple[dict[str, Fraction], Expr] | None:
             return None
         rates[name] = rate.number
         rest = rest - ring.symbol(name) * rate
-    if not rates or ring.depends_on_coordinates(rest):
+    if not rates or ring.depends_on_coordinates(rest) or _constant_angle(rest) is None:
         return None
-    return rates, rest
+    return _Sum({value: Fraction(1)}, rates, rest)
 
 
-def _angles(sums: Iterable[Remainder]) -> dict[str, Angle]:
-    """What each given coordinate is in the arguments of sines and cosines."""
-    found: dict[str, Angle] = {}
-    for remainder in sums:
-        angle = Angle.of(remainder.value)
-        for name, rate in remainder.others:
-            angle = angle - Angle.of(name, rate)
-        found[remainder.coordinate] = angle * (1 / remainder.rate)
+def _constant_angle(rest: Expr) -> Angle | None:
+    """A sum of symbols as an angle; None for anything else."""
+    found = Angle()
+    for exponents, factor in rest.poly.to_dict().items():
+        places = [k for k, exponent in enumerate(exponents) if exponent]
+        generator = rest.ring.generators[places[0]] if len(places) == 1 else None
+        if generator is None or generator.kind != "symbol" or sum(map(int, exponents)) > 1:
+            return None
+        rate = Fraction(int(factor.p), int(factor.q))
+        found = found + (Angle((), 180 * rate) if generator.name == "pi" else Angle.of(generator.name, rate))
     return found

@@ -19,6 +19,20 @@ class Definition:
 
 
 @dataclass(frozen=True, slots=True)
+class Relation:
+    """left = right between values of the task and known coordinates; an angle is meant modulo 2π."""
+
+    left: Expr
+    right: Expr
+    is_angle: bool = False
+
+    @property
+    def expr(self) -> Expr:
+        """right - left, which is 0."""
+        return self.right - self.left
+
+
+@dataclass(frozen=True, slots=True)
 class Turn:
     """The pose that is left for joints `first`..`last` (from 1) when the others are taken off.
 
@@ -79,7 +93,9 @@ class Solving:
 
     `ring` is that of the steps; `task` is r(q) as it was given, `values` are the names of its
     components, `angles` those of them that are sums of angles.  `free` coordinates do not
-    occur in it.
+    occur in it.  `components` are those of the task as far as steps give no coordinate by them alone,
+    `relations` what holds between values at every configuration, the simplest first; `identities`
+    hold for the values of any arm, as between the entries of a rotation.
     """
 
     ring: Ring
@@ -88,6 +104,14 @@ class Solving:
     angles: frozenset[str]
     parts: tuple[Part, ...]
     free: tuple[str, ...]
+    components: tuple[Relation, ...] = ()
+    relations: tuple[Relation, ...] = ()
+    identities: tuple[Relation, ...] = ()
+
+    @property
+    def conditions(self) -> int:
+        """How many conditions the values of the task must meet that no joint brings about."""
+        return len(self.values) - len(self.solved) - len(self.identities)
 
     @property
     def solved(self) -> tuple[Solved, ...]:

@@ -7,7 +7,7 @@ in numbers, in the order in which `explain.inverse` writes them.
     OneLine       A c + B s = X                             two angles, two where X² < A² + B²
     Length        M d = N                                   one length
     RootLength    A d² + B d + C = 0                        two lengths
-    Remainder     q = (value - other angles) / rate         one angle
+    Remainder     q = (values - other angles) / rate        one angle
 
 Craig, section 4.4 and appendix C; Spong, section 3.3; Paul (1981), chapter 3.
 """
@@ -172,11 +172,11 @@ class RootLength:
 
 @dataclass(frozen=True, slots=True)
 class Remainder:
-    """q = (value - Σ rateₖ qₖ - rest) / rate, where the task gives a sum of angles; in radians."""
+    """q = (Σ values - Σ rateₖ qₖ - rest) / rate, where the task gives sums of angles; in radians."""
 
     coordinate: str
     rate: Fraction
-    value: str
+    given: tuple[tuple[str, Fraction], ...]
     others: tuple[tuple[str, Fraction], ...]
     rest: Expr
     equations: tuple[Equation, ...] = ()
@@ -191,8 +191,10 @@ class Remainder:
     def values(self, at: Numbers) -> tuple[float, ...]:
         """The angle."""
         symbol = self.rest.ring.symbol
-        others = sum(float(rate) * at(symbol(name)) for name, rate in self.others)
-        return ((at(symbol(self.value)) - others - at(self.rest)) / float(self.rate),)
+        given, others = (
+            sum(float(rate) * at(symbol(name)) for name, rate in terms) for terms in (self.given, self.others)
+        )
+        return ((given - others - at(self.rest)) / float(self.rate),)
 
 
 Solved = TwoLines | OneLine | Length | RootLength | Remainder

@@ -11,15 +11,17 @@ from typing import Any
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import ring_of
+from dynsolve.algebra.contents import Contents
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.algebra.ring import Ring
 
 
-def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, str]) -> Ring:
+def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, Angle]) -> Ring:
     """The ring with one basic angle a revolute coordinate and the task's `values` as symbols.
 
-    `given_angles` are the coordinates that a sum of angles in the task gives away, with the
-    name of its value: that name is an angle too.
+    `given_angles` are the coordinates that sums of angles in the task give away, each as an angle of
+    such values and of other coordinates: the names of these values are angles too.
     """
     names = [name for name, _ in ring.coordinates]
     turning = tuple(
@@ -27,14 +29,27 @@ def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, st
         for name, kind in ring.coordinates
         if kind == "revolute" and name not in given_angles
     )
-    plan = ring.plan
-    atoms = tuple(((((value, 1),)), Fraction(1)) for value in given_angles.values())
+    carried = (_put(pair.angle, given_angles).degrees for pair in ring.pairs)
+    constants = Contents(angles=tuple(Angle((), degrees) for degrees in carried if degrees % 90))
+    plan = ring.plan.extended(constants, 0) if given_angles else ring.plan
+    fixed = dict(plan.fixed)
+    for atom, rate in (term for angle in given_angles.values() for term in angle.terms):
+        if atom[0][0] not in names:
+            fixed[atom] = rational_gcd((rate, fixed.get(atom, rate)))
     symbols = tuple(dict.fromkeys((*plan.symbols, *values)))
-    fixed = (*plan.fixed, *atoms)
     return ring_of(
         ring.coordinates,
-        replace(plan, turning=turning, fixed=fixed, symbols=symbols, signed=tuple(values)),
+        replace(plan, turning=turning, fixed=tuple(fixed.items()), symbols=symbols, signed=tuple(values)),
     )
+
+
+def _put(angle: Angle, angles: Mapping[str, Angle]) -> Angle:
+    """An angle with others for coordinates."""
+    found = angle
+    for atom, rate in angle.terms:
+        if atom[0][0] in angles:
+            found = found + (angles[atom[0][0]] - Angle.of(atom[0][0])) * rate
+    return found
 
 
 def _unit(names: Sequence[str], name: str, rate: Fraction) -> tuple[Fraction, ...]:

@@ -41,7 +41,7 @@ def test_what_the_steps_start_from(table: str, beginnings: list[str], said: str)
 
 
 def test_a_singular_wrist_is_told() -> None:
-    notes = ["".join(map(str, note)) for note in told(ELBOW)["inverse_q4"].notes]
+    notes = [str(note) for note in told(ELBOW)["inverse_q4"].notes]
     assert any("the wrist is singular" in note for note in notes)
 
 

@@ -146,8 +146,9 @@ def test_limits_mark_and_remove_none(limits: str, outside: list[tuple[str, ...]]
 
 
 def test_the_json_has_the_reason() -> None:
-    results = solve_json(f"gravity: none\n{UNIT}\nreach: [3, 0]\nfind: [inverse]\n")["results"]
-    assert results["inverse"] == results["inverse_decimals"] == []
+    solution = solve_json(f"gravity: none\n{UNIT}\nreach: [3, 0]\nfind: [inverse]\n")
+    results = solution["results"]
+    assert solution["values"]["results"]["inverse"] == results["inverse_decimals"] == []
     assert results["inverse_why"] == "No configuration reaches this: no branch is real."
 
 
