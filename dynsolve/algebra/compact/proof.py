@@ -2,9 +2,9 @@
 
 Both are evaluated at one random point over the integers modulo a prime, at which sin² + cos² = 1 and every
 inverse inverts.  Two polynomials of degree d that differ agree there with probability d/p, less than 10⁻¹⁶
-(Schwartz, Fast probabilistic algorithms for verification of polynomial identities, J. ACM 1980).  Where a ring
-has roots, constant angles or other functions, which need not be numbers modulo a prime, both are evaluated
-in floating point, at values at which everything in the ring is positive.
+(Schwartz, Fast probabilistic algorithms for verification of polynomial identities, J. ACM 1980).  Where
+a ring has roots, constant angles or other functions, which need not be numbers modulo a prime, both are
+evaluated in floating point, at values at which everything in the ring is positive.
 """
 
 from __future__ import annotations
