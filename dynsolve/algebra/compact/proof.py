@@ -20,6 +20,7 @@ from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.generators import Generator, is_sign
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
+from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
 from dynsolve.notation.tree_values import evaluate as value_of_tree
@@ -42,9 +43,12 @@ class Proof:
 
     def holds(self, expr: Expr, form: Node) -> bool:
         """Whether a form is an expression."""
-        if self._in_floats:
-            return all(self._is_close(expr, form, seed) for seed in range(FLOATS))
-        return self._tree(form) == self._poly(expr.poly)
+        if not self._in_floats:
+            try:
+                return self._tree(form) == self._poly(expr.poly)
+            except AlgebraError:  # a constant angle that the ring knows by its multiples alone
+                self._in_floats = True
+        return all(self._is_close(expr, form, seed) for seed in range(FLOATS))
 
     def _is_close(self, expr: Expr, form: Node, seed: int) -> bool:
         """Whether both agree at random values, or have none there, as the root of a negative number."""
