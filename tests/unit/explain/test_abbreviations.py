@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 
 import dynsolve
-from dynsolve.errors import ProblemError
+from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.explain.abbreviations import Abbreviated, abbreviate, is_long
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import (
