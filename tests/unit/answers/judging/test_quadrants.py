@@ -288,3 +288,34 @@ PLAIN = written(polar("atan(y/x)"))
 )
 def test_what_values_and_limits_make_right(name: str, more: str, value: str, verdict: str) -> None:
     assert judged(ARMS[name].problem + more, "inverse", value).verdict == verdict
+
+
+POLAR_WITH_ANGLE = """gravity: none
+dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: q2*}]
+task: [tip.x, tip.y, q1]
+reach: [x, y, phi]
+find: [inverse]
+"""
+"""A task of more components than joints move: of the two roots for q2 one is right at each."""
+
+
+@pytest.mark.parametrize(
+    ("branches", "verdict", "said"),
+    [
+        ([polar("phi"), polar("phi", f"-{R}")], "correct", ()),
+        ([polar("phi")], "correct", ("incomplete",)),
+        ([polar("phi", "x*cos(phi) + y*sin(phi)")], "correct", ()),
+        ([polar("phi", "x/cos(q1)")], "correct", ()),
+        ([polar("phi", "x*cos(phi)")], "wrong", ("branch_misses",)),
+        ([polar("phi", f"2*{R}")], "wrong", ("branch_misses",)),
+        ([polar("-phi"), polar("phi", f"-{R}")], "wrong", ("branch_misses",)),
+        ([polar("phi", "x/cos(acos(x/sqrt(x**2 + y**2)))")], "correct", ("incomplete",)),
+        ([polar("atan(y/x)", "x/cos(q1)")], "wrong", ("quadrant_lost",)),
+    ],
+)
+def test_a_branch_with_a_condition_is_right_where_that_holds(
+    branches: list[Branch], verdict: str, said: tuple[str, ...]
+) -> None:
+    answer = judged(POLAR_WITH_ANGLE, "inverse", written(*branches))
+    slips = [slip.code for slip in answer.diagnosis]
+    assert (answer.verdict, (*answer.notes, *slips)) == (verdict, said)
