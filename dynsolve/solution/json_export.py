@@ -119,37 +119,38 @@ class _Exporter:
         if isinstance(results.get("equilibria"), list):
             from dynsolve.solution.stability_export import beside_equilibria
 
-            results |= dict(beside_equilibria(self.configurations, self.python))
+            results |= dict(beside_equilibria(self.sets, self.python))
         if isinstance(results.get("singular"), list):
             from dynsolve.solution.stability_export import existence
 
-            found = self.solution.values["singular"]
-            results |= dict(existence("singular", self.configurations, self.python, found.exist))
+            found = self.sets.values["singular"]
+            results |= dict(existence("singular", self.sets, self.python, found.exist))
         if "inverse" in results and self.of is None:
             results |= dict(beside_branches(self.configurations, self.prose))
         return results | dict(table_results(self.solution, self.python))
 
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
-        if quantity.family.kind is Kind.BRANCHES and self.of is not None:
-            return self.branches_in_numbers(self.of)
-        match quantity.family.kind:
-            case Kind.EQUATIONS | Kind.CONDITIONS | Kind.BRANCHES if isinstance(
-                self.solution.values[quantity.rule], Skipped
-            ):
-                return {"skipped": self.solution.values[quantity.rule].why}
+        kind = quantity.family.kind
+        if kind is Kind.BRANCHES and self.of is not None and self.configurations.target is not None:
+            return configuration_results(self.configurations.target, self.python)
+        if kind in (Kind.EQUATIONS, Kind.CONDITIONS, Kind.BRANCHES):
+            shown = self.configurations if kind is Kind.CONDITIONS else self.sets
+            if isinstance(found := shown.values[quantity.rule], Skipped):
+                return {"skipped": found.why}
+        match kind:
             case Kind.CONDITIONS:
                 sides = self.configurations.conditions(quantity.rule)
                 return [f"{self.python.text(left)} = {self.python.text(right)}" for left, right in sides]
             case Kind.EQUATIONS:
-                found = self.configurations.alternatives(quantity.rule)
-                return [[f"{self.python.text(e)} = 0" for e in one] for one in found]
+                alternatives = self.sets.alternatives(quantity.rule)
+                return [[f"{self.python.text(e)} = 0" for e in one] for one in alternatives]
             case Kind.VERDICTS:
                 return verdict_results(self.solution, self.python, self.unicode)
-            case Kind.BRANCHES if self.configurations.solved is None:
+            case Kind.BRANCHES if self.sets.solved is None:
                 return {"skipped": NO_CLOSED_FORM}
             case Kind.BRANCHES:
-                return branch_results(self.configurations, self.python)
+                return branch_results(self.sets, self.python)
         form = self.forms(quantity.rule)
         if isinstance(form, Words):
             return {"skipped": form.text}
@@ -160,23 +161,21 @@ class _Exporter:
             return [list(vector) for vector in zip(*rows, strict=True)]
         return [entry for (entry,) in rows] if quantity.family.is_vector else rows
 
-    def branches_in_numbers(self, of: Valued | State) -> Any:
-        """What reaches the target; where there is none, the branches of the robot with numbers."""
-        if self.configurations.target is not None:
-            return configuration_results(self.configurations.target, self.python)
-        from dynsolve.explain.configurations import ConfigurationForms
-
-        found = of.values["inverse"]
-        if isinstance(found, Skipped):
-            return {"skipped": found.why}
-        return branch_results(ConfigurationForms(of.robot, of.values), self.python)
-
     @cached_property
     def configurations(self) -> ConfigurationForms:
         """Singular configurations and the inverse kinematics, as formulas."""
         from dynsolve.explain.configurations import ConfigurationForms
 
         return ConfigurationForms(self.solution.robot, self.solution.values)
+
+    @cached_property
+    def sets(self) -> ConfigurationForms:
+        """The same of the robot with the numbers that are put in, where there are any."""
+        if self.of is None:
+            return self.configurations
+        from dynsolve.explain.configurations import ConfigurationForms
+
+        return ConfigurationForms(self.of.robot, self.of.values)
 
     def abbreviated(self, short: Abbreviated) -> dict[str, Any]:
         """`abbreviated`; a definition uses those before it alone, and c_ijk is given for i ≤ j."""

@@ -34,6 +34,7 @@ from dynsolve.robot.actions import Actions, Spring
 from dynsolve.robot.candidates import Candidate
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.model import AxisTurns, Body, Joint, Robot
+from dynsolve.robot.model_questions import ModelQuestions
 from dynsolve.robot.questions import Load, Questions, State
 
 Replacements = Mapping[tuple[str, int], Node]
@@ -208,12 +209,27 @@ def _questions(questions: Questions, put: Substitution) -> Questions:
         velocity=questions.velocity and put.matrix(questions.velocity),
         acceleration=questions.acceleration and put.matrix(questions.acceleration),
         weights=questions.weights and put.matrix(questions.weights),
+        model=_model(questions.model, put),
     )
 
 
+def _model(model: ModelQuestions, put: Substitution) -> ModelQuestions:
+    """What is asked of the model, with values in it."""
+    return replace(
+        model,
+        linearize=tuple((name, dots, replaced(value, put.values)) for name, dots, value in model.linearize),
+        balanced=model.balanced and put.matrix(model.balanced),
+        steady=tuple((name, replaced(rate, put.values)) for name, rate in model.steady),
+        assumed=_bounds(model.assumed, put),
+    )
+
+
+def _bounds(bounds: Iterable[Bound], put: Substitution) -> tuple[Bound, ...]:
+    return tuple(Bound(put(bound.value), bound.is_strict) for bound in bounds)
+
+
 def _candidate(candidate: Candidate, put: Substitution) -> Candidate:
-    assumed = tuple(Bound(put(bound.value), bound.is_strict) for bound in candidate.assumed)
-    return replace(candidate, matrix=put.matrix(candidate.matrix), assumed=assumed)
+    return replace(candidate, matrix=put.matrix(candidate.matrix), assumed=_bounds(candidate.assumed, put))
 
 
 def _load(load: Load, put: Substitution) -> Load:
