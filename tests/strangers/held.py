@@ -185,7 +185,7 @@ def _words(page: str, format: Format) -> str:
     """A page without what is no text of it: styles, scripts, drawings and tags of HTML."""
     if format is not Format.HTML:
         return page
-    return re.sub(r"<(style|script|svg)\b.*?</\1>|<[^>]*>", "", page, flags=re.S)
+    return re.sub(r"<(style|script|svg)\b.*?</\1>|<[^>]*>", " ", page, flags=re.S)
 
 
 def _around(text: str, match: re.Match[str]) -> str:
