@@ -18,6 +18,9 @@ from dynsolve.notation.tree import Node
 
 Factors = Sequence[tuple[Node, int]]
 
+LONG = 150
+"""Expressions of more terms are not taken apart: over roots that takes minutes."""
+
 
 class ProductForms:
     """Writes expressions of one ring as products, where that is shorter than as sums."""
@@ -43,7 +46,7 @@ class ProductForms:
     def _factors(self, expr: Expr) -> tuple[Fraction, Factors]:
         """(number, factors with their exponents) that make the shortest form."""
         plain = self.compactor.form(expr)
-        found = None if expr.is_number else self._product(expr)
+        found = None if expr.is_number or len(expr) > LONG else self._product(expr)
         if found is None or cost(times(*found)) >= cost(plain):
             return Fraction(1), [(plain, 1)]
         return found
