@@ -240,8 +240,8 @@ class ConfigurationForms:
         return InverseFormulas(self.compactor(solving.ring), solving.solved)
 
     def compactor(self, ring: Ring) -> Compactor:
-        """The compactor of a ring of the search: the values of the task lead its sums."""
-        named = (*self.robot.questions.reached, *ring.plan.signed)
+        """The compactor of a ring of the search: the values of the task lead its sums, then masses."""
+        named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
 

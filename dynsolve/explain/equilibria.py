@@ -30,6 +30,7 @@ from dynsolve.notation.tree import (
     Words,
     equation,
 )
+from dynsolve.notation.walk import names_in
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -75,7 +76,9 @@ def _equilibria(context: Context) -> Iterator[Step]:
     elif not cases[0]:
         notes = (("Nothing is left to be 0: every configuration is an equilibrium.",),)
     else:
-        notes = (("Coordinates that do not occur are free.",), *shown.existence("equilibria", found.exist))
+        free = any({q.name for q in robot.coordinates} - names_in(*one) for one in cases)
+        told: tuple[Prose, ...] = (("Coordinates that do not occur are free.",),) if free else ()
+        notes = (*told, *shown.existence("equilibria", found.exist))
     steady = bool(robot.questions.model.steady)
     forces: Node = moving.FORCES if steady else letters.G
     at_rest = (equation(letters.G, context.form("g")),) if is_small(context.form("g")) else ()

@@ -22,7 +22,7 @@ _SOURCE = spong("4.9")
 _LOST = spong("4.10")
 
 _TITLE = "The singular configurations"
-_CASES = ("A product is 0 where one of its factors is. Lengths are not 0.",)
+_CASES = ("A product is 0 where one of its factors is. Constant lengths are not 0.",)
 """What a hint says of them, however many there are."""
 _SIMPLER = (
     "Its rows may be turned among each other, as by other axes, and multiples of rows and columns added to "
@@ -106,8 +106,11 @@ def _alternatives(forms: ConfigurationForms, found: SingularSet) -> Step:
             hint=_CASES,
             hint_title=_TITLE,
         )
-    one = "A product is 0 where one of its factors is. Lengths are not 0, so one case is left."
-    several = "A product is 0 where one of its factors is; each of these cases is enough. Lengths are not 0."
+    one = "A product is 0 where one of its factors is. Constant lengths are not 0, so one case is left."
+    several = (
+        "A product is 0 where one of its factors is; each of these cases is enough. "
+        "Constant lengths are not 0."
+    )
     return Step(
         id="singular",
         stage=STAGE,
@@ -126,10 +129,14 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
     loss, lost, J = found.losses[case], forms.lost[case], _letter(context)
     several = len(found.losses) > 1
     what = "What is lost" if lost else "The rank"
-    where: Prose = ("Where ", *_equations(forms.singular[case]), ", the rank is ",
+    general = "" if loss.rank_holds else "in general "
+    where: Prose = ("Where ", *_equations(forms.singular[case]), f", the rank is {general}",
                     f"{loss.rank} instead of {found.rank}.")  # fmt: skip
     w = Letter("w", style="bold")
     names = [w] if len(lost) == 1 else [Letter("w", Number(k), style="bold") for k in range(1, len(lost) + 1)]
+    generic: Prose = ()
+    if not loss.are_independent:
+        generic = (" In general ", *listed(names), " are independent." if len(names) > 1 else " is not 0.")
     exact = all(condition.keeps_values for condition in found.alternatives[case])
     form = forms.compactor(loss.jacobian.ring).form
     there = tree.Matrix(tuple(tuple(map(form, row)) for row in loss.jacobian.rows))
@@ -144,7 +151,7 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
         id=f"singular_{case + 1}",
         stage=STAGE,
         title=f"{what} in case {case + 1}" if several else f"{what} there",
-        why=(*where, *(_lost_words(context) if lost else ())),
+        why=(*where, *(_lost_words(context) if lost else ()), *generic),
         formula=formula if lost else None,
         source=_LOST if lost else "",
         working=(equation(J, there),) if lost and exact else (),

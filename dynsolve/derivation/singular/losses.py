@@ -20,7 +20,7 @@ from dynsolve.algebra.minors import determinant, minors, work
 from dynsolve.algebra.trig_factor import trig_factors, trig_quotient
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.core import core
-from dynsolve.derivation.singular.zeros import follows
+from dynsolve.derivation.singular.zeros import can_hold, follows
 
 Direction = tuple[Expr, ...]
 """w, a component for each row of J."""
@@ -39,12 +39,16 @@ MOST_WORK = 2_500
 class Loss:
     """The rank where some conditions hold, and the directions that are lost; none where they are long.
 
-    `jacobian` is the matrix there, up to a factor that is never 0.
+    `jacobian` is the matrix there, up to a factor that is never 0.  With `rank_holds` the rank is that
+    wherever the conditions hold, and with `are_independent` the directions are independent there; else
+    both are so almost everywhere.
     """
 
     rank: int
     directions: tuple[Direction, ...]
     jacobian: Matrix
+    rank_holds: bool
+    are_independent: bool
 
 
 def loss(
@@ -55,11 +59,20 @@ def loss(
     more, there = core(_held(rest, conditions))
     pivots += more
     sizes = range(min(greatest - 1 - pivots, *there.shape), 0, -1)
-    rank = pivots + next((k for k in sizes if _has_rank(there, k, conditions)), 0)
+    left = next((k for k in sizes if _has_rank(there, k, conditions)), 0)
+    rank = pivots + left
     held = _held(jacobian, conditions)
     directions = tuple(_directions(held, rank, conditions))
     is_short = all(sum(map(len, direction)) <= LONGEST for direction in directions)
-    return Loss(rank, directions if is_short else (), held)
+    shown = directions if is_short else ()
+    return Loss(
+        rank,
+        shown,
+        held,
+        rank_holds=not left or _has_rank_everywhere(there, left, conditions),
+        are_independent=not shown
+        or _has_rank_everywhere(Matrix.of(jacobian.ring, shown), len(shown), conditions),
+    )
 
 
 def _held(matrix: Matrix, conditions: Sequence[Condition]) -> Matrix:
@@ -71,6 +84,12 @@ def _held(matrix: Matrix, conditions: Sequence[Condition]) -> Matrix:
 def _has_rank(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
     known = [condition.expr for condition in conditions]
     return any(not follows(minor, known) for minor in minors(matrix, k))
+
+
+def _has_rank_everywhere(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
+    """Whether some minor of size k is not 0, wherever the conditions hold."""
+    known = [condition.expr for condition in conditions]
+    return not can_hold([*known, *minors(matrix, k)])
 
 
 def _directions(matrix: Matrix, rank: int, conditions: Sequence[Condition]) -> Iterator[Direction]:
