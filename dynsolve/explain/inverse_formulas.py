@@ -6,6 +6,7 @@ A step of two solutions has two formulas, in the order of `subproblems`' `values
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from functools import singledispatchmethod
 from math import lcm
 
@@ -215,15 +216,17 @@ class InverseFormulas:
         root = Function("sqrt", self.radicand(step))
         if step.linear.is_zero:
             return root, negated(root)
-        below = step.square * 2
-        middle, either = self.ratio(-step.linear, below), Quotient(root, self._form(below))
+        below = step.square if _is_even(step.linear) else step.square * 2
+        middle = self.ratio(-step.linear, step.square * 2)
+        either = times(1, [(root, 1), (self._form(below), -1)])
         return total([middle, either]), total([middle, negated(either)])
 
     def radicand(self, step: RootLength) -> Node:
-        """What stands under the root: -C/A, or B² - 4 A C."""
+        """What stands under the root: -C/A, B² - 4 A C, or (B/2)² - A C where that has no fractions."""
         if step.linear.is_zero:
             return self.ratio(-step.constant, step.square)
-        return self._form(step.linear * step.linear - step.square * step.constant * 4)
+        discriminant = step.linear * step.linear - step.square * step.constant * 4
+        return self._form(discriminant * Fraction(1, 4) if _is_even(step.linear) else discriminant)
 
     @_solutions.register
     def _remainder(self, step: Remainder) -> tuple[Node, ...]:
@@ -245,3 +248,8 @@ class InverseFormulas:
         if is_nonnegative(-divisor):
             numerator, divisor = -numerator, -divisor
         return Quotient(self._form(numerator), self._form(divisor))
+
+
+def _is_even(expr: Expr) -> bool:
+    """Whether all numbers in front of terms are even."""
+    return all(int(factor.q) == 1 and int(factor.p) % 2 == 0 for factor in expr.poly.coeffs())
