@@ -25,7 +25,7 @@ from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD,
         (POLE, [["sin(theta) = 0"]]),
         (MASSES, [["q1 - q3 = 0", "q2 - q3 = 0"]]),  # Sapienza, Robotics 2, 28 October 2016: q1 = q2 = q3
         (ELASTIC, [["sin(q1) = 0", "q1 - q2 = 0"]]),
-        (HELD, [["k*(q1 - q2) + g*l*m*sin(q1) = 0"]]),
+        (HELD, [["k*(q1 - q2) + m*g*l*sin(q1) = 0"]]),
         (LIFT, []),
         (FLAT, [[]]),
     ],
