@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 from dynsolve.problem.action_keys import DAMPER, FRICTION, MOST_ACTIONS, MOTOR, ROTOR_AXIS, SPRING
 from dynsolve.problem.cells import Cell, forbid, made_cell, read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
+from dynsolve.problem.fields import Fields, describe, items, word
 from dynsolve.problem.kinds import Keyed
 from dynsolve.problem.motor_coordinates import STARRED
 from dynsolve.problem.places import read_link
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.table import coordinate_name
+from dynsolve.problem.table import by_coordinate, coordinate_name, known_coordinate
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
 
 KEYS = ("friction", "springs", "dampers", "motors", "passive")
@@ -126,7 +126,7 @@ def read_actions(faults: Faults, fields: Fields, rows: int, coordinates: Mapping
     motors = tuple(_motor(faults, one, rows, coordinates) for one in listed)
     help = PROBLEM["passive"].help
     names = [
-        _coordinate(faults, item, coordinates, help)
+        known_coordinate(faults, item, coordinates, help)
         for item in items(faults, fields.get("passive"), "passive", help)
     ]
     parsed = ParsedActions(friction, springs, dampers, motors, tuple(name for name in names if name))
@@ -151,15 +151,6 @@ def check_bodies(
         if name in bodies:
             message = f"{letter} is the energy of {of}, and a body is called {name}, too"
             faults.error(fields.key_span(kind), message, "give the body another name")
-
-
-def _coordinate(faults: Faults, node: YamlNode, coordinates: Mapping[str, str], help: str) -> str | None:
-    """A coordinate by its name, None (reported) where there is none of that name."""
-    name = coordinate_name(faults, node, help)
-    if name is None or name in coordinates:
-        return name
-    faults.error(node.span, f"{name} is no coordinate", did_you_mean(name, coordinates) or help)
-    return None
 
 
 def _entries(faults: Faults, fields: Fields, key: str, record: Keyed) -> Iterator[Fields]:
@@ -196,14 +187,8 @@ def _read_friction(
         if node is not None and not isinstance(node, FaultyNode):
             faults.error(node.span, "friction is a mapping from coordinates to their friction", help)
         return
-    met: set[str] = set()
-    for key, value in node.entries:
-        name = _coordinate(faults, key, coordinates, help)
-        if name in met:
-            faults.error(key.span, f"{name} has friction already", "keep one of them")
-        elif name:
-            met.add(name)
-            yield _friction_of(faults, name, value)
+    for name, value in by_coordinate(faults, node, coordinates, help):
+        yield _friction_of(faults, name, value)
 
 
 def _friction_of(faults: Faults, name: str, node: YamlNode) -> ParsedFriction:
@@ -247,7 +232,7 @@ def _motor(faults: Faults, entry: Fields, rows: int, coordinates: Mapping[str, s
         if name is not None and coordinates.get(name) is None:
             faults.error(turns.span, f"`{starred[1]}` cannot be a coordinate", MOTOR["turns"].help)
     elif turns is not None:
-        name = _coordinate(faults, turns, coordinates, MOTOR["turns"].help)
+        name = known_coordinate(faults, turns, coordinates, MOTOR["turns"].help)
     carrier: int | None = 0
     if "carrier" in entry and not rows:
         message = f"{entry.what} has a `carrier`, and there is no table whose links could carry it"

@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 from dynsolve.notation.tree import Symbol
 from dynsolve.problem.cells import Cell, forbid, read_angle, read_cell
-from dynsolve.problem.fields import describe, did_you_mean, items
+from dynsolve.problem.fields import describe, items
 from dynsolve.problem.kinematic_keys import MAX_TASK
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
+from dynsolve.problem.table import by_coordinate
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 
 
@@ -101,12 +102,9 @@ def read_limits(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str])
 
 
 def _ranges(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> Iterator[ParsedLimits]:
-    for key, value in node.entries:
-        name, help = key.decoded.strip(), PROBLEM["limits"].help
-        if name not in kinds:
-            known = did_you_mean(name, kinds) or f"coordinates are {', '.join(kinds)}"
-            faults.error(key.span, f"`{name[:40]}` is no coordinate", known)
-        elif not isinstance(value, ListNode) or len(value.items) != 2:
+    help = PROBLEM["limits"].help
+    for name, value in by_coordinate(faults, node, kinds, help):
+        if not isinstance(value, ListNode) or len(value.items) != 2:
             if not isinstance(value, FaultyNode):
                 message = f"the range of {name} is a list [low, high], not {describe(value)}"
                 if isinstance(value, ListNode):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -177,10 +177,13 @@ def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool)
         return kinds
     example = f"write coordinates: [{', '.join(kinds)}]"
     order: dict[str, str] = {}
-    for item in _listed(faults, fields.get("coordinates"), kinds, example):
+    for item, type in _listed(faults, fields.get("coordinates"), example):
         name = coordinate_name(faults, item, example)
         if name is None:
             continue
+        if type and type.text != kinds.get(name, type.text):
+            message = f"{name} is {kinds[name]} in the table, and {type.text} here"
+            faults.error(type.span, message, "a star in theta makes it revolute, in d prismatic")
         if name in order:
             faults.error(item.span, f"{name} is listed twice", example)
         elif name in kinds:
@@ -194,18 +197,17 @@ def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool)
     return order | {name: kinds[name] for name in missing}
 
 
-def _listed(faults: Faults, node: YamlNode | None, kinds: dict[str, str], example: str) -> Iterator[YamlNode]:
-    """The names of a list, or those of a mapping to their types, which are compared with the table's."""
+def _listed(
+    faults: Faults, node: YamlNode | None, example: str
+) -> Iterator[tuple[YamlNode, ScalarNode | None]]:
+    """The names of a list, or those of a mapping with their types."""
     if not isinstance(node, MappingNode):
-        yield from items(faults, node, "coordinates", example)
+        for item in items(faults, node, "coordinates", example):
+            yield item, None
         return
     for key, value in node.entries:
         kind = word(faults, value, tuple(_KINDS.values()), f"the type of {key.decoded}")
-        own = kinds.get(key.decoded.removesuffix("*"))
-        if kind is not None and own is not None and kind != own:
-            message = f"{key.decoded} is {own} in the table, and {kind} here"
-            faults.error(value.span, message, "a star in theta makes it revolute, in d prismatic")
-        yield key
+        yield key, value if kind and isinstance(value, ScalarNode) else None
 
 
 def coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:
@@ -221,6 +223,29 @@ def coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:
         at = node.start + error.offset
         faults.error((at, at + error.length), error.message, error.help)
         return None
+
+
+def known_coordinate(faults: Faults, node: YamlNode, coordinates: Collection[str], help: str) -> str | None:
+    """A coordinate by its name, None (reported) where there is none of that name."""
+    name = coordinate_name(faults, node, help)
+    if name is None or name in coordinates:
+        return name
+    faults.error(node.span, f"{name[:40]} is no coordinate", did_you_mean(name, coordinates) or help)
+    return None
+
+
+def by_coordinate(
+    faults: Faults, node: MappingNode, coordinates: Collection[str], help: str
+) -> Iterator[tuple[str, YamlNode]]:
+    """The entries of a mapping by coordinates; others are reported, those twice too."""
+    met: set[str] = set()
+    for key, value in node.entries:
+        name = known_coordinate(faults, key, coordinates, help)
+        if name in met:
+            faults.error(key.span, f"{name} stands here already", "keep one of them")
+        elif name:
+            met.add(name)
+            yield name, value
 
 
 def _row(faults: Faults, index: int, raw: _Raw, coordinates: dict[str, str], modified: bool) -> DHRow:

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from dynsolve.problem.cells import Cell, forbid, made_cell, read_cell
-from dynsolve.problem.fields import describe, did_you_mean
+from dynsolve.problem.fields import describe
 from dynsolve.problem.kinematic_keys import BY_INERTIA
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
+from dynsolve.problem.table import by_coordinate
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 
 _CONSTANT = "a weight holds numbers and parameters"
@@ -56,12 +57,10 @@ def read_weights(
 
 def _diagonal(faults: Faults, node: MappingNode, names: Sequence[str]) -> list[list[Cell | None]]:
     """The weights by coordinate; those that are not given are 1."""
-    given: dict[str, Cell | None] = {}
-    for key, value in node.entries:
-        if key.decoded not in names:
-            known = did_you_mean(key.decoded, names) or f"coordinates are {', '.join(names)}"
-            faults.error(key.span, f"`{key.decoded[:40]}` is no coordinate", known)
-        given[key.decoded] = read_cell(faults, value, f"the weight of {key.decoded}")
+    given = {
+        name: read_cell(faults, value, f"the weight of {name}")
+        for name, value in by_coordinate(faults, node, names, PROBLEM["weights"].help)
+    }
     one, zero = (made_cell("a weight", text, node.span[0]) for text in "10")
     return [[given.get(name, one) if name == other else zero for other in names] for name in names]
 

@@ -107,7 +107,20 @@ class _Stranger:
             self.file["source"] = self.one(["own notes", "Exam 2019, task 2 (a_b)", "p. 12 {second edition}"])
         (draw,) = self.random.choices([draw for _, draw in kinds], [weight for weight, _ in kinds])
         draw()
+        self.respell()
         return self.file
+
+    def respell(self) -> None:
+        """Coordinates as keys are spelled otherwise than in the table now and then."""
+        for key in ("friction", "limits", "state", "weights", "linearize", "steady"):
+            if isinstance(self.file.get(key), dict) and self.chance(0.3):
+                spelled = str.maketrans({"θ": "theta"}) if self.chance(0.5) else None
+                self.file[key] = {
+                    name.translate(spelled)
+                    if spelled
+                    else name.replace("theta", "θ").replace("phi", "φ"): value
+                    for name, value in self.file[key].items()
+                }
 
     # -- arms ----------------------------------------------------------------------------------------
 
