@@ -43,7 +43,7 @@ from dynsolve.notation.tree import Node, Number, Power, Product, Quotient
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _SMALL_POWERS = frozenset("23456789")
 _SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
-_NOT_BARE = _SCRIPTS | {"("}
+_NOT_BARE = _SCRIPTS | {"(", "{", "["}
 """What keeps a power from being the end of its factor: L_2^2(t) is the square of L_2(t)."""
 
 _AFTER_BARE_NAME = frozenset(

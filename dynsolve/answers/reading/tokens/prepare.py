@@ -7,6 +7,7 @@ tokens.  Nothing here depends on the problem; runs of letters are cut into its n
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
@@ -16,6 +17,7 @@ from dynsolve.answers.reading.tokens.lexer import Token, tokenize
 from dynsolve.answers.reading.tokens.macros import Macro, expand
 from dynsolve.answers.reading.tokens.words import accent, is_qualified, is_unit, token_of_word
 from dynsolve.errors import ReadError
+from dynsolve.notation.characters import SPELLED
 
 _FONTS = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
@@ -30,6 +32,12 @@ _MATRICES = {"pmatrix": "pmatrix", "bmatrix": "bmatrix", "matrix": "matrix", "mq
 _DERIVATIVES = {"dv": "d", "odv": "d", "derivative": "d", "pdv": "partial", "partialderivative": "partial"}
 _STACKED = frozenset({"overset", "underset", "stackrel"})
 _FRACTIONS = frozenset("frac dfrac tfrac cfrac nicefrac sfrac flatfrac xfrac".split())
+_ONE_TOKEN = re.compile(
+    rf"(?P<first>(?:{'|'.join(SPELLED.values())}|[A-Za-z])(?:_(?:\{{[^}}]*\}}|[A-Za-z0-9]))?|[0-9])"
+    r"(?P<digits>[0-9]*)(?P<rest>(?:[A-Za-z].*)?)"
+)
+"""What an argument without braces is cut into: what TeX takes, and what is then a factor or the next argument."""
+_POWERED = frozenset("sin cos tan".split())
 _BEFORE_LIST = frozenset({"=", "⟨", ",", "|", "(", "+", "-", "*"})
 """After which `<` begins a list, as Maple writes one, and compares nothing."""
 _INTRODUCING = frozenset("where with hvor".split())
@@ -50,8 +58,8 @@ def simplified(tokens: list[Token]) -> list[Token]:
     out: list[Token] = []
     groups: list[Group] = []
     systems: list[list[int]] = []
-    position, last, angles = 0, len(tokens) - 1, 0
-    while position <= last:
+    position, angles = 0, 0
+    while position < len(tokens):
         token = tokens[position]
         position += 1
         kind = token.kind
@@ -59,7 +67,10 @@ def simplified(tokens: list[Token]) -> list[Token]:
             groups.append(Group(len(out)))
             out.append(token)
         elif kind == "}" and groups:
+            is_first = out[groups[-1].start - 1].text == "frac" and groups[-1].start > 0
             _close(token, tokens, position, groups, out)
+            if is_first:
+                _one_token(tokens, position)
         elif kind == "command":
             position = _simplify_command(token, tokens, position, groups, out)
         elif kind == "begin" or kind == "close":
@@ -164,7 +175,13 @@ def _simplify_command(
     if token.text in _FONTS:
         return _script_inside(tokens, position, out)
     if token.text in _FRACTIONS:
-        return _split_digits(tokens, position, token._replace(text="frac"), out)
+        out.append(token._replace(text="frac"))
+        if tokens[position].kind in ("name", "number", "letter"):
+            _one_token(tokens, position)
+            out.append(tokens[position])
+            position += 1
+            _one_token(tokens, position)
+        return position
     if token.text in _MATRICES and tokens[position].kind == "{":
         groups.append(Group(len(out), True))
         out.append(token._replace(kind="begin", text=_MATRICES[token.text]))
@@ -178,6 +195,9 @@ def _simplify_command(
             out.append(token._replace(text="dot" if dots == 1 else "ddot"))
         return position
     out.append(token._replace(text="script") if token.text in _SCRIPT else token)
+    has_power = token.text in _POWERED and tokens[position].kind == "^"
+    if has_power or token.text == "sqrt":
+        _one_token(tokens, position + has_power)
     return position
 
 
@@ -196,18 +216,25 @@ def _script_inside(tokens: list[Token], position: int, out: list[Token]) -> int:
     return position + len(inner)
 
 
-def _split_digits(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:
-    r"""`\frac12`: each digit is an argument."""
-    out.append(command)
+def _one_token(tokens: list[Token], position: int) -> None:
+    r"""Cut an argument without braces off from what is run together with it: the `c` of `\frac c2`.
+
+    TeX takes one character; the index of a letter stays with it.
+    """
     token = tokens[position]
-    if token.kind == "number" and len(token.text) > 1 and token.text.isdigit():
-        first, second = token.start, token.start + 1
-        out.append(token._replace(text=token.text[0], end=second))
-        out.append(token._replace(text=token.text[1], start=second, end=second + 1))
-        if len(token.text) > 2:
-            out.append(token._replace(text=token.text[2:], start=first + 2))
-        return position + 1
-    return position
+    found = _ONE_TOKEN.fullmatch(token.text) if token.kind in ("name", "number") else None
+    if found is None or token.text == "dt":
+        return
+    tokens[position : position + 1] = [
+        token._replace(
+            kind="number" if piece.isdigit() else "name",
+            text=piece,
+            start=min(token.start + found.start(group), token.end),
+            end=min(token.start + found.end(group), token.end),
+        )
+        for group in ("first", "digits", "rest")
+        if (piece := found[group])
+    ]
 
 
 def _write_derivative(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:
