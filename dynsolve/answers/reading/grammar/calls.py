@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dynsolve.answers.reading.grammar import brackets, derivatives, functions
-from dynsolve.answers.reading.grammar.rates import rate, total_rate
+from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
 from dynsolve.answers.reading.limits import MAX_ENTRIES
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import ZERO, Number, Symbol
+from dynsolve.notation.tree import ZERO, Number
 
 _MATRICES = frozenset(
     "Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array Vector vector".split()
@@ -136,10 +136,7 @@ def _derivative(reader: Reader, opening: Token) -> Value:
             others.append(token)
     if others or not by_time:
         return _partial(reader, of, tokens, opening)
-    dotted = rate(of, reader.vocabulary, order)
-    if isinstance(dotted, Symbol):
-        return dotted
-    return dotted if dotted is not None else total_rate(of)
+    return derivatives.total_rate(reader, of, order)
 
 
 def _mathematica_derivative(reader: Reader, opening: Token) -> Value:
@@ -151,8 +148,7 @@ def _mathematica_derivative(reader: Reader, opening: Token) -> Value:
     of = reader.inner(reader.until("]", bracket))
     if reader.token.kind == "[" and reader.peek().text == "t":
         reader.until("]", reader.take())
-    dotted = rate(of, reader.vocabulary, int(order[0].text))
-    return dotted if dotted is not None else total_rate(of)
+    return derivatives.total_rate(reader, of, int(order[0].text))
 
 
 def _partial(reader: Reader, of: Value, tokens: list[Token], opening: Token) -> Value:

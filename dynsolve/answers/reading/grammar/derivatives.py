@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dynsolve.answers.reading.grammar.differentiation import Rule, by_symbol, by_time, derivative
 from dynsolve.answers.reading.grammar.forms import Form
-from dynsolve.answers.reading.grammar.rates import rate, total_rate
+from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grids import Abstract, Grid, Value
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, grid, times
+from dynsolve.answers.reading.limits import check_size
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Reference, Symbol
+from dynsolve.notation.tree import ZERO, Node, Reference, Symbol
 from dynsolve.quantities.spelling import key
 
 
@@ -44,9 +46,9 @@ def quotient(reader: Reader, above: list[Token], below: list[Token], start: int)
     time = _is_time(bottom)
     if not time and _order(bottom)[0] != 1:
         return None
-    of = reader.inner(rest, naming=True) if rest else _operand(reader)
+    of = _operand(reader, rest)
     if time:
-        return by_time(reader, of, order)
+        return total_rate(reader, of, order)
     if not bottom:
         raise ReadError(
             "this derivative says not by what", start, 1, "write \\frac{\\partial L}{\\partial q_1}"
@@ -85,28 +87,79 @@ def _is_time(tokens: list[Token]) -> bool:
     )
 
 
-def _operand(reader: Reader) -> Value:
-    """What an operator is applied to: the next factor, names of answers winning in it."""
-    before = reader.naming
-    reader.naming = True
+def _operand(reader: Reader, written: list[Token]) -> Value:
+    """What an operator is applied to: the tokens that are `written` in it, else what follows it.
+
+    It is the name of an answer, in which these names win, or an expression of the student's own.
+    """
+    position, references = reader.position, dict(reader.references)
+    named: Value | None = None
+    try:
+        named = reader.inner(written, naming=True) if written else _next_factor(reader, naming=True)
+    except ReadError:
+        if reader.naming:
+            raise
+    if named is not None and (reader.naming or isinstance(named, Reference)):
+        return named
+    after, its_references = reader.position, dict(reader.references)
+    _go_back(reader, position, references)
+    try:
+        return reader.inner(written) if written else _next_factor(reader, naming=False)
+    except ReadError:
+        if named is None:
+            raise
+        _go_back(reader, after, its_references)
+        return named
+
+
+def _go_back(reader: Reader, position: int, references: dict[str, None]) -> None:
+    reader.position, reader.token = position, reader.tokens[position]
+    reader.references.clear()
+    reader.references.update(references)
+
+
+def _next_factor(reader: Reader, naming: bool) -> Value:
+    """The factor that follows an operator; behind a constant the rest of its term: d/dt m r² φ̇."""
+    before, reader.naming = reader.naming, naming
     reader.enter()
     try:
-        return reader.factor()
+        found = reader.factor()
+        if isinstance(found, Node) and not naming and derivative(found, by_time(reader.vocabulary)) == ZERO:
+            found = times(found, reader.term()) if reader.follows() else found
     finally:
         reader.naming = before
         reader.nesting -= 1
+    return found
 
 
-def by_time(reader: Reader, of: Value, order: int) -> Value:
-    """d/dt of a value."""
+def _carried_out(of: Value, rule: Rule) -> Value | None:
+    """The derivative of an expression, or of each entry of a matrix; None where it is not known."""
+    if isinstance(of, Abstract):
+        return of
+    check_size(of.node if isinstance(of, Grid) else of)
+    if not isinstance(of, Grid):
+        return derivative(of, rule)
+    rows = [[derivative(entry, rule) for entry in row] for row in of.rows]
+    entries = [[entry for entry in row if entry is not None] for row in rows]
+    return grid(entries) if rows == entries else None
+
+
+def total_rate(reader: Reader, of: Value, order: int = 1) -> Value:
+    """d/dt of an answer is one; of an expression it is taken."""
     if isinstance(of, Reference):
-        found = total_rate(of)
-        if isinstance(found, Reference):
-            reader.references.pop(of.quantity, None)
-            reader.references.setdefault(found.quantity)
+        if not of.quantity.startswith("dLdqd"):
+            return Abstract("a derivative that is not carried out")
+        name = "ddt" + of.quantity[5:]
+        if of.quantity in reader.references:
+            reader.references.pop(of.quantity)
+            reader.references.setdefault(name)
+        return Reference(name)
+    found = rate(of, reader.vocabulary, order)
+    if found is not None:
         return found
-    dotted = rate(of, reader.vocabulary, order)
-    return dotted if dotted is not None else total_rate(of)
+    for _ in range(order):
+        of = _carried_out(of, by_time(reader.vocabulary)) or Abstract("a derivative that is not carried out")
+    return of
 
 
 def _by(reader: Reader, of: Value, variable: list[Token]) -> Value:
@@ -142,6 +195,8 @@ def partial(reader: Reader, of: Value, by: Value) -> Value:
     if isinstance(by, Grid):
         return Abstract("a derivative by a vector")
     q = reader.vocabulary.coordinate(by) if isinstance(by, Symbol) else None
+    if q is not None and isinstance(by, Symbol) and not isinstance(of, Reference):
+        return _carried_out(of, by_symbol(by)) or Abstract("a derivative that is not carried out")
     if q is None or not isinstance(by, Symbol) or not letter:
         return Abstract("a derivative that is not carried out")
     if letter in ("L", "K") and by.dots == 1:

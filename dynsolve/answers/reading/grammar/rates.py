@@ -1,4 +1,4 @@
-"""Time derivatives of what coordinates are written in: θ̇_1 + θ̇_2 for θ_1 + θ_2, and d/dt of an answer."""
+"""Time derivatives of what coordinates are written in: θ̇_1 + θ̇_2 for θ_1 + θ_2."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from dynsolve.notation.tree import (
     Number,
     Product,
     Quotient,
-    Reference,
     Sum,
     Symbol,
 )
@@ -72,10 +71,3 @@ def _is_constant(node: Node, vocabulary: Vocabulary) -> bool:
         case Quotient(p, q):
             return _is_constant(p, vocabulary) and _is_constant(q, vocabulary)
     return False
-
-
-def total_rate(of: Value) -> Value:
-    """d/dt of what is no coordinate: of an answer it is one, of an expression it is left undone."""
-    if isinstance(of, Reference) and of.quantity.startswith("dLdqd"):
-        return Reference("ddt" + of.quantity[5:])
-    return Abstract("a derivative that is not carried out")

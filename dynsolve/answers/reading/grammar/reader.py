@@ -73,6 +73,10 @@ class Reader(ScriptCursor):
         """Factors, with or without a sign between them."""
 
     @abstractmethod
+    def follows(self) -> bool:
+        """Whether a product goes on at the next token."""
+
+    @abstractmethod
     def factor(self) -> Value:
         """Signs, then an atom."""
 

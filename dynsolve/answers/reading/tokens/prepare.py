@@ -36,7 +36,7 @@ _ONE_TOKEN = re.compile(
     rf"(?P<first>(?:{'|'.join(SPELLED.values())}|[A-Za-z])(?:_(?:\{{[^}}]*\}}|[A-Za-z0-9]))?|[0-9])"
     r"(?P<digits>[0-9]*)(?P<rest>(?:[A-Za-z].*)?)"
 )
-"""What an argument without braces is cut into: what TeX takes, and what is then a factor or the next argument."""
+"""What an argument without braces is cut into: what TeX takes, a number, and what is left."""
 _POWERED = frozenset("sin cos tan".split())
 _BEFORE_LIST = frozenset({"=", "⟨", ",", "|", "(", "+", "-", "*"})
 """After which `<` begins a list, as Maple writes one, and compares nothing."""

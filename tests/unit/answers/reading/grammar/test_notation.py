@@ -63,6 +63,12 @@ ELBOW = [
     ("I1*q̈1 + I2*q̇₂²", "I1*q1_ddot + I2*q2_dot**2"),
     ("I1*theta1 + I2*θ̇2", "I1*q1 + I2*q2_dot"),
     ("½ m₁ lc1² q̇₁²", "m1*lc1**2*q1_dot**2/2"),
+    # TeX takes one character, or one command, as an argument
+    (r"\frac g2m_1l_1", "g*m1*l1/2"),
+    (r"\frac{m_1}2l_1^2 + \frac12m_2 + \frac1{2}I_1 + \frac {I_2}34", "m1*l1**2/2 + m2/2 + I1/2 + 4*I2/3"),
+    (r"\frac m_12 + \dfrac{m_2g}2l_1", "m1/2 + m2*g*l1/2"),
+    (r"\frac\pi2m_1 + \frac{\frac g2m_1}3", "pi*m1/2 + g*m1/6"),
+    (r"m_1\sqrt2l_1 + m_2\sin^22q_1", "m1*sqrt(2)*l1 + m2*sin(2*q1)**2"),
     ("I1·q̇₁ − I2×q̇₂", "I1*q1_dot - I2*q2_dot"),
     ("sqrt(2)*m1 + √2 m2", "sqrt(2)*(m1 + m2)"),
     ("sin 2q1 m1", "sin(2*q1)*m1"),
