@@ -11,7 +11,7 @@ is read by the module that is named after it:
 They work on `reader.Reader`, the abstract base of the descent, which is a `scripts.ScriptCursor`
 (names with their indices and exponents, kept as `forms.Form` until they are looked up), which
 is a `cursor.Cursor` (tokens, closing brackets, levels).  `exponents` and `rates` make powers and
-time derivatives of values.
+time derivatives of values, `differentiation` derivatives of expressions.
 
 To read one more notation: a new spelling of a function or a bracket is a row in a table of its
 module; a new kind of atom is a module with `read(reader)` and a branch in `FormulaReader.atom`,
