@@ -186,9 +186,8 @@ class AnswerJudge:
             follows_from = in_order(self.hand_in.graph, source.used)
             return EntryVerdict(index, Verdict.FOLLOWS, follows_from=follows_from)
         wrong = self._wrong_entry(name, compared, i, j)
-        return EntryVerdict(
-            index, Verdict.WRONG, self.diagnoser(wrong), difference=self.diagnoser.difference(wrong)
-        )
+        told = self.diagnoser.of_coriolis(wrong, compared) if name == "C" else self.diagnoser(wrong)
+        return EntryVerdict(index, Verdict.WRONG, told, difference=self.diagnoser.difference(wrong))
 
     def _wrong_entry(self, name: str, compared: KeyComparison, i: int, j: int) -> WrongEntry:
         key = self.hand_in.compare.key(compared.target)
@@ -200,6 +199,7 @@ class AnswerJudge:
             expected=tuple(entry_of(value, i, j) for value in expected),
             row=i,
             column=j,
+            called=_called(name, compared, i, j),
         )
 
     # -- where it was given several times ----------------------------------------------------------
@@ -241,6 +241,16 @@ def _placed_in_chain(base: JudgedAnswer, chain: Chain) -> JudgedAnswer:
         return replace(base, place=after.answer.place, notes=(*base.notes, note))
     first = chain[0].answer
     return replace(base, place=first.place if len(chain) > 1 else base.place)
+
+
+def _called(name: str, compared: KeyComparison, i: int, j: int) -> str:
+    """What a message calls an entry."""
+    if name == "C":
+        return f"Row {i + 1} of C q̇"
+    height, width = len(compared.rows), len(compared.rows[0])
+    if height * width == 1:
+        return "Your answer"
+    return f"Entry {i + 1}" if width == 1 else f"Entry ({i + 1}, {j + 1})"
 
 
 def _entries(name: str, compared: KeyComparison) -> Iterator[tuple[tuple[int, ...], int, int]]:

@@ -51,9 +51,6 @@ _NOTHING_FOUND = "No slip was found that explains it."
 
 _LETTER = re.compile(r"(?P<letter>tau|[A-Za-z])(?P<index>\d*)")
 
-_OF_EVERYTHING = ("sign_all", "factor_all")
-"""What is said of a whole answer."""
-
 _POWERS = {"²": 2, "³": 3, "⁴": 4}
 _WRITTEN = re.compile(
     r"(?<![^\W_])(?P<number>\d+)(?=[^\W\d_](?:\W*[₀-₉]|_))"
@@ -183,13 +180,9 @@ def _places(entries: Sequence[EntryVerdict], answer: JudgedAnswer) -> str:
 
 
 def _where_told(told: Diagnosis, bad: Sequence[EntryVerdict], answer: JudgedAnswer) -> str:
-    """Which of several wrong entries a slip is in, where it is not in all of them.
-
-    A number for everything is of the entries that it is said of, where others are right.
-    """
+    """Which of several wrong entries a slip is in, where it is not in all of them and does not say so."""
     there = [entry for entry in bad if told in entry.diagnosis]
-    others = answer.entries if told.code in _OF_EVERYTHING else bad
-    if not 0 < len(there) < len(others):
+    if not 0 < len(there) < len(bad) or told.message.startswith(("Entry", "Row")):
         return ""
     places = _places(there, answer)
     return f"{places[0].upper()}{places[1:]}: "

@@ -90,15 +90,13 @@ def coriolis_entries(
     for row in whole.entries:
         for j in range(len(whole.entries)):
             name = f"C{row.index[0]}{j + 1}"
-            alone = answers[name]
-            both_wrong = row.verdict is Verdict.WRONG and alone.verdict is Verdict.WRONG
             yield (
                 name,
                 replace(
-                    alone,
+                    answers[name],
                     verdict=row.verdict,
                     follows_from=row.follows_from,
-                    diagnosis=alone.diagnosis if both_wrong else row.diagnosis,
-                    difference=alone.difference if both_wrong else row.difference,
+                    diagnosis=row.diagnosis,
+                    difference=row.difference,
                 ),
             )

@@ -36,7 +36,9 @@ from dynsolve.answers.diagnosis.wrong_entry import DimensionCheck, WrongEntry
 from dynsolve.answers.judging.entry_comparison import substituted
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.derivation.energy import velocities
 from dynsolve.notation.build import split_sign
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
@@ -95,7 +97,7 @@ class Diagnoser:
     @cached_property
     def matrices(self) -> MatrixDiagnoser:
         """Finds the slip of a whole matrix."""
-        return MatrixDiagnoser(self.graph, self.steps, self.expected)
+        return MatrixDiagnoser(self.graph, self.steps, self.expected, self.words)
 
     def __call__(self, wrong: WrongEntry) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
@@ -106,6 +108,28 @@ class Diagnoser:
             return ()
         found = tuple(dict.fromkeys(self._named(wrong, mine)))
         return (*found, *(d for d in self.dimension_check(wrong, mine) if d not in found))
+
+    def of_coriolis(self, row: WrongEntry, compared: KeyComparison) -> tuple[Diagnosis, ...]:
+        """The slips in a row of C q̇: said of one entry of C, where this alone is not Christoffel's."""
+        wrong = self._entry_of_coriolis(row, compared) or row
+        return tuple(
+            d if d.message.startswith(wrong.called) else replace(d, message=f"{wrong.called}: {d.message}")
+            for d in self(wrong)
+        )
+
+    def _entry_of_coriolis(self, row: WrongEntry, compared: KeyComparison) -> WrongEntry | None:
+        """The one entry of C that, put right, gives what is expected of its row of C q̇."""
+        rows, k = compared.answer_value.rows or (), row.row
+        if row.mine is None or row.mine.is_zero:
+            return None
+        for C in (self.steps.done_right("C"), self.graph.key("C")):
+            different = [j for j, entry in enumerate(rows[k]) if entry != RationalExpr(C[k, j])]
+            if len(different) == 1 and (C @ velocities(self.graph.robot))[k, 0] == self.expected(row):
+                (j,) = different
+                written = replace(row.written, value=rows[k][j], node=compared.answer_value.nodes[k][j])
+                target, called = Target("C", (k, j)), f"Entry ({k + 1}, {j + 1}) of C"
+                return WrongEntry(row.name, target, written, (C[k, j],), k, j, called)
+        return None
 
     def expected(self, wrong: WrongEntry) -> Expr:
         """The nearest value that the answer may be compared with: one whose terms can be added.
@@ -136,7 +160,7 @@ class Diagnoser:
                 )
                 return
         if is_small(case.expected) and not constant:
-            yield from what_differs(self.words, case.mine, case.expected)
+            yield from what_differs(self.words, wrong.called, case.mine, case.expected)
 
     def _of_fractions(self, wrong: WrongEntry) -> Iterator[Diagnosis]:
         """What differs above the denominator of the nearest value, where the answer's may be that one."""
@@ -149,13 +173,14 @@ class Diagnoser:
         above = as_expr(cancelled(RationalExpr(written.numerator * below, written.divisor)))
         if above is None or not is_small(above):
             if any(equal(-fraction_of(value), written) for value in wrong.expected):
-                yield slip("sign_all")
+                yield slip("sign_all", yours=wrong.called)
             return
         case = Case(wrong, *self._with_numbers(above, value))
         if is_zero(case.mine + case.expected):
             whole = as_expr(cancelled(RationalExpr(value, below)))
             is_term = whole is not None and len(parts(whole)) == 1
-            yield slip("sign", term=self.words.of(whole)) if whole and is_term else slip("sign_all")
+            told = slip("sign", term=self.words.of(whole)) if whole and is_term else None
+            yield told or slip("sign_all", yours=wrong.called)
             return
         for explain in _OF_TERMS:
             found = next((one for one in explain(self, case) if one.holds(case)), None)
@@ -167,8 +192,7 @@ class Diagnoser:
         """What is told of a numerator, with its denominator."""
         if below.is_number:
             return told
-        message = f"Over {self.words.of(below)}: {told.message[0].lower()}{told.message[1:]}"
-        return replace(told, message=message)
+        return replace(told, message=f"Over {self.words.of(below)}: {told.message}")
 
     @property
     def _numbers(self) -> dict[int, Fraction]:
@@ -197,7 +221,10 @@ class Diagnoser:
         """This step was done wrongly: a Jacobian at the frame's origin, a rule of d/dt left out."""
         node = case.wrong.target.node
         for value, diagnosis in self.steps.done_otherwise(node):
-            yield from self._redone(case, value, self.steps.done_right(node), diagnosis)
+            right = self.steps.done_right(node)
+            for found in self._redone(case, value, right, diagnosis):
+                if found.holds(case) and self.steps.fits_what_is_written(node, value, right):
+                    yield found
 
     def _one_number(self, case: Case) -> Iterator[Explanation]:
         """One number for all of it: a sign, a factor."""
@@ -208,9 +235,10 @@ class Diagnoser:
         mend = Exchange(expected, self.ring.constant(ratio), self.ring.one)
         if ratio == -1:
             one_term = len(parts(mine)) == 1
-            told = slip("sign", term=self.words.of(expected)) if one_term else slip("sign_all")
+            term, called = self.words.of(expected), case.wrong.called
+            told = slip("sign", term=term) if one_term else slip("sign_all", yours=called)
         else:
-            told = slip("factor_all", part=self.words.number(ratio))
+            told = slip("factor_all", yours=case.wrong.called, part=self.words.number(ratio))
         yield self._told((mend,), self._refined(told, case.wrong))
 
     def _one_place(self, case: Case) -> Iterator[Explanation]:

@@ -14,11 +14,14 @@ MOST_NAMED = 4
 """So many terms are named."""
 
 
-def what_differs(words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
-    """How many terms are missing, which do not belong, and which have another factor.
+def what_differs(words: TermWriter, called: str, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
+    """How many terms are missing, which are none of those expected, and which have another factor.
 
     What is missing is not shown, so that an answer 0 does not reveal the solution.
     """
+    if mine.is_zero:
+        yield slip("zero", yours=called)
+        return
     ours, theirs = parts(mine), parts(expected)
     missing = len(theirs.keys() - ours.keys())
     extra = [term for monomial, term in ours.items() if monomial not in theirs]
@@ -33,7 +36,7 @@ def what_differs(words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Diag
         terms = [words.of(monomial_expr(mine.ring, monomial)) for monomial in changed]
         said.append(f"Another factor belongs to {_listed(terms)}.")
     if extra:
-        said.append(f"These do not belong: {_listed([words.of(term) for term in extra])}.")
+        said.append(f"Not among the right terms: {_listed([words.of(term) for term in extra])}.")
     yield slip("terms_differ", yours=" ".join(said))
 
 

@@ -56,11 +56,22 @@ class OwnSteps:
             if own.value is None or not changed.reached(name):
                 continue
             if name == node:
-                if not _agree(changed(name), own.value, self.graph.key(name)):
+                if not self.fits_what_is_written(node, changed(node), self.graph.key(node)):
                     return False
             elif name in self._before(node) and changed(name) != own.value:
                 return False
         return True
+
+    def fits_what_is_written(self, node: str, changed: Any, right: Any) -> bool:
+        """Whether a slip changes no entry of a matrix that is right: what it changes is as it was written."""
+        own = self.follow_through.students.get(node)
+        written = own.value if own is not None else None
+        if not isinstance(changed, Matrix) or not isinstance(written, Matrix):
+            return True
+        if changed.shape != written.shape:
+            return True  # parameters may be as many as the student chose
+        entries = zip(changed.entries, written.entries, right.entries, strict=True)
+        return all(new in (wanted, mine) for new, mine, wanted in entries)
 
     def _before(self, node: str) -> frozenset[str]:
         """The nodes that lead to a node."""
@@ -69,11 +80,3 @@ class OwnSteps:
             inputs = {name for route in self.graph.routes(node) for name in route.inputs}
             self._leading[node] = frozenset(inputs).union(*map(self._before, inputs))
         return self._leading[node]
-
-
-def _agree(changed: Any, own: Any, key: Any) -> bool:
-    """Whether a slip changes nothing that is right, entry by entry: what it changes is as it was written."""
-    if not isinstance(changed, Matrix) or not isinstance(own, Matrix) or changed.shape != own.shape:
-        return True  # parameters may be as many as the student chose
-    entries = zip(changed.entries, own.entries, key.entries, strict=True)
-    return all(new in (right, mine) for new, mine, right in entries)

@@ -9,8 +9,10 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.mends import Redoing
+from dynsolve.answers.diagnosis.one_place import ratio_of
 from dynsolve.answers.diagnosis.own_steps import OwnSteps
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
+from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
@@ -21,8 +23,15 @@ from dynsolve.derivation.energy import velocities
 class MatrixDiagnoser:
     """Names the slip of a whole matrix; `expected` says what one of its entries is compared with."""
 
-    def __init__(self, graph: AnswerGraph, steps: OwnSteps, expected: Callable[[WrongEntry], Expr]) -> None:
+    def __init__(
+        self,
+        graph: AnswerGraph,
+        steps: OwnSteps,
+        expected: Callable[[WrongEntry], Expr],
+        words: TermWriter,
+    ) -> None:
         self.graph = graph
+        self.words = words
         self.ring = graph.answer_ring.ring
         self.steps = steps
         self.expected = expected
@@ -39,15 +48,17 @@ class MatrixDiagnoser:
             return found
         given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
         if all(entry.is_zero for entry in given.entries):
-            return found
+            return (slip("zero", yours="Your answer"),) if {d.code for d in found} == {"zero"} else found
         if wrong[0].name == "C" and self._is_transposed_coriolis(compared):
             return (slip("transposed"),)
-        for value, right, diagnosis in self._of_matrix(wrong[0], _is_explained(found)):
+        for value, right, diagnosis in self._of_matrix(given, wrong[0], _is_explained(found)):
             if value == given and all(self._is_mended(entry, value, right) for entry in wrong):
                 return (diagnosis, *(d for d in found if d.code == "dimensions"))
         return found
 
-    def _of_matrix(self, wrong: WrongEntry, is_explained: bool) -> Iterator[tuple[Any, Any, Diagnosis]]:
+    def _of_matrix(
+        self, given: Matrix, wrong: WrongEntry, is_explained: bool
+    ) -> Iterator[tuple[Any, Any, Diagnosis]]:
         """What a matrix is under a slip, what it is without, and the slip.
 
         Where one slip in one place explains it, what was done otherwise long before is no nearer.
@@ -56,6 +67,7 @@ class MatrixDiagnoser:
         right = target.of(self.steps.done_right(target.node))
         for value, diagnosis in (*self.steps.done_otherwise(target.node), *self._transposed(target)):
             yield target.of(value), right, diagnosis
+        yield from self._multiplied(given, right)
         key = target.of(self.graph.key(target.node))
         for value, diagnosis, changed in self.steps.earlier.values(target.node):
             is_nearer = SLIPS[diagnosis.code].omits or not is_explained
@@ -67,6 +79,19 @@ class MatrixDiagnoser:
         mine, wrong = entry.mine, value[entry.row, entry.column]
         redoing = Redoing(wrong, right[entry.row, entry.column])
         return mine is not None and redoing.applied(mine) == self.expected(entry)
+
+    def _multiplied(self, given: Matrix, right: Any) -> Iterator[tuple[Any, Any, Diagnosis]]:
+        """One number for all of it."""
+        if isinstance(right, Matrix) and right.shape == given.shape:
+            pairs = zip(given.entries, right.entries, strict=True)
+            ratio = next((ratio_of(*pair) for pair in pairs if not pair[1].is_zero), None)
+            if ratio is not None:
+                told = (
+                    slip("sign_all", yours="Your answer")
+                    if ratio == -1
+                    else slip("factor_all", yours="Your answer", part=self.words.number(ratio))
+                )
+                yield right.scale(self.ring.constant(ratio)), right, told
 
     def _transposed(self, target: Target) -> Iterator[tuple[Any, Diagnosis]]:
         right = target.of(self.graph.key(target.node))

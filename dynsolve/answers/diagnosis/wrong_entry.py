@@ -25,7 +25,7 @@ from dynsolve.robot.units import Dimension, describe
 class WrongEntry:
     """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
 
-    The last one that is expected is the key.
+    The last one that is expected is the key.  `called` is what a message calls it.
     """
 
     name: str
@@ -34,6 +34,7 @@ class WrongEntry:
     expected: tuple[Expr, ...]
     row: int = 0
     column: int = 0
+    called: str = "Your answer"
 
     @property
     def mine(self) -> Expr | None:

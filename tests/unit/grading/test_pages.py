@@ -48,7 +48,7 @@ def test_the_first_slip_comes_first_with_what_was_written_set_beside() -> None:
 
 def test_what_is_said_of_everything_is_said_of_the_entry_that_it_holds_for() -> None:
     page = _page({"D": "[[-I1zz - m2*L2^2, 0], [0, m2]]"})
-    assert "- Entry (1, 1): Everything has the wrong sign." in page
+    assert "- Entry (1, 1) has the wrong sign." in page
     page = _page(
         {"tau": "[2*(I1zz + m2*L2^2)*theta1'' + 4*m2*L2*L2'*theta1', 2*m2*L2'' - 2*m2*L2*theta1'^2]"}
     )
@@ -92,7 +92,7 @@ def test_each_slip_of_a_matrix_says_in_which_entry_it_is() -> None:
     page = _page(slipped)
     assert "Wrong in entries (1, 1), (2, 2); the others are right or follow." in page
     assert "- Entry (1, 1): The term $m_{1}$ $L_{2}^{2}$ does not belong here." in page
-    assert "- Entry (2, 2): Your answer is 2 times what it should be." in page
+    assert "- Entry (2, 2) is 2 times what it should be." in page
 
 
 def test_without_answers_it_says_how_they_are_written() -> None:

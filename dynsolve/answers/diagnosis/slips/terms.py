@@ -7,7 +7,7 @@ from dynsolve.answers.diagnosis.slips.record import IN3140, PLANAR_2R, Example, 
 SLIPS = (
     Slip("sign", "a sign", "The sign of {term} is wrong.", "Go through the signs of this term once more.",
          Example(IN3140, "tau1", "(I1zz + m2*L2^2)*theta1_ddot - 2*m2*L2*L2_dot*theta1_dot")),
-    Slip("sign_all", "a sign", "Everything has the wrong sign.",
+    Slip("sign_all", "a sign", "{yours} has the wrong sign.",
          "Check on which side of the equation this quantity stands.",
          Example(PLANAR_2R, "L", "-I1*q1_dot^2/2 - I2*(q1_dot+q2_dot)^2/2"
                  " - m1*lc1^2*q1_dot^2/2 - m2*(l1^2*q1_dot^2 + lc2^2*(q1_dot+q2_dot)^2"
@@ -16,7 +16,7 @@ SLIPS = (
     Slip("factor", "a number", "{term} has {yours} in front where {other} belongs.",
          "Look for a ½ or a 2 that was lost or gained.",
          Example(IN3140, "tau1", "(I1zz + m2*L2^2)*theta1_ddot + m2*L2*L2_dot*theta1_dot")),
-    Slip("factor_all", "a number", "Your answer is {part} times what it should be.",
+    Slip("factor_all", "a number", "{yours} is {part} times what it should be.",
          "Look for a ½ or a 2 that was lost or gained.",
          Example(IN3140, "Kw1", "I1zz*theta1_dot^2")),
     Slip("missing_term", "a missing term", "The term {term} is missing.",
@@ -24,7 +24,9 @@ SLIPS = (
          Example(PLANAR_2R, "d11", "m1*lc1^2 + m2*(l1^2 + lc2^2) + I1 + I2")),
     Slip("terms_missing", "missing terms", "{yours} missing.",
          "Count the contributions: every body and every joint gives its own.",
-         Example(IN3140, "K", "0")),
+         Example(PLANAR_2R, "d11", "I1 + m2*l1^2")),
+    Slip("zero", "an answer 0", "{yours} is 0, which is not right for every configuration.",
+         "Count the contributions: every body and every joint gives its own.", Example(IN3140, "K", "0")),
     Slip("extra_term", "a term too many", "The term {term} does not belong here.",
          "Ask of which body or joint this term would be.",
          Example(IN3140, "f2", "m2*L2_ddot - m2*L2*theta1_dot^2 + m2*g")),

@@ -130,10 +130,10 @@ _FORMS = [
     (re.compile(pattern), claim)
     for pattern, claim in (
         (r"The sign of (?P<t>.+) is wrong\.", "sign"),
-        (r"Everything has the wrong sign\.", "all"),
+        (r"(?:Your answer|Entry .+) has the wrong sign\.", "all"),
         (r"The terms with gravity have the wrong sign\.", "all"),
         (r"(?P<t>.+) has (?P<y>.+) in front where (?P<o>.+) belongs\.", "number"),
-        (r"Your answer is (?P<p>.+) times what it should be\.", "times"),
+        (r"(?:Your answer|Entry .+) is (?P<p>.+) times what it should be\.", "times"),
         (r"The term (?P<t>.+) is missing\.", "missing"),
         (r"The term (?P<t>.+) does not belong here\.", "needless"),
         (r"In (?P<y>.+) the (?:mass |moment of inertia |velocity |factor )?(?P<p>.+)"

@@ -58,7 +58,7 @@ def test_the_sign_of_a_fraction_is_told() -> None:
     ("entry", "says"),
     [
         ("-(vx*(l1*cos(q1) - l2*cos(q1+q2)) + vy*(l1*sin(q1) + l2*sin(q1+q2)))/(l1*l2*sin(q2))",
-         "Over l₁ l₂ s₂: the sign of -v_x l₂ c₁₂ is wrong."),
+         "Over l₁ l₂ s₂: The sign of -v_x l₂ c₁₂ is wrong."),
         ("-(vx*(l1*cos(q1) + l2*sin(q1+q2)) + vy*(l1*sin(q1) + l2*sin(q1+q2)))/(l1*l2*sin(q2))",
          "where c₁₂ belongs"),
     ],
