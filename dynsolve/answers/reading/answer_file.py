@@ -15,7 +15,7 @@ from dynsolve.answers.reading import answer_lines, dh_tables, yaml_values
 from dynsolve.answers.reading.configurations import read_configurations
 from dynsolve.answers.reading.definitions import own_symbols
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.given_values import read_value
+from dynsolve.answers.reading.given_values import announce, read_value
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.placed_text import PlacedText
 from dynsolve.answers.reading.sources import Source
@@ -68,6 +68,8 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
     if not file.answers:
         message = "there are no answers in this file"
         faults.append(Finding(message, "write them under `answers:`, one a line: K: m1*L1", source.file))
+    for entry in file.answers[:MAX_ANSWERS]:
+        announce(reader, entry.key)
     for entry in file.answers[:MAX_ANSWERS]:
         if entry.value is not None:
             place = source.place(entry.at, len(entry.key))

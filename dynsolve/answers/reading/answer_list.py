@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from dynsolve.answers.reading.displays import Display
@@ -76,7 +77,7 @@ class AnswerList:
     verdicts: list[VerdictAnswer] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
-    _asides: list[tuple[tuple[str, ...], NotRecognized]] = field(default_factory=list)
+    _asides: list[tuple[tuple[str, ...], NotRecognized, Sequence[Answer]]] = field(default_factory=list)
     _accelerations: dict[int, Answer] = field(default_factory=dict)
     _entries: VectorEntries = field(init=False)
 
@@ -111,6 +112,7 @@ class AnswerList:
     def answer(self, candidates: tuple[str, ...], member: Member, origin: Origin) -> Answer:
         """The record of one value, under the first of its names that has the shape of the value."""
         found, tokens, display = member.found, member.tokens, origin.display
+        self.vocabulary.gives(candidates[0])
         if isinstance(found, ReadError):
             return self.unreadable(candidates, found, origin, member.index)
         start, end = tokens[0].start, max(token.end for token in tokens)
@@ -167,9 +169,14 @@ class AnswerList:
             occurrence=(origin.equation, index),
         )
 
-    def said_aside(self, candidates: tuple[str, ...], refused: NotRecognized) -> None:
-        """Keep what is said of an answer without giving it: it is listed where nothing else gives that."""
-        self._asides.append((candidates, refused))
+    def said_aside(
+        self, candidates: tuple[str, ...], refused: NotRecognized, answers: Sequence[Answer] = ()
+    ) -> None:
+        """Keep what is said of an answer in passing: it is listed where nothing else gives that.
+
+        Its `answers` count where another names them: C = [[c_11, c_12], [c_21, 0]] with c_11 = ...
+        """
+        self._asides.append((candidates, refused, answers))
 
     def put_off(self, family: tuple[str, ...], answers: list[Answer], refused: NotRecognized) -> None:
         """Keep an equation until it is known which answers of its family are absent."""
@@ -205,6 +212,13 @@ class AnswerList:
         self.not_recognized += lost
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)
         self.not_recognized += lost
+        self._settle_asides()
+
+    def _settle_asides(self) -> None:
         given = {answer.name for answer in self.answers}
-        for names, refused in self._asides:
-            (self.left_alone if given & set(names) else self.not_recognized).append(refused)
+        named = {name for answer in (*self.answers, *self.general) for name in answer.references}
+        for names, refused, answers in self._asides:
+            if given.isdisjoint(names) and not named.isdisjoint(names):
+                self.answers += answers
+            else:
+                (self.left_alone if given & set(names) else self.not_recognized).append(refused)

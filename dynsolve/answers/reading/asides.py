@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from dynsolve.answers.reading.answer_list import Origin
+from dynsolve.answers.reading.answer_list import Member, Origin
 from dynsolve.answers.reading.displays import Display, Equation, equations
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.index_order import defined_order
-from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, UnknownSide, read_left_side
+from dynsolve.answers.reading.left_side import (
+    LeftSide,
+    NamedAnswers,
+    UnknownSide,
+    read_left_side,
+    read_left_sides,
+)
 from dynsolve.answers.reading.limits import MAX_MEMBERS
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.tokens.prepare import prepared
@@ -30,7 +36,7 @@ def read_aside(reader: EquationReader, display: Display) -> None:
         reader.found.not_recognized.append(refused)
         return
     for equation in found:
-        _read_equation(reader, equation, origin)
+        _read_equation(reader, equation, reader.origin(display, ""))
 
 
 def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -> None:
@@ -51,7 +57,11 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
     ):
         why = value.message if isinstance(value, ReadError) else WHY
-        reader.found.said_aside(side.candidates, origin.of(members, why))
+        sides = read_left_sides(reader.vocabulary, members)
+        names = [one.candidates for one in sides if isinstance(one, NamedAnswers)]
+        member = Member(len(members) - 1, members[-1], value)
+        answers = [reader.found.answer(candidates, member, origin) for candidates in names]
+        reader.found.said_aside(side.candidates, origin.of(members, why), answers)
         return
     reader.found.left_alone.append(origin.of(members, WHY))
     if isinstance(value, ReadError):

@@ -93,14 +93,16 @@ class EquationReader:
         False where there is nothing of that kind that was not known already.  The report is
         then to be read once more; a definition holds for what stands before the first one too.
         """
-        late = {name: self._first[name] for name in self._first if name in self.vocabulary.missed}
+        missed, entries = self.vocabulary.missed, self.vocabulary.own_entries
+        late = {name: self._first[name] for name in self._first if name in missed}
         orders = self.vocabulary.orders
-        if late.keys() <= self._ahead.keys() and orders == self._orders:
+        if late.keys() <= self._ahead.keys() and orders == self._orders and entries.isdisjoint(missed):
             return False
         self._ahead |= late
         self._orders = orders
         self.vocabulary = self.vocabulary.fresh()
         self.vocabulary.orders |= orders
+        self.vocabulary.own_entries = entries
         self.vocabulary.defined |= self._ahead
         self.found = AnswerList(self.vocabulary, self.found.printer)
         self.macros, self._first, self.equations = {}, {}, 0

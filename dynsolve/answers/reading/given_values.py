@@ -30,6 +30,13 @@ def read_value(reader: EquationReader, name: str, place: Place, display: Display
         reader.found.not_recognized.append(refused)
 
 
+def announce(reader: EquationReader, name: str) -> None:
+    """Keep that a file gives the entry of a matrix under this name, wherever it stands."""
+    side = _key(reader, name)
+    if isinstance(side, NamedAnswers):
+        reader.vocabulary.gives(side.candidates[0])
+
+
 def _key(reader: EquationReader, name: str) -> LeftSide:
     """What a key of an answer file names."""
     if name.startswith("I") and reader.vocabulary.is_answer(name):

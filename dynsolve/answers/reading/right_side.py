@@ -14,7 +14,7 @@ from dynsolve.answers.reading.name_splitting import split_names
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import ZERO
+from dynsolve.notation.tree import ZERO, Reference
 from dynsolve.notation.walk import walk
 
 EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
@@ -67,16 +67,21 @@ def read_right_side(
         return ReadError("there is nothing here", 0, 1, EXPECTED)
     tokens = _without_unit(split_names(member, vocabulary), vocabulary)
     first: RightSide | ReadError | None = None
+    fits: RightSide | None = None
     for options in _WAYS:
         if options and not _may_help(options, tokens):
             continue
         piece = _with_decimals(tokens) if "decimals" in options else tokens
         found = _read(vocabulary, piece, owners, options)
-        if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners):
+        if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners[:1]):
             return found
+        if isinstance(found, RightSide) and fits is None and _has_shape(vocabulary, found, owners):
+            fits = found  # [a b; c d] is one column of products, too, where the name may be that of a vector
         is_better = isinstance(first, ReadError) and isinstance(found, RightSide) and "vectors" not in options
         if first is None or is_better:
             first = found
+    if fits is not None:
+        return fits
     assert first is not None
     if isinstance(first, RightSide):
         return first
@@ -100,7 +105,9 @@ def _read(
     reader = FormulaReader(tokens, vocabulary, owner=owner, options=options)
     try:
         value = reader.value()
-        definition = isinstance(value, Abstract) or _is_names_only(reader, vocabulary)
+        definition = isinstance(value, Abstract) or (
+            _is_names_only(reader, vocabulary) and not _is_by_entries(vocabulary, value, owners)
+        )
         if isinstance(value, Abstract) and reader.letters and _is_worked_out(reader, vocabulary, owners):
             raise unknown(reader, reader.letters[0], reader.letters[0].key)
         if not definition:
@@ -167,6 +174,25 @@ def _is_names_only(reader: FormulaReader, vocabulary: Vocabulary) -> bool:
         return True
     vectors = any(vocabulary.shape(name) for name in reader.references)
     return vectors and set(reader.symbols) <= vocabulary.masses
+
+
+def _is_by_entries(vocabulary: Vocabulary, value: Value, owners: tuple[str, ...]) -> bool:
+    """Whether a matrix gives some entries by name and others not: [0, g_2], [[C_11, C_12], [-C_12, 0]]."""
+    if not isinstance(value, Grid):
+        return False
+    quantities = vocabulary.quantities
+    wholes = {
+        quantities.entry_of(part.quantity)[0] for part in walk(value.node) if isinstance(part, Reference)
+    }
+    if not wholes or not wholes <= set(owners):
+        return False
+    for i, row in enumerate(value.rows):
+        for j, entry in enumerate(row):
+            name = entry.quantity if isinstance(entry, Reference) else ""
+            places = {quantities.entry_of(one)[1] for one in (name, quantities.mirrored(name))}
+            if places.isdisjoint({(i, j), (j, i)} if 1 in value.shape else {(i, j)}):
+                return True
+    return False
 
 
 def _is_worked_out(reader: FormulaReader, vocabulary: Vocabulary, owners: tuple[str, ...]) -> bool:

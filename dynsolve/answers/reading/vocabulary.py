@@ -54,6 +54,7 @@ class Vocabulary:
     `derived` are derivatives that were defined on their own, `broken` definitions that
     could not be read, `angles` the student's own by subscript.
     `missed` are names that were looked for before anything defined them;
+    `own_entries` are the entries of matrices that an equation of their own gives;
     `orders` says for letters of Christoffel symbols which index counts the row (`index_order`).
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
@@ -77,6 +78,7 @@ class Vocabulary:
     angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
     missed: set[str] = field(default_factory=set)
+    own_entries: set[str] = field(default_factory=set)
     orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
 
     def fresh(self) -> Vocabulary:
@@ -216,6 +218,18 @@ class Vocabulary:
     def named(self, name: str) -> tuple[str, ...]:
         """The answers that a name may stand for, by its key; several where the notation allows several."""
         return self.quantities.spellings.get(in_usual_order(name, self.orders), ())
+
+    def gives(self, name: str) -> None:
+        """Keep that an equation gives this answer, where it is an entry of a matrix."""
+        if self.quantities.entry_of(name)[0]:
+            self.own_entries.add(name)
+
+    def is_own_entry(self, name: str, whole: str) -> bool:
+        """Whether a name in a value of `whole` is an entry of it with an equation of its own: c_12 in C."""
+        found = self.named(name) if self.shape(whole) is not None and name not in self.symbols else ()
+        entries = {entry for entry in found if self.quantities.entry_of(entry)[0] == whole}
+        self.missed |= entries - self.own_entries
+        return not entries.isdisjoint(self.own_entries)
 
     def family(self, name: str) -> tuple[str, ...]:
         """The answers of the kind that a name with an unknown index belongs to."""

@@ -40,7 +40,8 @@ def value_of(reader: Reader, form: Form) -> Value:
     name = form.key + _called_index(reader, form)
     if form.scripts.mark and not form.index and (lone := only_coordinate(reader, form, name)) is not None:
         return lone
-    if reader.naming or form.script or _is_function_of_q(reader, name):
+    is_entry = name not in vocabulary.defined and vocabulary.is_own_entry(name, reader.owner)
+    if reader.naming or form.script or is_entry or _is_function_of_q(reader, name):
         found = quantity(reader, form, name)
         if found is not None:
             return found
