@@ -74,8 +74,8 @@ def feedback(report: Report, title: str, view: FeedbackView) -> Document:
     """The report as a document."""
     blocks = (
         Heading(title, 1),
-        *opening(report),
         *_marks(report),
+        *opening(report),
         *slips(report, view),
         Heading("All answers"),
         Table(("answer", "verdict", "note"), tuple(map(_row, report.answers))),
@@ -293,8 +293,8 @@ def readings(report: Report, view: FeedbackView) -> Iterator[Block]:
 
 
 def _reading(said: str, answer: JudgedAnswer) -> Iterator[Block]:
-    """What was read: as a formula where it is to be looked at, else, or where it is too long, as text."""
-    if answer.verdict is not Verdict.CORRECT and answer.written is not None and len(answer.read_as) <= _MOST:
+    """What was read: as a formula, or, where it is too long, as text."""
+    if answer.written is not None and len(answer.read_as) <= _MOST:
         yield Text((f"{said}:",))
         yield Formula(_equation(answer.name, answer.written))
     elif answer.read_as:

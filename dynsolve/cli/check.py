@@ -90,7 +90,7 @@ def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bo
     from dynsolve.answers.feedback import feedback
     from dynsolve.explain.style import style_of
 
-    document = feedback(report, f"{problem.title}: {report.file or 'answers'}", view)
+    document = feedback(report, f"{problem.title}: {report.student or report.file or 'answers'}", view)
     style = style_of(problem.robot)
     if html:
         from dynsolve.render.html import render as render_html

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import groupby
 
-from dynsolve.answers.marking.marks import maximum
+from dynsolve.answers.marking.marks import Marked, deduction, maximum
 from dynsolve.answers.marking.policy import points
 from dynsolve.grading.item_analysis import Item
-from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.problem_set import ProblemSet, stored_policy
 from dynsolve.grading.queue import Entry
 from dynsolve.grading.record import Key, Record, RecordedAnswer
 from dynsolve.quantities.index import quantities
@@ -22,29 +22,42 @@ class Standing:
     """A student's marks by problem; a problem that was not handed in is not among them.
 
     `unjudged` are the problems that wait for a human, with the reasons: they have no marks yet.
+    `late` are the lines that have deducted from the marks of late hand-ins.
     """
 
     student: str
     id: str
     marks: dict[str, Fraction]
     unjudged: Mapping[str, str] = field(default_factory=dict)
+    late: Mapping[str, Marked] = field(default_factory=dict)
 
     @property
     def total(self) -> Fraction:
         """All marks."""
         return sum(self.marks.values(), Fraction(0))
 
+    @property
+    def deducted(self) -> Fraction:
+        """What was deducted for being late, 0 or less."""
+        return sum((line.marks for line in self.late.values()), Fraction(0))
+
 
 def standings(record: Record) -> Iterator[Standing]:
     """Every student, in the order of their names; one is in memory at a time."""
     found = groupby(record.marks(), key=lambda entry: entry[0][0])
     waiting, unjudged = next(found, None), record.unjudged()
+    days, policy = record.late(), stored_policy(record)
     for student, id in record.students().items():
         marks: dict[str, Fraction] = {}
+        lines: dict[str, Marked] = {}
         if waiting is not None and waiting[0] == student:
-            marks = {problem: points(*of_answers) for (_, problem), of_answers in waiting[1]}
+            for key, of_answers in waiting[1]:
+                earned = points(*of_answers)
+                line = deduction(earned, days.get(key, 0), policy)
+                marks[key[1]] = earned + line.marks if line else earned
+                lines |= {key[1]: line} if line else {}
             waiting = next(found, None)
-        yield Standing(student, id, marks, unjudged.get(student, {}))
+        yield Standing(student, id, marks, unjudged.get(student, {}), lines)
 
 
 def most(problems: ProblemSet) -> dict[str, Fraction]:
@@ -58,6 +71,7 @@ def most(problems: ProblemSet) -> dict[str, Fraction]:
 # -- the cohort at a glance --------------------------------------------------------------------------
 
 VERDICTS = ("correct", "follows", "wrong", "unreadable", "missing")
+WAITS = "waits"
 
 Slip = tuple[str, str, str]
 """The problem, the answer and the code of a slip."""
@@ -81,14 +95,14 @@ class Alike:
 
 @dataclass
 class Cohort:
-    """What is counted; `marks` has a student's marks by problem, and all.
+    """What is counted: nothing of a hand-in that waits for a human, but that it waits.
 
-    `items` are the answers with marks, `names` what students are called where that is not their name
-    here, `pages` are the hand-ins with a page for the student, `judged` those that were, by whomever,
+    `items` are the answers with marks, `names` what students are called, `pages` are the hand-ins with
+    a page for the student, `judged` those of which nothing waits, `waiting` those in the `queue`,
     `uploads` where their files lay.
     """
 
-    marks: list[tuple[str, dict[str, Fraction], Fraction]] = field(default_factory=list)
+    standings: list[Standing] = field(default_factory=list)
     verdicts: dict[tuple[str, str], Counter[str]] = field(default_factory=dict)
     items: dict[tuple[str, str], Item] = field(default_factory=dict)
     slips: Counter[Slip] = field(default_factory=Counter)
@@ -98,8 +112,15 @@ class Cohort:
     by_hand: list[RecordedAnswer] = field(default_factory=list)
     pages: set[Key] = field(default_factory=set)
     judged: Set[Key] = frozenset()
+    waiting: Set[Key] = frozenset()
     uploads: Mapping[Key, tuple[str, ...]] = field(default_factory=dict)
     names: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def settled(self) -> list[Standing]:
+        """The students of whom nothing waits."""
+        wait = {student for student, _ in self.waiting}
+        return [standing for standing in self.standings if standing.student not in wait]
 
 
 def counted(problems: ProblemSet, record: Record, waits: Sequence[Entry], names: Mapping[str, str]) -> Cohort:
@@ -109,16 +130,18 @@ def counted(problems: ProblemSet, record: Record, waits: Sequence[Entry], names:
         for name in item.problem.marks:
             cohort.verdicts[item.stem, name] = Counter()
     cohort.pages = {(row.student, row.problem) for row in record.rows() if row.html}
-    totals: dict[str, float | None] = {}
-    unjudged: set[Key] = set()
-    for standing in standings(record):
-        cohort.marks.append((standing.student, standing.marks, standing.total))
-        totals[standing.student] = None if standing.unjudged else float(standing.total)
-        unjudged |= {(standing.student, stem) for stem in standing.unjudged}
-    cohort.judged = frozenset(cohort.pages - unjudged)
+    cohort.waiting = {
+        (entry.student, stem)
+        for entry in waits
+        for stem in ((entry.problem,) if entry.problem else problems.stems)
+    }
+    cohort.judged = cohort.pages - cohort.waiting
+    cohort.standings = list(standings(record))
+    totals = {s.student: float(s.total - s.deducted) for s in cohort.settled}
     for answer in record.answers():
         _count(cohort, answer)
-        if answer.of != "0" and ((answer.student, answer.problem) in cohort.judged or answer.said):
+        key = (answer.student, answer.problem)
+        if answer.of != "0" and (key in cohort.judged or (answer.said and key not in cohort.waiting)):
             which = (answer.problem, answer.answer)
             found = cohort.items.setdefault(which, Item(float(points(answer.of))))
             found.add(float(points(answer.marks)), totals.get(answer.student), _is_right(answer))
@@ -131,7 +154,8 @@ def _is_right(a: RecordedAnswer) -> bool:
 
 
 def _count(cohort: Cohort, a: RecordedAnswer) -> None:
-    cohort.verdicts.setdefault((a.problem, a.answer), Counter())[a.verdict] += 1
+    found = WAITS if (a.student, a.problem) in cohort.waiting else a.verdict
+    cohort.verdicts.setdefault((a.problem, a.answer), Counter())[found] += 1
     if a.verdict == "wrong":
         for code, message in zip(a.diagnosis, a.message, strict=False):
             slip = (a.problem, a.answer, code)

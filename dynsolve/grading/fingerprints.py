@@ -108,11 +108,11 @@ def touches_marks_alone(old: Mapping[str, str], new: Mapping[str, str]) -> bool:
 # -- whose marks a regrade has changed --------------------------------------------------------------
 
 
-def changes(record: Record) -> Iterator[str]:
+def changes(record: Record, policy: Policy) -> Iterator[str]:
     """A line for each answer whose marks are not what they were when the last run was finished."""
     if not record.compared():
         return
-    for key, causes, answers in record.standing():
+    for key, causes, answers in record.standing(policy):
         old_causes, old = record.finished(key)
         new = {name: rest for name, *rest in answers}
         yield from _of_hand_in(key, _why(old_causes, json.loads(causes)), old, new)

@@ -86,18 +86,14 @@ class HandIn:
         """Where its files lie in what was handed in, as it may be shown."""
         return tuple(printable(str(file.upload.path)) for file in self.files)
 
-    @property
-    def whose(self) -> str:
-        """Who stands over the page: the group, whose members read the same."""
-        return self.group or self.student
-
 
 @dataclass(frozen=True, slots=True)
 class Intake:
     """All that was handed in.
 
     `students` are the rows, with the platform's id of each, `groups` those of the students whose group
-    handed in, `files` all that can be opened, those that wait for a human too.
+    handed in, `files` all that can be opened, those that wait for a human too; `names` are what people
+    call the students, where the names of the files say it.
     """
 
     students: dict[str, str]
@@ -105,6 +101,7 @@ class Intake:
     waiting: tuple[Waiting, ...]
     groups: dict[str, str] = field(default_factory=dict)
     files: tuple[Upload, ...] = ()
+    names: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +137,7 @@ def take_in(
     owners = FileOwners(paths, metadata, late, lambda stem: bool(folded(stem, problems)), groups)
     students: dict[str, str] = {}
     in_groups: dict[str, str] = {}
+    names: dict[str, str] = {}
     files: dict[Upload, None] = {}
     waiting: set[Waiting] = set()
     pieces: dict[tuple[str, str], list[_Piece]] = {}
@@ -149,6 +147,8 @@ def take_in(
         for piece in _sorted(problems, uploads, owners, upload):
             student = piece.student
             students[student] = students.get(student) or piece.owner.id
+            if piece.owner.called:
+                names[student] = piece.owner.called
             if piece.owner.group:
                 in_groups[student] = piece.owner.group
             upload_of = piece.file.upload if isinstance(piece, _Piece) else piece.upload
@@ -165,7 +165,8 @@ def take_in(
             waiting.add(Waiting(student, "", refused.name, refused.reason))
     counting = (_counting(student, problem, found) for (student, problem), found in sorted(pieces.items()))
     hand_ins = tuple(_extended(problems, hand_in, students[hand_in.student]) for hand_in in counting)
-    return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)), in_groups, tuple(files))
+    rows = dict(sorted(students.items()))
+    return Intake(rows, hand_ins, tuple(sorted(waiting)), in_groups, tuple(files), names)
 
 
 def _extended(problems: ProblemSet, hand_in: HandIn, id: str) -> HandIn:

@@ -22,9 +22,9 @@ FEWEST = 3
 
 @dataclass
 class Item:
-    """The marks of one answer, of those whose hand-in was judged; `totals` are theirs for everything.
+    """The marks of one answer, of those whose hand-in does not wait; `totals` are theirs for everything.
 
-    Who has a hand-in that waits for a human has no total yet: None.
+    Of whom another hand-in waits for a human there is no total yet: None.
     """
 
     of: float

@@ -45,7 +45,6 @@ def rescored(
     points: Mapping[str, Fraction],
     quantities: Quantities,
     policy: Policy,
-    late: int,
 ) -> tuple[Marked, ...]:
     """The marks of a hand-in's answers as they are now.
 
@@ -53,11 +52,11 @@ def rescored(
     >>> quantities = Quantities(Owners(1, (), ("1",)))
     >>> kept = [Kept("K", "follows", "", '[["K1"], [], [], 0, 0]')]
     >>> policy = Policy(follow=Fraction(1, 2))
-    >>> rescored(kept, {"K": Fraction(4)}, quantities, policy, late=0)[0].marks
+    >>> rescored(kept, {"K": Fraction(4)}, quantities, policy)[0].marks
     Fraction(2, 1)
     """
     answers = (_restored(one, points.get(one.name, Fraction(0))) for one in kept)
-    return mark(answers, quantities, policy, late)
+    return mark(answers, quantities, policy)
 
 
 def _restored(kept: Kept, of: Fraction) -> JudgedAnswer:

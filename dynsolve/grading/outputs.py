@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
 from itertools import groupby
 from pathlib import Path
 
+from dynsolve.answers.marking.marks import deduction
 from dynsolve.answers.marking.policy import points, shown
 from dynsolve.grading.by_hand import COLUMNS
 from dynsolve.grading.cohort import most, standings
 from dynsolve.grading.copies import FOLDER
 from dynsolve.grading.files import decimal, folder_name, remove_others, table, write
-from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
+from dynsolve.grading.pages import HEAD_HERE, absent_page, unpack
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.queue import Entry, queue
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
 from dynsolve.grading.teacher import teachers_page
 from dynsolve.render.markdown import escaped
 from dynsolve.render.prose import visible
-
-_Explained = list[tuple[str, str, str]]
-"""Of each answer its name, its marks and why."""
 
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
 
@@ -39,7 +38,7 @@ def write_outputs(
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
     write(folder / "queue.csv", table(_queue(waits)))
-    _feedback(folder / "feedback", problems, record)
+    _feedback(folder / "feedback", problems, record, names)
     copies = {path.name for path in (folder / FOLDER).glob("*")}
     write(folder / "report.html", teachers_page(problems, record, waits, names, copies))
     return waits
@@ -63,11 +62,9 @@ def _queue(waits: Iterable[Entry]) -> Iterator[tuple[str, ...]]:
     """
     yield (*COLUMNS, "of", "reason")
     for entry in waits:
-        reason = f"{entry.what}: {entry.why}"
-        for a in entry.answers:
-            yield (a.student, a.problem, a.answer, "", "", decimal(points(a.of)), reason)
-        if not entry.answers:
-            yield (entry.student, entry.problem, "", "", "", "", reason)
+        a = entry.answer
+        name, of = (a.answer, decimal(points(a.of))) if a else ("", "")
+        yield (entry.student, entry.problem, name, "", "", of, f"{entry.what}: {entry.why}")
 
 
 def _answers(record: Record) -> Iterator[tuple[str, ...]]:
@@ -84,9 +81,9 @@ def _answers(record: Record) -> Iterator[tuple[str, ...]]:
 # -- feedback ----------------------------------------------------------------------------------------
 
 
-def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
+def _feedback(folder: Path, problems: ProblemSet, record: Record, names: Mapping[str, str]) -> None:
     written: set[Path] = set()
-    groups = record.groups()
+    whose = _whose(record, names)
     answers = groupby(record.answers(), key=lambda a: (a.student, a.problem))
     waiting = next(answers, None)
     for row in record.rows():
@@ -95,28 +92,54 @@ def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
             own = list(waiting[1])
             waiting = next(answers, None)
         if row.html:
-            html, markdown = unpack(row.html), unpack(row.markdown)
+            pages = (unpack(row.html), unpack(row.markdown))
         elif any(answer.said or answer.comment for answer in own):
-            html, markdown = absent_page(
-                problems.item(row.problem).problem.title, groups.get(row.student, row.student)
-            )
+            pages = absent_page()
         else:
             continue
+        head = _head(problems, row, own, whose.get(row.student, row.student))
         place = folder / folder_name(row.student)
-        total, explained = _total(own), _explained(row, own)
-        for ending, page in (
-            (".html", _html(row, total, explained, html)),
-            (".md", _markdown(row, total, explained, markdown)),
-        ):
+        for ending, put_in, page in zip((".html", ".md"), (_html, _markdown), pages, strict=True):
             path = place / f"{row.problem}{ending}"
             written.add(path)
-            write(path, page, durable=False)
+            write(path, put_in(head, page), durable=False)
     remove_others(folder, written, (".html", ".md"))
 
 
-def _total(answers: list[RecordedAnswer]) -> str:
+def _whose(record: Record, names: Mapping[str, str]) -> dict[str, str]:
+    """Who stands over the page of each student: a name; a group with its members, who read the same."""
+    groups = record.groups()
+    members: dict[str, list[str]] = {}
+    for student, group in groups.items():
+        members.setdefault(group, []).append(names.get(student, student))
+    return {**names, **{s: f"{group} ({', '.join(members[group])})" for s, group in groups.items()}}
+
+
+@dataclass(frozen=True, slots=True)
+class _Head:
+    """The head of a student's page: whose it is, of which set, the marks, and of each answer why."""
+
+    title: str
+    assignment: str
+    total: str
+    told: tuple[str, ...]
+    rows: tuple[tuple[str, str, str], ...]
+
+
+def _head(problems: ProblemSet, row: RecordedHandIn, answers: list[RecordedAnswer], whose: str) -> _Head:
+    title = problems.item(row.problem).problem.title
     marks, of = points(*(a.marks for a in answers)), points(*(a.of for a in answers))
-    return f"Marks: {shown(marks)} of {shown(of)}"
+    rows = list(_explained(row, answers))
+    if line := deduction(marks, row.late, problems.policy):
+        marks += line.marks
+        rows.append((line.name, f"\u2212{shown(-line.marks)}", line.why))
+    return _Head(
+        f"{title}: {whose}",
+        problems.title if problems.title != title else "",
+        f"Marks: {shown(marks)} of {shown(of)}",
+        tuple(_told(row)),
+        tuple(rows),
+    )
 
 
 def _told(row: RecordedHandIn) -> Iterator[str]:
@@ -128,36 +151,41 @@ def _told(row: RecordedHandIn) -> Iterator[str]:
         yield f"The newest copy counts; left aside: {', '.join(row.left)}."
 
 
-def _explained(row: RecordedHandIn, answers: list[RecordedAnswer]) -> _Explained:
+def _explained(row: RecordedHandIn, answers: list[RecordedAnswer]) -> Iterator[tuple[str, str, str]]:
     """Each answer with its marks and why; nothing of a hand-in that was not judged but a teacher's words."""
-    return [
-        (f"{a.answer} {a.label}".strip(), f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why)
-        for a in answers
-        if a.of != "0" and (a.said or a.comment or not row.reason or a.fault != row.reason)
-    ]
+    for a in answers:
+        if a.of != "0" and (a.said or a.comment or not row.reason or a.fault != row.reason):
+            name = f"{a.answer} {a.label}".strip()
+            yield name, f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why
 
 
-def _html(row: RecordedHandIn, total: str, explained: _Explained, page: str) -> str:
-    """The page with the marks in it."""
-    told = "".join(f"<p>{_escaped(sentence)}</p>\n" for sentence in _told(row))
+def _html(head: _Head, page: str) -> str:
+    """The page with its head."""
     rows = "".join(
-        "<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>\n" for cells in explained
+        "<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>\n" for cells in head.rows
     )
-    head = "".join(f'<th scope="col">{name}</th>' for name in ("answer", "marks", "why"))
-    body = f"<thead><tr>{head}</tr></thead><tbody>\n{rows}</tbody>"
-    table = f'<div class="scroll"><table class="marks">{body}</table></div>' if rows else ""
-    page = _put(page, f"<p[^>]*>{MARKS_HERE}</p>", f"<p><strong>{total}</strong></p>\n{told}")
-    return _put(page, f"<p[^>]*>{TABLE_HERE}</p>", table)
+    names = "".join(f'<th scope="col">{name}</th>' for name in ("answer", "marks", "why"))
+    body = f"<thead><tr>{names}</tr></thead><tbody>\n{rows}</tbody>"
+    title = _escaped(head.title)
+    parts = (
+        f'<h1 dir="auto">{title}</h1>',
+        f"<p>{_escaped(head.assignment)}</p>" if head.assignment else "",
+        f"<p><strong>{head.total}</strong></p>",
+        *(f"<p>{_escaped(sentence)}</p>" for sentence in head.told),
+        f'<div class="scroll"><table class="marks">{body}</table></div>' if rows else "",
+    )
+    page = _put(page, "<title>[^<]*</title>", f"<title>{title}</title>")
+    return _put(page, f"<p[^>]*>{HEAD_HERE}</p>", "\n".join(filter(None, parts)))
 
 
-def _markdown(row: RecordedHandIn, total: str, explained: _Explained, page: str) -> str:
-    """The page in Markdown with the marks in it."""
-    told = [escaped(visible(sentence)) for sentence in _told(row)]
-    rows = [" | ".join(escaped(visible(cell)) for cell in cells) for cells in explained]
+def _markdown(head: _Head, page: str) -> str:
+    """The page in Markdown with its head."""
+    title, assignment, *told = (escaped(visible(s)) for s in (head.title, head.assignment, *head.told))
+    rows = [" | ".join(escaped(visible(cell)) for cell in cells) for cells in head.rows]
     lines = ["answer | marks | why", ":---: | :---: | :---", *rows]
     table = "\n".join(f"| {line} |" for line in lines) if rows else ""
-    page = _put(page, f"(?m)^{MARKS_HERE}$", "\n\n".join([f"**{total}**", *told]))
-    return _put(page, f"(?m)^{TABLE_HERE}$", table)
+    parts = (f"# {title}", assignment, f"**{head.total}**", *told, table)
+    return _put(page, f"(?m)^{HEAD_HERE}$", "\n\n".join(filter(None, parts)))
 
 
 def _put(page: str, place: str, text: str) -> str:

@@ -83,3 +83,9 @@ def stored_set(record: Record) -> ProblemSet:
         problem = replace(read_problem(entry["text"], entry["file"]), marks=marks)
         items.append(Item(problem, entry["text"]))
     return ProblemSet(data["title"], tuple(items), from_data(data["policy"]))
+
+
+def stored_policy(record: Record) -> Policy:
+    """The policy that the record was made with."""
+    text = record.run(_NAME)
+    return from_data(json.loads(text)["policy"]) if text else Policy()

@@ -23,6 +23,7 @@ from dynsolve.grading.platforms.registry import (
     PLATFORMS,
     chosen_roster,
     export,
+    keep_names,
     keep_platform,
     late,
     names,
@@ -119,13 +120,14 @@ def grade(
             if unknown and warn is not None:
                 warn(unknown)
             intake = take_in(chosen, uploads, delays, Groups(chosen.groups, people(record)))
+            keep_names(record, intake.names)
             store_set(record, chosen)
             done = grade_all(chosen, uploads, intake, record, pool, progress)
         write_copies(folder, uploads, intake.files)
         waits = write_outputs(folder, chosen, record, names(record))
         warnings = (*export(folder, chosen, record), *filter(None, (unknown,)))
-        changed = tuple(changes(record)) if diff else ()
-        record.finish()
+        changed = tuple(changes(record, chosen.policy)) if diff else ()
+        record.finish(chosen.policy)
         totals = {standing.student: standing.total for standing in standings(record)}
     return Grades(
         folder,

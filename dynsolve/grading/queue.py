@@ -1,13 +1,13 @@
 """What waits for a human: one list, for the teacher's page, for `queue.csv` and for the terminal.
 
-An entry is a file that no program can judge, a hand-in that could not be judged, or an answer that
-should be looked at.  An answer leaves the list when a teacher has given it marks, a file beside a
-hand-in that was judged when a teacher has said a word on one of its answers.
+An entry is an answer that waits for marks, alone or with the others of a file that no program can
+judge, or a file that should be looked at.  An answer leaves the list when a teacher has given it marks,
+a file beside a hand-in that was judged when a teacher has said a word on one of its answers.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from dynsolve.answers.unwritten import BY_PARTS
@@ -19,13 +19,13 @@ LEFT_ASIDE = "left aside: a newer copy counts"
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """Something for a human: `what` it is, a file or an answer, why, and the answers that wait for marks."""
+    """Something for a human: `what` it is, a file or an answer, why, and the answer that waits for marks."""
 
     student: str
     problem: str
     what: str
     why: str
-    answers: tuple[RecordedAnswer, ...] = ()
+    answer: RecordedAnswer | None = None
 
 
 def queue(record: Record, stems: Collection[str]) -> list[Entry]:
@@ -41,15 +41,20 @@ def queue(record: Record, stems: Collection[str]) -> list[Entry]:
         open_ = [key for key in keys if key in unjudged]
         settled = not open_ and any(reasons.get(key) or key in judged_by_hand for key in keys)
         if not settled:
-            own = tuple(answer for key in open_ for answer in answers.pop(key, ()))
-            found.append(Entry(w.student, w.problem, w.file, w.reason, own))
+            own = [answer for key in open_ for answer in answers.pop(key, ())]
+            found += _each(Entry(w.student, w.problem, w.file, w.reason), own)
     for row in hand_ins:
         key = (row.student, row.problem)
         if key in answers:
-            found.append(Entry(*key, ", ".join(row.files), row.reason, tuple(answers[key])))
+            found += _each(Entry(*key, ", ".join(row.files), row.reason), answers[key])
         if row.left and key not in judged_by_hand:
             found.append(Entry(*key, ", ".join(row.left), LEFT_ASIDE))
     return found + single
+
+
+def _each(entry: Entry, answers: Sequence[RecordedAnswer]) -> list[Entry]:
+    """An entry for each of some answers; without any it stands alone."""
+    return [replace(entry, problem=a.problem, answer=a) for a in answers] or [entry]
 
 
 def _answers(
@@ -62,13 +67,13 @@ def _answers(
     for a in record.answers():
         key, what = (a.student, a.problem), f"{a.answer} {a.label}".strip()
         if (*key, a.answer) in overtaken:
-            single.append(Entry(*key, what, OVERTAKEN, (a,)))
+            single.append(Entry(*key, what, OVERTAKEN, a))
         elif a.of == "0" or a.said:
             continue
         elif key in unjudged:
             of_unjudged.setdefault(key, []).append(a)
         elif reason := for_a_human(a):
-            single.append(Entry(*key, what, reason, (a,)))
+            single.append(Entry(*key, what, reason, a))
     return of_unjudged, single
 
 

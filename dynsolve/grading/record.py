@@ -17,7 +17,8 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from dynsolve.answers.marking.marks import Marked
+from dynsolve.answers.marking.marks import Marked, deduction
+from dynsolve.answers.marking.policy import Policy, points
 from dynsolve.errors import UsageError
 from dynsolve.grading.marking import Kept
 
@@ -246,11 +247,11 @@ class Record:
         """What identifies the hand-in that counts."""
         return self.kept(key)[0].get("hand-in", "")
 
-    def finish(self) -> None:
+    def finish(self, policy: Policy) -> None:
         """Keep the current marks, which the next run is compared with."""
         with self.db:
             self.db.execute("BEGIN")
-            for key, causes, answers in self.standing():
+            for key, causes, answers in self.standing(policy):
                 now = (causes, _text(answers))
                 if self._finished(key) != now:
                     self.db.execute("INSERT OR REPLACE INTO finished VALUES (?, ?, ?, ?)", (*key, *now))
@@ -341,11 +342,23 @@ class Record:
             marks = (overrides.get((s, p, a), ("", ""))[0] or m for s, p, a, m in found)
             yield key, tuple(marks)
 
-    def standing(self) -> Iterator[tuple[Key, str, list[list[str]]]]:
-        """Every hand-in with what it was made from, and its answers' verdict, marks and why."""
+    def late(self) -> dict[Key, int]:
+        """The days that hand-ins are late."""
+        found = self.db.execute("SELECT student, problem, late FROM hand_ins WHERE late")
+        return {(student, problem): days for student, problem, days in found}
+
+    def standing(self, policy: Policy) -> Iterator[tuple[Key, str, list[list[str]]]]:
+        """Every hand-in with what it was made from, and its answers' verdict, marks and why.
+
+        Last of a late one comes what that has deducted.
+        """
         causes = {(s, p): c for s, p, c in self.db.execute("SELECT student, problem, causes FROM hand_ins")}
+        days = self.late()
         for key, found in groupby(self.answers(), key=lambda a: (a.student, a.problem)):
-            yield key, causes[key], [[a.answer, a.verdict, a.marks, a.why] for a in found]
+            lines = [[a.answer, a.verdict, a.marks, a.why] for a in found]
+            deducted = deduction(points(*(line[2] for line in lines)), days.get(key, 0), policy)
+            lines += [[deducted.name, "", str(deducted.marks), deducted.why]] if deducted else []
+            yield key, causes[key], lines
 
     def finished(self, key: Key) -> tuple[dict[str, str], dict[str, list[str]]]:
         """The causes and answers of a hand-in when the last run finished, or nothing."""

@@ -30,7 +30,7 @@ def row_of_result(problems: ProblemSet, hand_in: HandIn, said: Data, bounds: Bou
     reason = said.get("reason", "") or _empty(result)
     over = "reason" in said or result.get("over", False)
     if reason:
-        result = _unread(problems, hand_in.whose, hand_in.problem, reason)
+        result = _unread(problems, hand_in.problem, reason)
     found = {} if said.get("again") else causes(problems, hand_in, bounds if over else None)
     return (
         hand_in.key,
@@ -55,12 +55,12 @@ def _empty(row: Data) -> str:
     return "; ".join([*row["faults"], *lost]) or "no answer was found in it"
 
 
-def _unread(problems: ProblemSet, whose: str, stem: str, reason: str) -> Data:
+def _unread(problems: ProblemSet, stem: str, reason: str) -> Data:
     """The row of what could not be judged: unreadable, for a human to look at; missing without a reason."""
     from dynsolve.grading.pages import bare_page
 
     item = problems.item(stem)
-    html, markdown = bare_page(item.problem.title, whose, reason) if reason else ("", "")
+    html, markdown = bare_page(reason) if reason else ("", "")
     verdict = Verdict.UNREADABLE if reason else Verdict.MISSING
     blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form", "basis"), "")
     unjudged = (JudgedAnswer(name, verdict, of=of) for name, of in item.problem.marks.items())
@@ -85,25 +85,24 @@ def rows_of_absent(problems: ProblemSet, intake: Intake, known: Mapping[Key, str
     for entry in intake.waiting:
         for stem in (entry.problem,) if entry.problem else problems.stems:
             reasons.setdefault((entry.student, stem), []).append(f"{entry.file}: {entry.reason}")
-    missing = {item.stem: _not_judged(problems, "", item, []) for item in problems.items}
+    missing = {item.stem: _not_judged(problems, item, []) for item in problems.items}
     for student in intake.students:
         for item in problems.items:
             key = (student, item.stem)
             if key in handed_in:
                 continue
             said = _some_of(reasons.get(key, []))
-            whose = intake.groups.get(student, student)
-            word, causes, row = _not_judged(problems, whose, item, said) if said else missing[item.stem]
+            word, causes, row = _not_judged(problems, item, said) if said else missing[item.stem]
             if known.get(key) != word:
                 yield key, word, causes, row
 
 
-def _not_judged(problems: ProblemSet, whose: str, item: Item, said: list[str]) -> tuple[str, str, Data]:
+def _not_judged(problems: ProblemSet, item: Item, said: list[str]) -> tuple[str, str, Data]:
     """The row of what was not handed in, or waits for a human: its fingerprint, its causes, what it holds."""
     found = {"hand-in": short(said), "marks": of_marks(item), "program": program()}
     found["policy"] = of_policy(problems.policy)
     reason = "; ".join(said)
-    row = _unread(problems, whose, item.stem, reason)
+    row = _unread(problems, item.stem, reason)
     rest = {"files": [], "left": [], "late": 0, "reason": reason, "notes": []}
     return short(found), json.dumps(found, sort_keys=True), {**row, **rest}
 

@@ -133,7 +133,7 @@ def _is_rescored(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: 
     if not old or not touches_marks_alone(old, new) or not all(answer.basis for answer in kept):
         return False
     problem = problems.item(hand_in.problem).problem
-    marks = rescored(kept, problem.marks, quantities(problem.robot), problems.policy, hand_in.late)
+    marks = rescored(kept, problem.marks, quantities(problem.robot), problems.policy)
     record.rescore(hand_in.key, fingerprint(new), json.dumps(new, sort_keys=True), marks)
     return True
 
@@ -154,8 +154,6 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
         "problem": {"file": Path(item.problem.file).name, "text": item.text},
         "marks": {name: str(of) for name, of in item.problem.marks.items()},
         "policy": to_data(problems.policy),
-        "student": hand_in.whose,
-        "late": hand_in.late,
         "files": [
             {"name": name, "content": base64.b64encode(content).decode()}
             for name, content in (_own_part(file, _same(uploads, file)) for file in hand_in.files)

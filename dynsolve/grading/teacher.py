@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.answers.marking.policy import shown
-from dynsolve.grading.cohort import VERDICTS, Cohort, counted, most
+from dynsolve.grading.cohort import VERDICTS, WAITS, Cohort, counted, most
 from dynsolve.grading.copies import FOLDER, copy_name
 from dynsolve.grading.files import decimal, folder_name
 from dynsolve.grading.histogram import histogram
@@ -27,10 +27,10 @@ MOST_WAITING = 5000
 MOST_NAMED = 20
 
 ITEM_REST = (
-    "Mean and share correct are of the hand-ins that were judged. Item-rest r is the correlation of the "
-    "marks for this answer with all other marks of the same student (the corrected item-total "
-    "correlation): near 1, it tells strong students from weak ones; near or below 0, look at the question "
-    "and its key. It stands where 3 students or more have all their marks, and not all the same."
+    "A hand-in of which something waits for a human is counted under waits alone. Item-rest r is the "
+    "correlation of the marks for this answer with all other marks of the same student (the corrected "
+    "item-total correlation): near 1, it tells strong students from weak ones; near or below 0, look at the "
+    "question and its key. It stands where 3 students or more wait for nothing, and not all have the same."
 )
 
 
@@ -118,7 +118,7 @@ def _link(cohort: Cohort, student: str, problem: str, text: str = "") -> str:
 
 def _called(cohort: Cohort, student: str) -> str:
     name = cohort.names.get(student)
-    return _text(f"{name} ({student})" if name else student)
+    return _text(f"{name} ({student})" if name and name not in student else student)
 
 
 def _file(copies: Set[str], path: str, text: str) -> str:
@@ -148,15 +148,19 @@ def _short(text: str, most: int = 160) -> str:
 
 def _summary(problems: ProblemSet, cohort: Cohort) -> str:
     """Who there is and how they did, with the one number for what waits."""
-    totals = sorted(total for _, _, total in cohort.marks)
+    totals = sorted(standing.total for standing in cohort.settled)
     waits = f'<p class="waits">{_waiting(cohort)}.</p>\n'
-    if not totals:
+    if not cohort.standings:
         return f"{waits}<p>Nothing was handed in.</p>\n"
+    n, waiting = len(totals), len(cohort.standings) - len(totals)
+    who = "1 student" if len(cohort.standings) == 1 else f"{len(cohort.standings)} students"
+    if waiting:
+        who += f", of whom {waiting} {'waits and is' if waiting == 1 else 'wait and are'} not counted"
+    if not totals:
+        return f"{waits}<p>{who}.</p>\n"
     of = sum(most(problems).values(), Fraction(0))
-    n = len(totals)
     median = (totals[(n - 1) // 2] + totals[n // 2]) / 2
     mean = sum(totals, Fraction(0)) / n
-    who = "1 student" if n == 1 else f"{n} students"
     return (
         f"{waits}<p>{who}; of {shown(of)} marks the mean is {float(mean):.2f}, the median "
         f"{decimal(median)}, from {decimal(totals[0])} to {decimal(totals[-1])}.</p>\n"
@@ -167,15 +171,15 @@ def _distribution(problems: ProblemSet, cohort: Cohort) -> str:
     """A histogram of each problem, and of all together where they are several."""
     of = most(problems)
     earned = {
-        stem: [marks[stem] for who, marks, _ in cohort.marks if (who, stem) in cohort.judged]
+        stem: [s.marks[stem] for s in cohort.standings if (s.student, stem) in cohort.judged]
         for stem in problems.stems
     }
     figures = [histogram(stem, earned[stem], of[stem]) for stem in problems.stems]
     if len(problems.stems) > 1:
-        totals = [total for _, _, total in cohort.marks]
+        totals = [standing.total for standing in cohort.settled]
         figures.insert(0, histogram("All problems", totals, sum(of.values(), Fraction(0))))
     drawn = "".join(figures)
-    note = "Of a problem those are counted whose hand-in was judged."
+    note = "Who waits for a human, with that problem or at all, is not counted."
     return f'<p>{note}</p>\n<div class="figures">{drawn}</div>\n' if drawn else ""
 
 
@@ -186,13 +190,13 @@ def _answers(problems: ProblemSet, cohort: Cohort) -> str:
             total = sum(counts.values()) or 1
             heat = "".join(
                 f'<td class="heat {v}" style="--share:{counts[v] / total:.3f}">{counts[v]}</td>'
-                for v in VERDICTS
+                for v in (*VERDICTS, WAITS)
             )
             found = cohort.items.get((problem, answer))
             figures = "".join(f'<td class="number">{figure}</td>' for figure in _figures(found))
             yield f"<tr><td>{_text(problem)}</td><td>{_text(answer)}</td>{figures}{heat}</tr>"
 
-    header = ("problem", "answer", "mean", "of", "% correct", "item-rest r", *VERDICTS)
+    header = ("problem", "answer", "mean", "of", "% correct", "item-rest r", *VERDICTS, WAITS)
     return _table("How each answer did, and its verdicts", header, rows(), ITEM_REST)
 
 
@@ -249,12 +253,14 @@ def _queue(cohort: Cohort, copies: Set[str]) -> str:
         for e in cohort.queue[:MOST_WAITING]:
             what = _file(copies, e.what, e.what)
             who = _link(cohort, e.student, e.problem)
-            yield _row(who, _hand_in(cohort, copies, e.student, e.problem), what, _text(e.why))
+            answer = _text(e.answer.answer) if e.answer else ""
+            yield _row(who, _hand_in(cohort, copies, e.student, e.problem), answer, what, _text(e.why))
 
     more = len(cohort.queue) - MOST_WAITING
-    note = "The problem leads to what was handed in."
+    note = 'Decide them on <a href="queue.html">the page of the queue</a>, or fill in queue.csv.'
+    note += " The problem leads to what was handed in."
     note += f" {more} more are in queue.csv." if more > 0 else ""
-    return _table(_waiting(cohort), ("student", "problem", "what", "why"), rows(), note)
+    return _table(_waiting(cohort), ("student", "problem", "answer", "what", "why"), rows(), note)
 
 
 def _waiting(cohort: Cohort) -> str:
@@ -275,12 +281,18 @@ def _by_hand(cohort: Cohort, copies: Set[str]) -> str:
 
 
 def _students(problems: ProblemSet, cohort: Cohort, copies: Set[str]) -> str:
+    is_any_late = any(s.late for s in cohort.standings)
+
     def rows() -> Iterator[str]:
-        for student, marks, total in cohort.marks:
-            each = (
-                _link(cohort, student, stem, decimal(marks.get(stem, Fraction(0)))) for stem in problems.stems
-            )
-            yield _row(_called(cohort, student), *each, decimal(total), " ".join(_handed_in(student)))
+        for s in cohort.standings:
+            marks = {
+                stem: "waits" if stem in s.unjudged else decimal(s.marks.get(stem, Fraction(0)))
+                for stem in problems.stems
+            }
+            each = (_link(cohort, s.student, stem, text) for stem, text in marks.items())
+            deducted = [decimal(s.deducted)] if is_any_late else []
+            handed_in = " ".join(_handed_in(s.student))
+            yield _row(_called(cohort, s.student), *each, decimal(s.total), *deducted, handed_in)
 
     def _handed_in(student: str) -> Iterator[str]:
         for stem in problems.stems:
@@ -288,4 +300,5 @@ def _students(problems: ProblemSet, cohort: Cohort, copies: Set[str]) -> str:
                 yield _hand_in(cohort, copies, student, stem)
 
     caption = "The marks of each student lead to the page that the student reads"
-    return _table(caption, ("student", *problems.stems, "total", "handed in"), rows())
+    late = ["for being late"] if is_any_late else []
+    return _table(caption, ("student", *problems.stems, "total", *late, "handed in"), rows())

@@ -48,7 +48,7 @@ MOST_TOLD = 300
 
 
 def grade_one(payload: Data, answer_by_answer: float = 0.0) -> Data:
-    """Judge and mark a hand-in; `payload` has problem, marks, policy, files, late and student.
+    """Judge and mark a hand-in; `payload` has problem, marks, policy and files.
 
     With `answer_by_answer` seconds every answer is tried by itself first; what is too much is unreadable.
     """
@@ -71,8 +71,8 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     problem, policy = checker.problem, from_data(payload["policy"])
     judge = Judge(checker, submission)
     report = checker.report(judge)
-    marked = mark(report.answers, judge.graph.quantities, policy, payload["late"])
-    html, markdown = student_page(report, problem, payload["student"], policy.hints)
+    marked = mark(report.answers, judge.graph.quantities, policy)
+    html, markdown = student_page(report, problem, policy.hints)
     return {
         "answers": [
             {

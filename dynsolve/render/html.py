@@ -349,7 +349,7 @@ class _Page(MarkupPage):
         return len(nodes) > _FEW or (are_narrow and len(nodes) >= _FEWEST)
 
     def contents(self) -> str:
-        """The table of contents."""
+        """The table of contents, where there is more than one part."""
         items = []
         for entry in self.entries:
             steps = "".join(
@@ -361,7 +361,7 @@ class _Page(MarkupPage):
             items.append(f"<li>{inner}</li>")
         return (
             '<nav aria-label="Contents"><h2>Contents</h2><ul>' + "\n".join(items) + "</ul></nav>\n"
-            if items
+            if len(items) > 1
             else ""
         )
 

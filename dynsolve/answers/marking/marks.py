@@ -8,7 +8,7 @@ r/N · (N + z)/(N + Z): one slip takes its part, wherever it is made, and zeros 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
 
@@ -47,15 +47,12 @@ class Piece(Protocol):
         """Whether it earns nothing by itself."""
 
 
-def mark(
-    answers: Iterable[JudgedAnswer], quantities: Quantities, policy: Policy, late: int = 0
-) -> tuple[Marked, ...]:
-    """The marks of a hand-in's answers, in their order; it is so many days `late`, begun ones counted.
+def mark(answers: Iterable[JudgedAnswer], quantities: Quantities, policy: Policy) -> tuple[Marked, ...]:
+    """The marks of a hand-in's answers, in their order, before what being `late` takes off.
 
     `quantities` are the robot's, which know the stage of each answer.
     """
-    found = tuple(_capped((_one(answer, policy) for answer in answers), quantities, policy))
-    return _late(found, policy.kept(late), policy.rounding)
+    return tuple(_capped((_one(answer, policy) for answer in answers), quantities, policy))
 
 
 def _one(answer: JudgedAnswer, policy: Policy) -> Marked:
@@ -131,7 +128,7 @@ def _zeros(pieces: tuple[Piece, ...]) -> Iterator[str]:
     """What is said of entries that earn nothing by themselves."""
     zeros = sum(piece.zero for piece in pieces)
     if 0 < zeros < len(pieces):
-        yield f"{zeros} 0 in the key, which count with the rest"
+        yield f"{zeros} of them 0 in the key, which count with the rest"
     empty = sum(piece.empty and piece.verdict is Verdict.FOLLOWS for piece in pieces)
     if empty:
         yield f"{empty} empty, which {BY_ITSELF}"
@@ -147,24 +144,21 @@ def _percent(share: Fraction) -> str:
     return f"{shown(share * 100)} %"
 
 
-def _late(found: tuple[Marked, ...], share: Fraction, step: Fraction) -> tuple[Marked, ...]:
-    """The marks of a late hand-in: its share of what all its answers earn, rounded once.
+def deduction(total: Fraction, days: int, policy: Policy) -> Marked | None:
+    """The line that deducts from what all answers earn, so many days late, begun ones counted; or none.
 
-    The rounding never gives back what being late has taken.  Each answer has its part of it.
+    What is kept is rounded once, and the rounding never gives back what being late has taken.
+
+    >>> deduction(Fraction(3), 1, Policy(late=Fraction(4, 5), rounding=Fraction(1, 2)))
+    Marked(name='late', marks=Fraction(-1, 2), of=Fraction(0, 1), why='80 % of 3 is 2.5')
     """
-    total = sum((marked.marks for marked in found), Fraction(0))
+    share, step = policy.kept(days), policy.rounding
     if share == 1 or not total:
-        return found
+        return None
     kept = rounded(total * share, step)
     if kept >= total:
         kept = (total * share / step).__floor__() * step
-    said = f"late, {_percent(share)} of {shown(total)} in all is {shown(kept)}"
-    return tuple(
-        replace(marked, marks=marks, why=f"{marked.why}; {said}: {shown(marks)}")
-        if (marks := marked.marks * kept / total) != marked.marks
-        else marked
-        for marked in found
-    )
+    return Marked("late", kept - total, Fraction(0), f"{_percent(share)} of {shown(total)} is {shown(kept)}")
 
 
 def _capped(found: Iterable[Marked], quantities: Quantities, policy: Policy) -> Iterator[Marked]:

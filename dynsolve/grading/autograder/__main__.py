@@ -58,8 +58,8 @@ def judged(root: Path) -> Data:
 
 
 def _waits(grades: Grades) -> str:
-    why = [f"- {entry.what.rpartition(f'{SUBMISSION}/')[2]}: {entry.why}" for entry in grades.queue]
-    return "\n".join([UNJUDGED, *(why or ["- nothing was handed in"])])
+    why = (f"- {entry.what.rpartition(f'{SUBMISSION}/')[2]}: {entry.why}" for entry in grades.queue)
+    return "\n".join([UNJUDGED, *(dict.fromkeys(why) or ["- nothing was handed in"])])
 
 
 def _without_marks(output: str) -> Data:

@@ -47,8 +47,8 @@ def _of_submission(submission: str, name: str, submitters: Submitters) -> tuple[
     id = PurePosixPath(submission).stem
     number = id.removeprefix("submission_")
     order = int(number[:18]) if number.isdigit() else 0
-    students = (_submitter(one, id) for one in submitters.get(submission, ()))
-    return tuple(FileOwner(s, id, id, name, order=order) for s in students if s) or (
+    who = ((_submitter(one, id), printable(one.get(":name", ""))) for one in submitters.get(submission, ()))
+    return tuple(FileOwner(s, id, id, name, order=order, called=called) for s, called in who if s) or (
         FileOwner(id, id, id, name, order=order),
     )
 
@@ -208,6 +208,19 @@ def _results(folder: Path, standing: Standing, record: Record, problems: Problem
                 "visibility": "visible",
             }
         )
+    tests += [
+        {
+            "score": float(line.marks),
+            "max_score": 0.0,
+            "status": "failed",
+            "name": line.name if alone else f"{problem}: {line.name}",
+            "number": f"{problems.stems.index(problem) + 1}.{numbers[problem] + 1}",
+            "output": line.why,
+            "output_format": "text",
+            "visibility": "visible",
+        }
+        for problem, line in standing.late.items()
+    ]
     return {
         "score": float(standing.total),
         "output": _pages(folder / "feedback" / folder_name(standing.student), problems),

@@ -48,7 +48,14 @@ class Groups:
         members = next((self._members[name] for name in spelled if name in self._members), ())
         if members:
             return tuple(
-                replace(owner, student=member.student, id=member.id, group=owner.student, certain=True)
+                replace(
+                    owner,
+                    student=member.student,
+                    id=member.id,
+                    group=owner.student,
+                    certain=True,
+                    called=member.name,
+                )
                 for member in members
             )
         return (replace(owner, id="") if self._is_unknown_group(owner) else owner,)

@@ -49,9 +49,8 @@ def owner(parts: tuple[str, ...]) -> FileOwner | None:
         return None
     rest = [piece for piece in (found["name"], *parts[1:]) if piece]
     id = found["id"] or ""
-    return FileOwner(
-        f"{found['who']}_{id}" if id else found["who"], id, "", "/".join(rest) or "onlinetext.html"
-    )
+    who, name = found["who"], "/".join(rest) or "onlinetext.html"
+    return FileOwner(f"{who}_{id}" if id else who, id, "", name, called=who)
 
 
 def check(problems: ProblemSet, roster: Roster) -> int:
@@ -205,5 +204,9 @@ def _is_free(comment: str, problems: ProblemSet) -> bool:
 
 
 def _comment(standing: Standing, problems: ProblemSet) -> str:
-    parts = [f"{stem}: {decimal(standing.marks.get(stem, Fraction(0)))}" for stem in problems.stems]
+    late = {stem: f" (late: {decimal(line.marks)})" for stem, line in standing.late.items()}
+    parts = [
+        f"{stem}: {decimal(standing.marks.get(stem, Fraction(0)))}{late.get(stem, '')}"
+        for stem in problems.stems
+    ]
     return "; ".join(parts)

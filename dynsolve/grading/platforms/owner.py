@@ -14,6 +14,7 @@ class FileOwner:
     days that it is late, begun ones counted.  `order` grows with the delivery; `name` is the
     file's own name.  A loose file's name is not `certain` to be a student's: what stands
     in the file wins.  `group` is whose it is in the names of the files where a group handed it in.
+    `called` is what people call the student, where the platform's name says it.
     """
 
     student: str
@@ -24,6 +25,7 @@ class FileOwner:
     order: int = 0
     certain: bool = True
     group: str = ""
+    called: str = ""
 
 
 @dataclass(frozen=True, slots=True)

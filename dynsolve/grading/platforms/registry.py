@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import json
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -35,7 +36,7 @@ PLATFORMS = {
     "gradescope": Platform(gradescope.write, late=gradescope.late, people=gradescope.people),
 }
 
-_PLATFORM, _ROSTER = "platform", "roster"
+_PLATFORM, _ROSTER, _NAMES = "platform", "roster", "names"
 
 
 def chosen_roster(problems: ProblemSet, platform: str, path: Path | None) -> Roster:
@@ -75,13 +76,19 @@ def people(record: Record) -> tuple[Person, ...]:
     return tuple(PLATFORMS[platform].people(from_text(record.run(_ROSTER)))) if platform else ()
 
 
+def keep_names(record: Record, names: Mapping[str, str]) -> None:
+    """Keep what students are called where the names of their files say it."""
+    record.set_run(_NAMES, json.dumps(names, ensure_ascii=False))
+
+
 def names(record: Record) -> dict[str, str]:
-    """What students are called, by the roster that is kept, where their names here do not say it."""
+    """What students are called, as far as it is known: by the roster, else by the names of their files."""
+    called = json.loads(record.run(_NAMES) or "{}")
     listed = people(record)
-    called = {person.student: person.name for person in listed}
-    called |= {person.id: person.name for person in listed if person.id}
-    found = {student: called.get(id) or called.get(student, "") for student, id in record.students().items()}
-    return {student: name for student, name in found.items() if name and name not in student}
+    called |= {person.student: person.name for person in listed if person.name}
+    of_id = {person.id: person.name for person in listed if person.id}
+    found = {s: of_id.get(id) or called.get(s, "") for s, id in record.students().items()}
+    return {student: name for student, name in found.items() if name}
 
 
 def export(folder: Path, problems: ProblemSet, record: Record) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from dynsolve.grading.pages import unpack
+from dynsolve.grading.pages import HEAD_HERE, unpack
 from dynsolve.grading.work import grade_one
 from tests.support import ROOT
 
@@ -31,7 +31,7 @@ def _of_text(text: str, hints: int = 3, kind: str = "markdown", name: str = "a.y
     file = {"name": name, "content": base64.b64encode(text.encode()).decode()}
     payload = {
         "problem": {"file": "in3140-rp.yaml", "text": TEXT}, "marks": MARKS, "policy": policy,
-        "student": "s1", "late": False, "files": [file],
+        "files": [file],
     }  # fmt: skip
     return unpack(base64.b64decode(grade_one(payload)[kind]))
 
@@ -40,10 +40,11 @@ def test_the_first_slip_comes_first_with_what_was_written_set_beside() -> None:
     page = _page({**RIGHT, "K": "I1zz*theta1'^2/2 + m2*(L2'^2 + L2*theta1'^2)/2"})
     first = page.index("It first went wrong at K (line 3).")
     slip = page.index("### K: wrong")
-    assert first < slip < page.index("## Marks") < page.index("## How the answers were read")
+    assert page.index(HEAD_HERE) < first < slip < page.index("## How the answers were read")
     assert r"K = \frac{I_{1,zz} \dot{\theta}_{1}^{2}}{2}" in page[slip:]
     assert "the $L_{2}$ should be squared" in page[slip:]
-    assert "tau (line 4), correct (right, though your own earlier answers lead elsewhere): `" in page
+    assert "tau (line 4), correct (right, though your own earlier answers lead elsewhere):" in page
+    assert "[[" not in page and r"D = \begin{bmatrix}" in page
 
 
 def test_what_is_said_of_everything_is_said_of_the_entry_that_it_holds_for() -> None:
@@ -83,7 +84,7 @@ def test_each_level_tells_where_what_kind_and_how() -> None:
         assert "It first went wrong at tau (line 4)." in page
         assert "Wrong in entry 1; the others are right or follow." in page
     assert "kind of slip" not in where and "in front" not in where
-    assert "What kind of slip: a number." in kind and "in front" not in kind
+    assert "What kind of slip: a factor such as ½." in kind and "in front" not in kind
     assert "has 1 in front where 2 belongs" in how
 
 

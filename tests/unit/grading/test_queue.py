@@ -60,7 +60,7 @@ def test_the_page_the_file_and_the_run_agree(course: Path) -> None:
         ("ann", "in3140-rp", "tau"),
     ]  # fmt: skip
     assert rows[0]["reason"] == "ann/in3140-rp notes.pdf: a PDF: a human reads it"
-    assert len(grades.queue) == _number(course) == 5
+    assert len(grades.queue) == _number(course) == len(rows)
 
 
 def test_what_a_teacher_has_marked_waits_no_more(course: Path) -> None:
@@ -69,7 +69,32 @@ def test_what_a_teacher_has_marked_waits_no_more(course: Path) -> None:
         for answer in answers:
             dynsolve.override(course / "out", student, "in3140-rp", answer, marks=1, why="on paper")
     assert {row["student"] for row in _queue(course)} == {"cat", "dan"}
-    assert _number(course) == len(_grade(course).queue) == 2
+    assert _number(course) == len(_grade(course).queue) == len(_queue(course)) == 5
+
+
+def test_who_waits_is_counted_nowhere_but_there(course: Path) -> None:
+    """Of nine students three have a file for the queue, and cat one of no problem, which may be for any."""
+    settled = {f"s{i}/{stem}.yaml": f"answers:\n  D: [[{i}*m2, 0], [0, m2]]\n  g: [0, 0]\n"
+               for i in range(5) for stem in ("in3140-rp", "planar-2r")}  # fmt: skip
+    with_files(course / "in", settled | {"s4/planar-2r.yaml": "answers:\n  g: [0, (\n"})
+    _grade(course)
+    waiting = {(row["student"], row["problem"]) for row in _queue(course)}
+    page = (course / "out" / "report.html").read_text()
+    with (course / "out" / "grades.csv").open(newline="") as stream:
+        marks = {row["student"]: float(row["total"]) for row in csv.DictReader(stream)}
+    counted = [marks[student] for student in marks if student not in {student for student, _ in waiting}]
+    assert 0 < len(counted) < len(marks)
+    mean = sum(counted) / len(counted)
+    assert f"{len(marks)} students, of whom {len(marks) - len(counted)} wait and are not counted; " in page
+    assert f"the mean is {mean:.2f}," in page
+    assert f"All problems: {len(counted)} students, mean {mean:.2f} of 7<" in page
+    for stem in ("in3140-rp", "planar-2r"):
+        judged = [name for name in ("ann", *(f"s{i}" for i in range(5))) if (name, stem) not in waiting]
+        handed_in = [name for name in judged if name != "ann" or stem == "in3140-rp"]
+        assert f"{stem}: {len(handed_in)} students, mean" in page
+    (g,) = re.findall(r'<tr><td>planar-2r</td><td>g</td>(<td class="number">.*?)</tr>', page)
+    counts = [int(text) for text in re.findall(r'<td class="heat \w+"[^>]*>(\d+)</td>', g)]
+    assert counts[-1] == sum(stem == "planar-2r" for _, stem in waiting) and sum(counts) == len(marks)
 
 
 def test_every_hand_in_is_a_link_away_as_text_or_as_what_a_browser_shows(course: Path) -> None:

@@ -188,10 +188,10 @@ def test_the_same_wrong_value_has_one_form_however_it_is_written() -> None:
 
 
 def test_the_page_says_nothing_of_marks_until_it_is_written() -> None:
-    from dynsolve.grading.pages import MARKS_HERE, unpack
+    from dynsolve.grading.pages import HEAD_HERE, unpack
 
     page = unpack(base64.b64decode(grade_one(payload(RIGHT_K))["html"]))
-    assert page.count(MARKS_HERE) == 1 and "Marks:" not in page
+    assert page.count(HEAD_HERE) == 1 and "Marks:" not in page
 
 
 def test_a_worker_is_replaced_when_it_goes_over_its_memory() -> None:

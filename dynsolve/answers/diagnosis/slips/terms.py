@@ -13,10 +13,10 @@ SLIPS = (
                  " - m1*lc1^2*q1_dot^2/2 - m2*(l1^2*q1_dot^2 + lc2^2*(q1_dot+q2_dot)^2"
                  " + 2*l1*lc2*cos(q2)*q1_dot*(q1_dot+q2_dot))/2"
                  " + m1*g*lc1*sin(q1) + m2*g*(l1*sin(q1)+lc2*sin(q1+q2))")),
-    Slip("factor", "a number", "{term} has {yours} in front where {other} belongs.",
+    Slip("factor", "a factor such as ½", "{term} has {yours} in front where {other} belongs.",
          "Look for a ½ or a 2 that was lost or gained.",
          Example(IN3140, "tau1", "(I1zz + m2*L2^2)*theta1_ddot + m2*L2*L2_dot*theta1_dot")),
-    Slip("factor_all", "a number", "{yours} is {part} times what it should be.",
+    Slip("factor_all", "a factor such as ½", "{yours} is {part} times what it should be.",
          "Look for a ½ or a 2 that was lost or gained.",
          Example(IN3140, "Kw1", "I1zz*theta1_dot^2")),
     Slip("missing_term", "a missing term", "The term {term} is missing.",

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dynsolve.answers.marking.marks import mark, maximum
+from dynsolve.answers.marking.marks import deduction, mark, maximum
 from dynsolve.answers.marking.policy import Policy, rounded, shown
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.quantities.index import Quantities
@@ -55,14 +55,6 @@ def test_what_follows_and_has_lost_something_earns_half() -> None:
     assert (found.marks, found.why) == (2, "follows, but body 2 is lost on the way, which earns 50 %: 2 of 4")
 
 
-def test_late_and_rounding() -> None:
-    policy = Policy(late=F(4, 5), rounding=F(1, 2))
-    (found,) = mark([_answer("K", Verdict.CORRECT, 3)], QUANTITIES, policy, late=1)
-    assert (found.marks, found.why) == (
-        F(5, 2), "correct: 3 of 3; late, 80 % of 3 in all is 2.5: 2.5",
-    )  # fmt: skip
-
-
 def test_a_cap_limits_what_a_stage_earns_and_what_it_is_out_of() -> None:
     answers = [_answer("P", Verdict.CORRECT), _answer("K", Verdict.CORRECT), _answer("D", Verdict.CORRECT)]
     found = mark(answers, QUANTITIES, Policy(caps={"energy": F(5)}))
@@ -95,11 +87,10 @@ def test_a_matrix_that_is_written_in_part_earns_what_is_there() -> None:
 
 
 def test_rounding_takes_nothing_from_all_and_gives_no_more_than_all() -> None:
-    policy = Policy(rounding=F(1, 2), late=F(1, 2))
+    policy = Policy(rounding=F(1, 2))
     answers = [JudgedAnswer("K", Verdict.CORRECT, of=F(1, 3)), _answer("D", Verdict.WRONG, 0, "cccw")]
     answers[1] = replace(answers[1], of=F(1, 3))
     assert [m.marks for m in mark(answers, QUANTITIES, policy)] == [F(1, 3), F(1, 3)]
-    assert [m.marks for m in mark(answers, QUANTITIES, policy, late=1)] == [F(1, 4), F(1, 4)]
 
 
 def test_a_cap_leaves_no_answer_more_than_it_is_out_of() -> None:
@@ -163,10 +154,9 @@ def test_what_follows_from_nothing_earns_nothing() -> None:
 def test_late_is_taken_once_from_the_total(late: str, days: int, rounding: str, marks: Fraction) -> None:
     first, *later = map(F, late.split())
     policy = Policy(late=first, later=tuple(later), rounding=F(rounding))
-    found = mark(
-        [_answer(name, Verdict.CORRECT, 1) for name in ("K", "P", "D", "g")], QUANTITIES, policy, days
-    )
-    assert sum(m.marks for m in found) == marks
+    line = deduction(F(4), days, policy)
+    assert (line.marks if line else 0) == marks - 4
+    assert line is None or line.why.endswith(f" of 4 is {shown(F(marks))}")
 
 
 _POINTS = st.fractions(0, 10, max_denominator=6)
@@ -197,38 +187,35 @@ _POLICIES = st.builds(
 
 
 @pytest.mark.slow
-@given(_answers(), _POLICIES, st.booleans(), st.booleans())
+@given(_answers(), _POLICIES, st.booleans())
 @settings(max_examples=300, deadline=None)
 def test_marks_hold_together_whatever_the_policy(
-    answers: list[JudgedAnswer], policy: Policy, late: bool, lost: bool
+    answers: list[JudgedAnswer], policy: Policy, lost: bool
 ) -> None:
     if lost:
         answers = [replace(answer, loss="body 2 is lost on the way") for answer in answers]
-    found = mark(answers, QUANTITIES, policy, int(late))
+    found = mark(answers, QUANTITIES, policy)
     assert [m.name for m in found] == [a.name for a in answers]
     for marked, answer in zip(found, answers, strict=True):
         assert 0 <= marked.marks <= marked.of <= answer.of
         of_it = f": {shown(marked.marks)}"
         said = re.sub(r" \([^()]*\)$", "", marked.why)  # how it was rounded
         assert not answer.of or said.endswith((of_it, f"{of_it} of {shown(marked.of)}"))
-        if (
-            answer.verdict is Verdict.CORRECT
-            and not late
-            and QUANTITIES.stage(answer.name) not in policy.caps
-        ):
+        if answer.verdict is Verdict.CORRECT and QUANTITIES.stage(answer.name) not in policy.caps:
             assert marked.marks == answer.of
         if marked.marks not in (answer.of, rounded(marked.marks, policy.rounding)):
-            assert policy.caps or late
-    in_time = mark(answers, QUANTITIES, policy)
+            assert policy.caps
     uncapped = mark(answers, QUANTITIES, replace(policy, caps={}))
     for stage, cap in policy.caps.items():
-        here = [m for m in in_time if QUANTITIES.stage(m.name) == stage]
+        here = [m for m in found if QUANTITIES.stage(m.name) == stage]
         earned = sum((m.marks for m in uncapped if QUANTITIES.stage(m.name) == stage), F(0))
         assert sum((m.marks for m in here), F(0)) == min(cap, earned)
-    total = sum((m.marks for m in in_time), F(0))
-    if late and policy.late < 1 and total:
-        kept = sum((m.marks for m in found), F(0))
-        assert kept < total and rounded(kept, policy.rounding) == kept
+    total = sum((m.marks for m in found), F(0))
+    line = deduction(total, 1, policy)
+    assert (line is not None) is (policy.late < 1 and total > 0)
+    if line is not None:
+        kept = total + line.marks
+        assert 0 <= kept < total and rounded(kept, policy.rounding) == kept
         assert abs(kept - policy.late * total) <= policy.rounding
     of = sum((m.of for m in found), F(0))
     assert of == maximum(((a.name, a.of) for a in answers), QUANTITIES, policy)

@@ -71,7 +71,7 @@ def _run(root: Path, files: dict[str, str | bytes], metadata: object = None) -> 
 def test_a_submission_is_marked_there_as_here_and_late_where_gradescope_says_so(root: Path) -> None:
     results = _run(root, {"hw/in3140-rp.yaml": K}, METADATA)
     tests = [(test["name"], test["score"], test["max_score"]) for test in results["tests"]]
-    assert tests == [("K", 2, 4), ("g", 1, 2)]
+    assert tests == [("K", 4, 4), ("g", 2, 2), ("late", -3, 0)]
     assert results["score"] == 3 and results["output_format"] == "md"
     assert "Marks: 3 of 6" in results["output"] and "It was handed in late." in results["output"]
 
