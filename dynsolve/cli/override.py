@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -12,7 +13,7 @@ from dynsolve.errors import ExitCode, UsageError
 
 def override(
     folder: Annotated[Path, typer.Argument(metavar="OUT", help="The folder of `dynsolve grade`.")],
-    student: Annotated[str, typer.Argument(metavar="STUDENT", help="As in grades.csv.")] = "",
+    student: Annotated[str, typer.Argument(metavar="STUDENT", help="As in grades.csv, or a full name.")] = "",
     problem: Annotated[str, typer.Argument(metavar="PROBLEM", help="As in grades.csv.")] = "",
     answer: Annotated[str, typer.Argument(metavar="ANSWER", help="As in answers.csv.")] = "",
     marks: Annotated[
@@ -38,8 +39,12 @@ def override(
         count = override_all(folder, from_)
         typer.echo(f"{count} answer{'' if count == 1 else 's'} set by hand", err=True)
         return ExitCode.DONE
-    if not (student and problem and answer and why):
+    if not (student and problem and answer):
         raise UsageError("name STUDENT, PROBLEM and ANSWER, and say --why; or give a CSV with --from")
+    if not why:
+        given = ("dynsolve", "override", str(folder), student, problem, answer)
+        typed = shlex.join((*given, *(("--marks", marks) if marks else ()), "--why", "right on paper"))
+        raise UsageError(f"--why is missing, the reason that the student reads: {typed}")
     override_marks(folder, student, problem, answer, marks=marks or None, why=why)
     typer.echo(f"{student} {problem} {answer}: {marks or 'a comment'}", err=True)
     return ExitCode.DONE

@@ -16,7 +16,7 @@
     cohort, item_analysis   what is counted of a course, and how well its answers tell students apart
     teacher, histogram      the teacher's page
     copies                  what was handed in, where that page links to it
-    by_hand                 a human's marks in bulk
+    by_hand, meant          a human's marks in bulk; which student is meant
     extensions, groups      who was given more days, and who the members of a group are
     listed                  reading these lists of the teacher's
     platforms/              what Canvas, Moodle and Gradescope hand out and import

@@ -16,6 +16,7 @@ from dynsolve.grading.cohort import standings
 from dynsolve.grading.copies import write_copies
 from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
+from dynsolve.grading.meant import meant_student
 from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.platforms import canvas
 from dynsolve.grading.platforms.members import Groups
@@ -36,7 +37,6 @@ from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.set_file import load_set
 from dynsolve.grading.uploads import Refused, Uploads
-from dynsolve.problem.fields import did_you_mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,8 +171,9 @@ def override(
 ) -> None:
     """Set the marks of one answer by hand; no later run changes them.
 
-    The names are those of `answers.csv`; `marks` is a number or a text such as "5/2", None for
-    a comment that changes no marks; `why` is what the student reads.
+    The names are those of `answers.csv`, for the student also a full name as the roster has it;
+    `marks` is a number or a text such as "5/2", None for a comment that changes no marks; `why`
+    is what the student reads.
 
     Raises UsageError for an answer that is not in the record, or marks that it cannot have.
     """
@@ -213,6 +214,7 @@ def _overriding(folder: Path) -> Iterator[Record]:
 
 
 def _override(record: Record, student: str, problem: str, answer: str, marks: str, why: str) -> None:
+    student = meant_student(record, student)
     points = _points(record, student, problem, answer, marks or "0")
     if not why.strip():
         raise UsageError("the reason says nothing: the student reads it")
@@ -221,9 +223,6 @@ def _override(record: Record, student: str, problem: str, answer: str, marks: st
 
 def _points(record: Record, student: str, problem: str, answer: str, marks: str) -> Fraction:
     found = {(a.problem, a.answer): a for a in record.answers(student)}
-    if not found:
-        meant = did_you_mean(student, record.students())
-        raise UsageError(f"there is no student `{student}` in grades.csv" + (f"; {meant}" if meant else ""))
     if (problem, answer) not in found:
         known = ", ".join(f"{p} {a}" for p, a in found)
         raise UsageError(f"{student} has no answer `{answer}` to `{problem}`; there are {known}")

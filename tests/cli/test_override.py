@@ -94,3 +94,11 @@ def test_a_wrong_override_is_refused(graded: Path, words: tuple[str, ...], messa
     assert ran.code == 2
     assert message in ran.err
     assert record_of(graded) == before
+
+
+def test_a_missing_reason_is_asked_for_with_what_to_type(graded: Path) -> None:
+    ran = dynsolve("override", str(graded), "a", "in3140-rp", "K", "--marks", "3")
+    assert ran.code == 2
+    assert f"dynsolve override {graded} a in3140-rp K --marks 3 --why 'right on paper'" in " ".join(
+        ran.err.split()
+    )
