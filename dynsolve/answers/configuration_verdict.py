@@ -22,6 +22,6 @@ def judged_set(key: ConfigurationKey, answer: ConfigurationAnswer, of: Fraction)
         return replace(base, fault=f"{answer.name} could not be derived here; a person must judge it")
     found = key.verdict(answer)
     if not found.is_right:
-        slip = SET_SLIPS[found.code].told(number=str(found.number))
+        slip = SET_SLIPS[found.code].told(number=str(found.number), where=found.where)
         return replace(base, verdict=Verdict.WRONG, diagnosis=(slip,))
     return replace(base, verdict=Verdict.CORRECT, notes=found.notes)

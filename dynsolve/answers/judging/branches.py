@@ -6,6 +6,7 @@ joints where there are any; it is right where it gives them back, whatever its f
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,9 +17,11 @@ from dynsolve.answers.submission import Part
 from dynsolve.derivation.configuration_check import reaches, solution_of
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tokens import ARCS
-from dynsolve.notation.tree import Function, Node
+from dynsolve.notation.tree import Function, Node, Symbol
 from dynsolve.notation.tree_values import compile_trees
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import names_in, walk, with_atan2_exchanged
 from dynsolve.robot.model import Robot
 
@@ -95,7 +98,7 @@ class BranchKey:
     def _compared(self, given: Sequence[Formulas]) -> SetVerdict:
         for number, branch in enumerate(given, 1):
             if not self._names <= branch.keys():
-                return SetVerdict(False, "branch_lacks_coordinate", number)
+                return lacking(number, self._names - branch.keys())
         theirs = [solution_of(in_order(branch)) for branch in given]
         met: list[set[bool]] = [set() for _ in given]
         is_incomplete = not given
@@ -108,13 +111,21 @@ class BranchKey:
                     seen.add(self._reaches(q, place.reached))
             is_incomplete = is_incomplete or not all(self._is_among(q, present) for q in place.right)
         for number, (branch, seen) in enumerate(zip(given, met, strict=True), 1):
-            if seen == {True, False} and _has_half_a_turn(branch):
-                return SetVerdict(False, "quadrant_lost", number)
+            if seen == {True, False}:
+                is_half = _has_half_a_turn(branch)
+                return SetVerdict(False, "quadrant_lost" if is_half else "branch_sometimes_misses", number)
             if seen != {True}:
                 return SetVerdict(False, "branch_misses" if seen else "branch_never_exists", number)
         if is_incomplete and (self.robot.questions.all_branches or not given):
-            return SetVerdict(False, "branches_missing" if given else "is_reachable")
+            most = max(len(place.right) for place in self._places)
+            return SetVerdict(False, "branches_missing" if given else "is_reachable", where=f"{most}")
         return SetVerdict(True, notes=(INCOMPLETE,) if is_incomplete else ())
+
+
+def lacking(number: int, names: Iterable[str]) -> SetVerdict:
+    """What is said of a branch without formulas for some coordinates."""
+    told = " and no ".join(to_unicode(Symbol(name), PLAIN) for name in sorted(names))
+    return SetVerdict(False, "branch_lacks_coordinate", number, where=told)
 
 
 def _has_half_a_turn(branch: Formulas) -> bool:
@@ -124,8 +135,12 @@ def _has_half_a_turn(branch: Formulas) -> bool:
 
 
 def branches_of(alternatives: Sequence[Sequence[Part]]) -> list[dict[str, Node]]:
-    """The alternatives as formulas by coordinate."""
-    return [{part.coordinate: part.node for part in one} for one in alternatives]
+    """The alternatives as formulas by coordinate; what is given once, behind ±, belongs to all of them."""
+    counts = Counter(part.coordinate for one in alternatives for part in one)
+    once = {
+        part.coordinate: part.node for one in alternatives for part in one if counts[part.coordinate] == 1
+    }
+    return [once | {part.coordinate: part.node for part in one} for one in alternatives]
 
 
 def turned_round(given: Sequence[Formulas]) -> list[dict[str, Node]]:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from dynsolve.algebra.sampling import WIDEST
 from dynsolve.answers.judging.branches import BranchKey
 from dynsolve.answers.judging.equilibria import EquilibriumKey
+from dynsolve.answers.judging.example_point import example_point
 from dynsolve.answers.judging.held_equations import held_equations
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import ConfigurationAnswer, Part
@@ -31,6 +32,7 @@ from dynsolve.derivation.equilibrium_check import balanced_forces
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.notation.walk import names_in
 from dynsolve.robot.model import JointType, Robot
@@ -156,24 +158,38 @@ class ConfigurationKey:
     def _equations(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
         names, turning = [q.name for q in self.robot.coordinates], self._turning
         theirs = [held_equations((part.node for part in one), names, turning) for one in given]
-        for conditions in self.shown.singular:
-            for q in self._points(compile_trees(conditions)):
-                if not any(one.hold(q) for one in theirs):
-                    return SetVerdict(False, "configurations_missing")
-        assert self.shown.singular_set is not None
-        rank = self.shown.singular_set.rank
+        formulas = [self._jacobian_form, *(part.node for one in given for part in one)]
         for number, one in enumerate(theirs, 1):
             points = list(self._points(one.program))
             if not points:
                 return SetVerdict(False, "condition_never_holds", number)
-            if any(rank_of(self._jacobian.run(q)[0]) >= rank for q in points):
-                return SetVerdict(False, "not_singular", number)
-        return RIGHT if theirs or not self.shown.singular else SetVerdict(False, "configurations_missing")
+            if not all(map(self._is_singular, points)):
+                where = example_point(self.robot, formulas, points, one.hold, self._is_singular)
+                return SetVerdict(False, "not_singular", number, where=where)
+
+        def is_met(q: Mapping[str, float]) -> bool:
+            return any(one.hold(q) for one in theirs)
+
+        alternatives = map(compile_trees, self.shown.singular)
+        missed = [q for one in alternatives for q in self._points(one) if not is_met(q)]
+        if not missed and (theirs or not self.shown.singular):
+            return RIGHT
+        shown = missed if theirs else []
+        where = example_point(self.robot, formulas, shown, self._is_singular, is_met)
+        return SetVerdict(False, "configurations_missing", where=where)
+
+    def _is_singular(self, q: Mapping[str, float]) -> bool:
+        assert self.shown.singular_set is not None
+        return rank_of(self._jacobian.run(q)[0]) < self.shown.singular_set.rank
+
+    @cached_property
+    def _jacobian_form(self) -> Node:
+        (name,) = self.values.rules["singular"].inputs
+        return self.forms(name)
 
     @cached_property
     def _jacobian(self) -> Program:
-        (name,) = self.values.rules["singular"].inputs
-        return compile_trees([self.forms(name)])
+        return compile_trees([self._jacobian_form])
 
     @cached_property
     def _turning(self) -> tuple[str, ...]:

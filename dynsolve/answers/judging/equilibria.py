@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import pi
 
+from dynsolve.answers.judging.example_point import example_point
 from dynsolve.answers.judging.held_equations import held_equations
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import Part
@@ -40,17 +41,29 @@ class EquilibriumKey:
         """Whether a set is that of the key."""
         names = [q.name for q in self.robot.coordinates]
         theirs = [held_equations((part.node for part in one), names, self._periodic) for one in given]
-        for conditions in self.alternatives:
-            for q in self._points(tuple(conditions)):
-                if not any(one.hold(turned) for turned in self._turned(q) for one in theirs):
-                    return SetVerdict(False, "equilibria_missing")
+        formulas = [self.gravity, *(part.node for one in given for part in one)]
         for number, one in enumerate(given, 1):
             points = list(self._points(tuple(part.node for part in one)))
             if not points:
                 return SetVerdict(False, "condition_never_holds", number)
-            if not all(is_zero(self._forces, q) for q in points):
-                return SetVerdict(False, "no_equilibrium", number)
-        return RIGHT
+            if not all(map(self._is_balanced, points)):
+                holds = theirs[number - 1].hold
+                where = example_point(self.robot, formulas, points, holds, self._is_balanced)
+                return SetVerdict(False, "no_equilibrium", number, where=where)
+
+        def is_met(q: Mapping[str, float]) -> bool:
+            return any(one.hold(turned) for turned in self._turned(q) for one in theirs)
+
+        all_points = [q for conditions in self.alternatives for q in self._points(tuple(conditions))]
+        missed = [q for q in all_points if not is_met(q)]
+        if not missed:
+            return RIGHT
+        shown = missed if given else []
+        where = example_point(self.robot, formulas, shown, self._is_balanced, is_met)
+        return SetVerdict(False, "equilibria_missing", where=where)
+
+    def _is_balanced(self, q: Mapping[str, float]) -> bool:
+        return is_zero(self._forces, q)
 
     @cached_property
     def _forces(self) -> Program:
@@ -63,11 +76,11 @@ class EquilibriumKey:
         found = (zero_near(self.robot, program, start) if conditions else start for start in begun)
         return with_half_turns(self.robot, program, (q for q in found if q is not None))
 
-    def _turned(self, q: dict[str, float]) -> Iterator[dict[str, float]]:
+    def _turned(self, q: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
         """The configuration, and those that are the same by whole turns of angles that turn together."""
         yield q
         for turns in range(-_TURNS, _TURNS + 1) if self._together else ():
-            yield q | {name: q[name] + 2 * pi * turns for name in self._together}
+            yield {**q} | {name: q[name] + 2 * pi * turns for name in self._together}
 
     @property
     def _turning(self) -> tuple[str, ...]:

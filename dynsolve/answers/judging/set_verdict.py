@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class SetVerdict:
-    """Whether a set is right, else the `code` of what is said of alternative `number`.
+    """Whether a set is right, else the `code` of what is said of alternative `number`, and `where`.
 
     `notes` are what is said of one that is right.
     """
@@ -16,6 +16,7 @@ class SetVerdict:
     code: str = ""
     number: int = 0
     notes: tuple[str, ...] = ()
+    where: str = ""
 
 
 RIGHT = SetVerdict(True)

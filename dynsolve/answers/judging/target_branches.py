@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from dynsolve.answers.judging.branches import Formulas, branches_of, in_order, turned_round
+from dynsolve.answers.judging.branches import Formulas, branches_of, in_order, lacking, turned_round
 from dynsolve.answers.judging.entry_comparison import ROUNDED, half_unit
 from dynsolve.answers.judging.set_verdict import INCOMPLETE, SetVerdict
 from dynsolve.answers.submission import Part
@@ -69,8 +69,9 @@ class TargetKey:
         met: set[int] = set()
         is_rounded = False
         for number, branch in enumerate(given, 1):
-            if not {name for name, _ in self._coordinates} - free <= branch.keys():
-                return SetVerdict(False, "branch_lacks_coordinate", number)
+            missing = {name for name, _ in self._coordinates} - free - branch.keys()
+            if missing:
+                return lacking(number, missing)
             one = self._given(branch)
             if one is None:
                 return SetVerdict(False, "branch_not_real", number)
@@ -82,7 +83,7 @@ class TargetKey:
             met |= set() if place is None else {place}
         is_incomplete = len(met) < len(keys)
         if is_incomplete and self.all_branches:
-            return SetVerdict(False, "branches_missing")
+            return SetVerdict(False, "branches_missing", where=f"{len(keys)}")
         notes = ((INCOMPLETE, is_incomplete), (ROUNDED, is_rounded))
         return SetVerdict(True, notes=tuple(note for note, is_so in notes if is_so))
 
