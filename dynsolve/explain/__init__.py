@@ -70,7 +70,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     potential   the potential energy of each body
     base_frame  H_0 in the world, the elementary motions
     given_axes  axes of a body that are given from the base: how they lie in the frame of the link
-    density     a rod whose density varies, by integration
+    density     a body with a density, by integration
     terms       what each term of a force is: inertial, centrifugal, Coriolis, friction, gravity
     sanity      checks that a person can do on the finished model
     matrix_factors  what all entries of a matrix share, in front of it

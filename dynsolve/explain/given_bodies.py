@@ -15,10 +15,10 @@ from dynsolve.explain.inertia import has_link_axes, is_moved, stays_with_base
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.shapes import DIMENSIONS, SHAPES
 from dynsolve.explain.writing import listed, measured, name_of, side_by_side
-from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Words
+from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
 from dynsolve.robot.model import AxesKind, Body
-from dynsolve.robot.shapes import Shape
+from dynsolve.robot.shapes import KINDS, Density, Shape
 
 AXES = "xyz"
 
@@ -27,7 +27,7 @@ def of_body(forms: Forms, body: Body) -> Prose:
     """body 2 in link 2, a uniform slender rod of mass m₂ and length l₂ along 𝐱₂, its mass centre at 𝐨₁"""
     told: Prose = (f"{name_of(body)} in link {body.link},",)
     if body.density is not None:
-        return (*told, " a rod whose density varies")
+        return (*told, *_with_density(forms, body, body.density))
     if body.is_point:
         return (*told, " a point", *_mass(forms, body), " ", *_center(forms, body))
     if body.shape is not None and body.shape.formulas:
@@ -44,7 +44,22 @@ def _from_the_base(body: Body) -> Prose:
     return (", its axes those of the base turned by ", base_frame.turned(body.axes.turns))
 
 
+def _with_density(forms: Forms, body: Body, density: Density) -> Prose:
+    """a slender rod of mass per length ρ₀ (1 + x/l), x from its near end, and length l along 𝐱₁, ..."""
+    assert density.shape is not None
+    where: Prose = ("near end at ", letters.o(ends(forms.robot, body)[0]))
+    if not density.begins:
+        where = ("mass centre ", *_center(forms, body))
+    shape = (f" a {SHAPES[density.shape.kind]}", *_sized(forms, body, density.shape))
+    return (*shape, ", its ", *where, *_from_the_base(body))
+
+
 def _mass(forms: Forms, body: Body) -> Prose:
+    if body.density is not None and body.density.shape is not None:
+        slices = KINDS[body.density.shape.kind].slices
+        assert slices is not None
+        told: Prose = (f" of mass per {slices.per} ", body.density.formula)
+        return (*told, ", ", Symbol("x"), " from its near end,") if body.density.varies else told
     if body.mass.is_zero:
         return (" without mass",)
     return (" of mass ", measured(forms.of(body.mass), "kg"))

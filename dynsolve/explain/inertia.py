@@ -115,7 +115,7 @@ def _tensor(context: Context, body: Body) -> Step:
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
     formula, working, why = _shape(context, body)
     if body.density is not None:
-        why = (f"That of {name_of(body)}, found above: nothing across the rod, and the same on both sides.",)
+        why = (f"The moments of {name_of(body)} were found above; by symmetry there are no others.",)
     elif body.shape is None or not body.shape.formulas:
         axes = f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes"
         why = (f"The tensor of {name_of(body)} is given, about {about}, along {axes}.",)

@@ -19,7 +19,9 @@ from dynsolve.explain.roles import Role, names_in, roles
 from dynsolve.explain.shapes import DIMENSIONS
 from dynsolve.explain.writing import and_joined
 from dynsolve.notation.names import split
+from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import lowered
+from dynsolve.notation.walk import names_in as names_in_tree
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Convention, Joint, Robot
 
@@ -164,14 +166,19 @@ def _is_upright(robot: Robot) -> bool:
 def _of_bodies(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
     """Masses, moments of inertia, dimensions, and where the mass centres are."""
     for body in robot.bodies:
-        alone = Meaning("mass of body {body}", body=body.name)
-        part = Meaning("part of the mass of body {body}", body=body.name)
-        for name in names_in(body.mass):
-            yield Role.MASS, name, alone if _is(body.mass, name) else part
-        if body.shape is None:
+        density, shape, mass = body.density, body.shape, "mass"
+        given: Iterable[str] = names_in(body.mass)
+        if density is not None:
+            shape, mass, given = density.shape, "density", names_in_tree(density.formula)
+        alone = Meaning(f"{mass} of body {{body}}", body=body.name)
+        part = Meaning(f"part of the {mass} of body {{body}}", body=body.name)
+        for name in given:
+            is_alone = density.formula == Symbol(name) if density is not None else _is(body.mass, name)
+            yield Role.MASS, name, alone if is_alone else part
+        if shape is None:
             yield from _moments(body)
         else:
-            for key, value in body.shape.dimensions:
+            for key, value in shape.dimensions:
                 for name in names_in(value):
                     if _is(value, name):
                         yield Role.SHAPE, name, _dimension(body, key)

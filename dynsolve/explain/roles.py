@@ -83,7 +83,12 @@ def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
         yield Role.BASE, names_in(entry)
     yield Role.TURN, names_in_trees(*(angle for _, angle in robot.base_turns))
     for body in robot.bodies:
-        yield Role.MASS, names_in(body.mass)
+        if body.density is None:
+            yield Role.MASS, names_in(body.mass)
+        elif body.density.shape is not None:
+            for _, size in body.density.shape.dimensions:
+                yield Role.SHAPE, names_in(size)
+            yield Role.MASS, names_in_trees(body.density.formula)
     for body in robot.bodies:
         given = body.inertia.rows if body.inertia is not None else ()
         for i, j in ((i, j) for i, row in enumerate(given) for j in range(len(row))):

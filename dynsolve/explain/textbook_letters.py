@@ -239,13 +239,21 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
 
 
 def _by_integration() -> Iterator[Line]:
-    """What a rod is integrated in whose density varies."""
-    yield _line(Symbol("x"), "place along a rod, from its near end", "m")
-    yield _line(Symbol("rho"), "mass per length of a rod", "kg/m")
+    """What a body with a density is integrated in."""
+    yield _line(Symbol("x"), "place along a body, from its near end", "m")
+    yield _line(Letter("rho"), "density of a body at the place x")
     yield _line(Letter("x", Row((Words("c"), _I))), "place of the mass centre along body i", "m")
-    places = ((Words("near"), "its near end"), (Words("c"), "its mass centre"))
-    moments = [(Letter("I", Row((_I, Words(","), place))), told) for place, told in places]
-    yield _each(moments, ": the moment of inertia across body i about it", "kg m^2")
+    places = (
+        ("near", "across body i about its near end"),
+        ("c", "across body i about its mass centre"),
+        ("axis", "of body i about its axis"),
+    )
+    for place, told in places:
+        signs = [
+            Letter("I", Row((_I, Words(","), *axes, Words(place))))
+            for axes in ((), *((Words(2 * axis), Words(",")) for axis in "xyz"))
+        ]
+        yield _line(signs, f"moment of inertia {told}", "kg m^2")
 
 
 def _own_tensors(robot: Robot) -> list[Node]:

@@ -12,7 +12,7 @@
                      framing        the table and the base of a drawing
                      drawn_places   points of a drawing, in the frames of their links
                      bodies         `masses`
-                     density        `density` of a rod: its integrals
+                     density        `density` of a shape: its integrals
                      mechanism      `model`: bodies by their positions, or given energies
                      candidates     `candidates`, `assume`, `chain`
                      rate_cells     an expression in which rates may stand: x', x_dot

@@ -27,7 +27,7 @@ from dynsolve.problem.specification import (
 )
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.model import AxesKind
-from dynsolve.robot.shapes import AXES, KINDS, LineDensity
+from dynsolve.robot.shapes import AXES, KINDS, Density
 
 _NAME = re.compile(r"[A-Za-uxyzXYZ]?[0-9]*")
 _EXAMPLE = PROBLEM["masses"].help
@@ -83,7 +83,9 @@ class ParsedBody:
     about: str
     axes: ParsedAxes | None
     faulty: bool
-    density: LineDensity | None = None
+    density: Density | None = None
+    integrals: tuple[Cell, ...] = ()
+    """Of a density: x of the mass centre, and the moments about it, that about the axis first."""
 
     @property
     def is_point(self) -> bool:
@@ -93,7 +95,7 @@ class ParsedBody:
     @property
     def values(self) -> list[Cell]:
         """Every expression in it whose value is constant in the link: all but angles."""
-        cells = [self.mass, *(self.center.cells if self.center else ())]
+        cells = [self.mass, *(self.center.cells if self.center else ()), *self.integrals]
         if self.shape:
             cells += self.shape.dimensions.values()
         if self.tensor:
@@ -150,7 +152,8 @@ def _read_body(
     varies = shape is not None and shape.density is not None
     for name in ("link",) if varies else ("mass", "link"):
         if fields.lacks(name):
-            faults.error(node.span, f"body {index} has no `{name}`", f"add {BODY[name].help}")
+            help = BODY[name].help.format(index=index)
+            faults.error(node.span, f"body {index} has no `{name}`", f"add {help}")
     tensor = read_tensor(faults, fields.get("inertia"), f"body {index}")
     link = read_link(faults, fields.get("link"), rows, "whose bodies do not move")
     parsed = ParsedBody(
@@ -160,15 +163,15 @@ def _read_body(
         name=read_name(faults, fields.get("name"), index),
         mass=read_cell(faults, fields.get("mass"), f"the mass of body {index}"),
         link=link,
-        center=None if varies else drawn.place(faults, _read_center(faults, fields, index), link),
+        center=drawn.place(faults, _read_center(faults, fields, index, varies=varies), link),
         shape=shape,
         tensor=tensor,
         about=_read_about(faults, fields, index),
         axes=_in_drawn_pose(_read_axes(faults, fields.get("axes"), index, coordinates), link, drawn),
         faulty=False,
     )
-    if varies:
-        parsed = _integrated(faults, parsed)
+    if shape and shape.density:
+        parsed = _integrated(faults, parsed, shape, shape.density)
     forbid(
         faults,
         (*parsed.values, *parsed.turns),
@@ -178,35 +181,29 @@ def _read_body(
     return replace(parsed, faulty=len(faults.errors) > before)
 
 
-def _integrated(faults: Faults, parsed: ParsedBody) -> ParsedBody:
-    """A rod with a density: its mass, centre and tensor follow; a key that would say them too is reported."""
-    from dynsolve.problem.density import cell_of, line_density
+def _integrated(faults: Faults, parsed: ParsedBody, shape: ParsedShape, density: Cell) -> ParsedBody:
+    """A body with a density: what follows from it; a key that would say its mass too is reported."""
+    from dynsolve.problem.density import cell_of, density_of
 
-    shape = parsed.shape
-    assert shape is not None
-    density = shape.density
-    assert density is not None
-    for key in ("mass", "center", "inertia"):
+    for key in ("mass", "inertia"):
         if key in parsed.fields:
             message = f"body {parsed.index} has a density, from which its {key} follows"
             faults.error(parsed.fields.key_span(key), message, f"delete {key}, or the density")
-    found = line_density(faults, density, shape.dimensions["length"], shape.axis)
+    begins = "center" not in parsed.fields
+    found = density_of(faults, density, shape.kind, shape.dimensions, shape.axis, begins=begins)
     if found is None:
         return parsed
-    where = AXES.index(found.axis)
 
     def cell(tree: Node) -> Cell:
         return cell_of(density, f"the density of body {parsed.index}", tree)
 
-    zero, across = cell(Number(0)), cell(found.across)
-    place = tuple(cell(found.center) if k == where else zero for k in range(3))
-    rows = tuple(tuple(across if i == j != where else None for j in range(3)) for i in range(3))
+    moments = (found.turned, *found.tilted)
     return replace(
         parsed,
         mass=cell(found.mass),
-        center=ParsedPlace("near", density.span, place),
-        tensor=ParsedTensor(density.span, rows, listed=False),
+        center=ParsedPlace("near", density.span, (cell(Number(0)),) * 3) if begins else parsed.center,
         density=found,
+        integrals=(cell(found.center), *(cell(moment.value) for moment in moments)),
     )
 
 
@@ -251,8 +248,10 @@ def check_names(faults: Faults, bodies: Sequence[NamedEntry]) -> None:
             )
 
 
-def _read_center(faults: Faults, fields: Fields, index: int) -> ParsedPlace | None:
+def _read_center(faults: Faults, fields: Fields, index: int, *, varies: bool) -> ParsedPlace | None:
     if fields.get("center") is None:
+        if varies:
+            return None
         if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
             if fields.lacks("center"):
                 faults.error(fields.span, f"body {index} is not a point and has no `center`", _CENTER_HELP)
@@ -319,6 +318,9 @@ def _read_dimensions(
     density = (
         read_cell(faults, fields.get("density"), f"the density of {body}") if "density" in fields else None
     )
+    if axis and density is None and not KINDS[kind].has_axis:
+        message = f"the {kind} of {body} has an axis, along which nothing varies"
+        faults.error(fields.key_span("axis"), message, "delete it, or give the shape a density")
     return ParsedShape(kind, span, found, axis, density)
 
 

@@ -24,7 +24,7 @@ from dynsolve.quantities.families import HOLD_FORCES
 from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.model_questions import reference
-from dynsolve.robot.shapes import AXES, KINDS, Shape
+from dynsolve.robot.shapes import AXES, KINDS, Density, Shape
 
 if TYPE_CHECKING:
     from dynsolve.problem.mechanism import ParsedModel
@@ -152,7 +152,15 @@ class BodyBuilder:
         shape = self._shape(parsed.shape, parsed, axes) if parsed.shape and not parsed.tensor else None
         if parsed.faulty or mass is None or axes is None or center is None or parsed.link is None:
             return None
-        if tensor is None and shape is not None and shape.kind != "point":
+        density = parsed.density
+        if density is not None:
+            found = self._integrated(parsed, density, axes, shape)
+            if found is None:
+                return None
+            offset, tensor = found
+            center = center + offset if density.begins else center
+            density, shape = replace(density, shape=shape), None
+        elif tensor is None and shape is not None and shape.kind != "point":
             tensor = shape.inertia(mass)
         return Body(
             name=parsed.name,
@@ -165,11 +173,11 @@ class BodyBuilder:
             about=parsed.about,
             about_point=about,
             center_written=written,
-            density=parsed.density,
+            density=density,
         )
 
     def _written(self, parsed: ParsedBody) -> str:
-        if parsed.density is not None:  # the centre follows from it, and counts from the near end
+        if parsed.density is not None and parsed.density.begins:  # its centre counts from the near end
             return "near"
         if parsed.center is None or "center" not in parsed.fields:
             return "tip"
@@ -198,12 +206,34 @@ class BodyBuilder:
                 self.faults.error(cell.span, f"{cell.what} is negative", "dimensions are not negative")
         record = KINDS[shape.kind]
         axis = shape.axis
-        if record.has_axis and not axis:
-            axis = self._axis_along(shape, parsed, axes) if record.along_link else "z"
+        has_axis, density = record.has_axis, parsed.density
+        if density is not None and (density.varies or density.begins):
+            has_axis = True
+        if has_axis and not axis:
+            along = record.along_link or not record.has_axis
+            axis = self._axis_along(shape, parsed, axes) if along else "z"
         known = tuple((key, value) for key, value in values.items() if value is not None)
-        if len(known) < len(values) or (record.has_axis and not axis):
+        if len(known) < len(values) or (has_axis and not axis):
             return None
         return Shape(shape.kind, known, axis)
+
+    def _integrated(
+        self, parsed: ParsedBody, density: Density, axes: Axes, shape: Shape | None
+    ) -> tuple[Matrix, Matrix] | None:
+        """Of a body with a density: its mass centre from its near end in frame i, 3×1, and its tensor."""
+        values = [value for cell in parsed.integrals if (value := self.values.expr(cell)) is not None]
+        if len(values) < len(parsed.integrals) or self.links is None or parsed.link is None or shape is None:
+            return None
+        center, *moments = values
+        own, zero = AXES.index(shape.axis or AXES[-1]), self.ring.zero
+        order = [(own + k) % 3 for k in range(3)]
+        tensor = [[moments[order.index(i)] if i == j else zero for j in range(3)] for i in range(3)]
+        way = self._axes_in_link(axes, parsed.link).block(0, 3, own, own + 1)
+        far = self.links.far_end(parsed.link)
+        along = (way.T @ (far - self.links.near_end(parsed.link)))[0, 0] if far else zero
+        if not along.is_zero and all(factor < 0 for factor in along.poly.coeffs()):
+            center = -center  # the link runs against the axis
+        return way.scale(center), Matrix.of(self.ring, tensor)
 
     def _axis_along(self, shape: ParsedShape, parsed: ParsedBody, axes: Axes | None) -> str:
         """The body-attached axis that lies along the link; empty (reported) where none does."""

@@ -104,10 +104,13 @@ def dimensions(shape: str) -> Keyed:
     """The dimensions of a shape."""
     kind = KINDS[shape]
     keys = [Key(name, EXPRESSION, example="...", required=True) for name in kind.keys]
-    if kind.has_axis:
-        keys.append(Key("axis", AXIS, "The axis in the body-attached frame.", "x"))
-    if kind.varies:
-        keys.append(Key("density", EXPRESSION, "The mass per length, a polynomial in x.", "rho0*(1 + x/l)"))
+    meaning = "The axis in the body-attached frame" + (", that x runs along" * (not kind.has_axis)) + "."
+    if kind.slices:
+        keys.append(Key("axis", AXIS, meaning, "x"))
+        per = f"The mass per {kind.slices.per}"
+        varies = kind.slices.extent and ", a constant or a polynomial in x along the axis, from the near end"
+        example = "rho0*(1 + x/l)" if varies else "rho0"
+        keys.append(Key("density", EXPRESSION, f"{per}{varies or ', a constant'}.", example))
     return Keyed(tuple(keys))
 
 
@@ -121,7 +124,7 @@ SHAPE = Shared(
     "shape",
     OneOf((POINT, *(Keyed((_shape(name),)) for name in KINDS if KINDS[name].dimensions))),
     "`point`, or a shape with its dimensions",
-    "A uniform body: {rod: {length: l1, axis: x}}.",
+    "A uniform body, or one with a density: {rod: {length: l1, axis: x}}.",
 )
 
 BODY = Keyed(
@@ -132,7 +135,7 @@ BODY = Keyed(
             "A symbol, a number or an expression; it follows where a shape has a density.",
             "m1",
             "must be given, or a `density`",
-            remedy="mass: m1",
+            remedy="mass: m{index}, or a density to its shape: {{rod: {{length: l1, density: rho0}}}}",
         ),
         Key(
             "name",

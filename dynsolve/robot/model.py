@@ -22,7 +22,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.robot.actions import NOTHING_ACTS, Actions
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.questions import Questions
-from dynsolve.robot.shapes import LineDensity, Shape
+from dynsolve.robot.shapes import Density, Shape
 
 
 class Convention(Enum):
@@ -142,7 +142,7 @@ class Body:
     `center` is the mass centre in frame `link` (3×1).  `inertia` is the tensor in
     the body-attached frame (3×3, kg m²), about `about_point` (3×1 in frame `link`)
     or, where that is None, about the mass centre.  A point mass has inertia None.
-    `density` is that of a rod whose mass, centre and tensor follow from it.
+    `density` is that of a shape whose mass and tensor follow from it, perhaps its centre.
     `center_written` and `about` say how the file gave them (`tip`, `midpoint`,
     `origin`, ...), for the explanation.  A body of a mechanism by positions has link 0, a
     centre in the world that is a function of the coordinates, and `turns`.
@@ -158,7 +158,7 @@ class Body:
     about: str = "center"
     about_point: Matrix | None = None
     center_written: str = ""
-    density: LineDensity | None = None
+    density: Density | None = None
     turns: tuple[BodyTurn, ...] = ()
 
     @property

@@ -32,13 +32,29 @@ MASS = "m"
 
 
 @dataclass(frozen=True, slots=True)
+class Slices:
+    """A shape cut across its own axis, along z, into slices at x from its near end; lengths as formulas.
+
+    `extent` is how far x runs, nothing for a disk, `measure` what a density is multiplied by (`per` length,
+    area or volume) for the mass of a slice of thickness 1.  A slice of mass dm has the moments dm `turned`
+    about the axis, and dm `tilted` about those across, of x and of y, through its own centre.
+    """
+
+    per: str
+    extent: str
+    measure: str
+    turned: str
+    tilted: tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
 class ShapeKind:
     """A kind of shape: its dimensions and its principal moments.
 
     `dimensions` are (key in the file, letter in the formulas).  `moments` are
     I_xx, I_yy, I_zz about the mass centre with the body's own axis along z.
     `has_axis` says whether the file may turn that axis, `along_link` whether it
-    lies along the link by default, `varies` whether it may have a density.
+    lies along the link by default.  `slices` are those that a density is integrated over.
     """
 
     name: str
@@ -46,14 +62,20 @@ class ShapeKind:
     moments: tuple[str, str, str] | None
     has_axis: bool = False
     along_link: bool = False
-    varies: bool = False
+    slices: Slices | None = None
 
     @property
     def keys(self) -> tuple[str, ...]:
         """The names of its dimensions in a file."""
         return tuple(key for key, _ in self.dimensions)
 
+    @property
+    def is_round(self) -> bool:
+        """Whether it is the same in every direction across its axis."""
+        return self.slices is None or len(set(self.slices.tilted)) == 1
 
+
+_BALL_SQUARE = "x*(2*r - x)"  # of the radius of a slice
 _ROUND_SIDE = "m*(3*r^2 + l^2)/12"
 _HOLLOW_SIDE = "m*(3*(ro^2 + ri^2) + l^2)/12"
 
@@ -65,6 +87,7 @@ KINDS: Mapping[str, ShapeKind] = {
             "box",
             (("x", "l_x"), ("y", "l_y"), ("z", "l_z")),
             ("m*(l_y^2 + l_z^2)/12", "m*(l_x^2 + l_z^2)/12", "m*(l_x^2 + l_y^2)/12"),
+            slices=Slices("volume", "l_z", "l_x*l_y", "(l_x^2 + l_y^2)/12", ("l_y^2/12", "l_x^2/12")),
         ),
         ShapeKind(
             "cylinder",
@@ -72,6 +95,7 @@ KINDS: Mapping[str, ShapeKind] = {
             (_ROUND_SIDE, _ROUND_SIDE, "m*r^2/2"),
             has_axis=True,
             along_link=True,
+            slices=Slices("volume", "l", "pi*r^2", "r^2/2", ("r^2/4",) * 2),
         ),
         ShapeKind(
             "hollow_cylinder",
@@ -79,6 +103,7 @@ KINDS: Mapping[str, ShapeKind] = {
             (_HOLLOW_SIDE, _HOLLOW_SIDE, "m*(ro^2 + ri^2)/2"),
             has_axis=True,
             along_link=True,
+            slices=Slices("volume", "l", "pi*(ro^2 - ri^2)", "(ro^2 + ri^2)/2", ("(ro^2 + ri^2)/4",) * 2),
         ),
         ShapeKind(
             "rod",
@@ -86,32 +111,32 @@ KINDS: Mapping[str, ShapeKind] = {
             ("m*l^2/12", "m*l^2/12", "0"),
             has_axis=True,
             along_link=True,
-            varies=True,
+            slices=Slices("length", "l", "1", "0", ("0",) * 2),
         ),
-        ShapeKind("disk", (("radius", "r"),), ("m*r^2/4", "m*r^2/4", "m*r^2/2"), has_axis=True),
-        ShapeKind("sphere", (("radius", "r"),), ("2*m*r^2/5",) * 3),
-        ShapeKind("shell", (("radius", "r"),), ("2*m*r^2/3",) * 3),
+        ShapeKind(
+            "disk",
+            (("radius", "r"),),
+            ("m*r^2/4", "m*r^2/4", "m*r^2/2"),
+            has_axis=True,
+            slices=Slices("area", "", "pi*r^2", "r^2/2", ("r^2/4",) * 2),
+        ),
+        ShapeKind(
+            "sphere",
+            (("radius", "r"),),
+            ("2*m*r^2/5",) * 3,
+            slices=Slices(
+                "volume", "2*r", f"pi*{_BALL_SQUARE}", f"{_BALL_SQUARE}/2", (f"{_BALL_SQUARE}/4",) * 2
+            ),
+        ),
+        ShapeKind(
+            "shell",
+            (("radius", "r"),),
+            ("2*m*r^2/3",) * 3,
+            slices=Slices("area", "2*r", "2*pi*r", _BALL_SQUARE, (f"{_BALL_SQUARE}/2",) * 2),
+        ),
     )
 }
 """Every shape by its name."""
-
-
-@dataclass(frozen=True, slots=True)
-class LineDensity:
-    """A rod whose mass per length varies: ρ(x), x from its near end, along `axis` of the body's frame.
-
-    As formulas: its length, the integrals M_0 = ∫ ρ dx, M_1 = ∫ ρ x dx and M_2 = ∫ ρ x² dx over it, the place
-    M_1/M_0 of the mass centre, and the moment M_2 - M_1²/M_0 across the rod about it.
-    """
-
-    density: Node
-    length: Node
-    axis: str
-    mass: Node
-    first: Node
-    second: Node
-    center: Node
-    across: Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +156,7 @@ class Shape:
         moments = KINDS[self.kind].moments
         if moments is None:
             return ()
-        turned = _turned(moments, self.axis or "z")
+        turned = _turned(moments, self.axis or "z") if KINDS[self.kind].has_axis else moments
         return tuple((2 * axis, _formula(text)) for axis, text in zip(AXES, turned, strict=True))
 
     @property
@@ -190,3 +215,42 @@ def _value(node: Node, values: Mapping[str, Expr]) -> Expr:
         case Power(base, Number(p, 1)):
             return _value(base, values) ** p
     raise TypeError(f"a formula of a shape is not made of {type(node).__name__}")
+
+
+# -- bodies with a density -------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class SliceMoment:
+    """A moment of inertia about an axis of the body's frame (`axes`: xx), as formulas.
+
+    `slice` is that of a slice over its mass, about its own centre; `integral` the moment about the axis
+    through the near end, `value` that through the mass centre.  About the body's own axis they are the same.
+    """
+
+    axes: str
+    slice: Node
+    integral: Node
+    value: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Density:
+    """The density ρ(x) of a shape, x along its axis from its near end, and what follows from it, as formulas.
+
+    `extent` is how far x runs, None for a disk; `mass` = ∫ ρ A dx and `first` = ∫ ρ A x dx are integrals over
+    it, A being the `measure` of a slice, and `center` = first/mass.  `begins` says that the near end of
+    the shape is that of its link, else its mass centre is given; `shape` is made with the robot.
+    """
+
+    formula: Node
+    varies: bool
+    extent: Node | None
+    measure: Node
+    mass: Node
+    first: Node
+    center: Node
+    turned: SliceMoment
+    tilted: tuple[SliceMoment, SliceMoment]
+    begins: bool
+    shape: Shape | None = None

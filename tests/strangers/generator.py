@@ -249,7 +249,6 @@ class _Stranger:
             "zz",
             "xyz",
             "full",
-            "density",
         ]
         return {
             "center": self.one(
@@ -259,6 +258,7 @@ class _Stranger:
             "axes": self.one([None] * 6 + ["base", "Rx(90deg)", "Rz(90deg) Rx(30deg)"]),
             "about": self.one([None] * 6 + ["origin", "joint"]),
             "numbers": self.chance(0.2),
+            "dense": self.chance(0.15),
         }
 
     def body(self, place: int, link: int, kind: Problem, style: str | None) -> Problem:
@@ -285,15 +285,9 @@ class _Stranger:
         }
         if self.chance(0.05):
             body["name"] = self.one(["p", "a"]) + str(place)
-        if kind["extent"] == "density":
-            if near and self.axis_along(link):
-                del body["mass"], body["center"]
-                body["shape"] = {
-                    "rod": {"length": f"l{place}", "axis": self.axis_along(link), "density": "rho0*(1 + x)"}
-                }
-                return body
-        else:
-            body |= self.extent(kind, place)
+        body |= self.extent(kind, place)
+        if isinstance(body.get("shape"), dict) and kind["dense"]:
+            self.give_density(body, place, begins=near)
         if kind["extent"] not in ("none", "point"):
             if kind["axes"]:
                 body["axes"] = kind["axes"]
@@ -304,12 +298,16 @@ class _Stranger:
     def slides(self, link: int) -> bool:
         return "*" in str(self.rows[link - 1].get("d", ""))
 
-    def axis_along(self, link: int) -> str | None:
-        """The axis of frame i that the link lies along, where it is one."""
-        row = self.rows[link - 1] if self.file.get("convention") != "modified" else {}
-        if row.get("a", "0") != "0" and row.get("d", "0") == "0":
-            return "x"
-        return None
+    def give_density(self, body: Problem, place: int, begins: bool) -> None:
+        """A density in place of the mass: a constant, or a polynomial along the axis."""
+        ((kind, sizes),) = body["shape"].items()
+        densities = [f"rho{place}", "rho0", "2"]
+        if kind != "disk":
+            densities += ["rho0*(1 + x)", "rho0*(1 + x/b)", "rho0*x^2", "1 + 2*x"]
+        body["shape"] = {kind: {"axis": self.one("xyz"), **sizes, "density": self.one(densities)}}
+        del body["mass"]
+        if begins and self.chance(0.5):
+            del body["center"]
 
     def extent(self, kind: Problem, place: int) -> Problem:
         size = (

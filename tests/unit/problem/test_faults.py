@@ -133,8 +133,8 @@ BODIES = {
     ),
     "a superfluous dimension": (
         body("{mass: m, link: 1, center: tip, shape: {sphere: {radius: r, «axis»: z}}}"),
-        "unknown key `axis`",
-        "",
+        "an axis, along which nothing varies",
+        "density",
     ),
     "a fourth axis": (
         body("{mass: m, link: 1, center: tip, shape: {rod: {length: l, axis: «w»}}}"),
