@@ -57,7 +57,7 @@
 Which keys there are is said once, in `specification`, `action_keys`, `kinematic_keys`, `constraint_keys`,
 `mechanism_keys`, `definite_keys` and `model_keys` (in terms of `kinds` and `value_kinds`); from there come
 the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and the tables of
-the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
+the documentation (`documentation`).  `lint` and `lint_geometry` find what is no fault but deserves a look,
 `library` the problems that come with dynsolve.
 
 To add a key, write its record in `specification` and read it in the file of its part

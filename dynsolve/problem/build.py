@@ -228,7 +228,7 @@ class BodyBuilder:
         own, zero = AXES.index(shape.axis or AXES[-1]), self.ring.zero
         order = [(own + k) % 3 for k in range(3)]
         tensor = [[moments[order.index(i)] if i == j else zero for j in range(3)] for i in range(3)]
-        way = self._axes_in_link(axes, parsed.link).block(0, 3, own, own + 1)
+        way = self.links.axes_in_link(axes, parsed.link).block(0, 3, own, own + 1)
         far = self.links.far_end(parsed.link)
         along = (way.T @ (far - self.links.near_end(parsed.link)))[0, 0] if far else zero
         if not along.is_zero and all(factor < 0 for factor in along.poly.coeffs()):
@@ -245,7 +245,7 @@ class BodyBuilder:
             message = f"link {parsed.link} has no far end that the {shape.kind} could lie along"
             self.faults.error(shape.span, message, example)
             return ""
-        direction = self._axes_in_link(axes, parsed.link).T @ (far - self.links.near_end(parsed.link))
+        direction = self.links.axes_in_link(axes, parsed.link).T @ (far - self.links.near_end(parsed.link))
         along = [axis for axis, entry in zip(AXES, direction.entries, strict=True) if not entry.is_zero]
         if len(along) == 1:
             return along[0]
@@ -265,10 +265,3 @@ class BodyBuilder:
             return Axes(axes.kind, Matrix.identity(self.ring, 3), axes.written)
         rotation = self.values.rotation(axes.rotation, f"the axes of body {parsed.index}")
         return Axes(axes.kind, rotation, axes.written, axes.rotation.factors) if rotation else None
-
-    def _axes_in_link(self, axes: Axes, link: int) -> Matrix:
-        """The body-attached axes seen from the link's frame at q = 0, 3×3."""
-        assert self.links is not None
-        if axes.kind is AxesKind.LINK:
-            return axes.rotation
-        return self.links.rotation_at_rest(link).T @ axes.rotation.map(self.ring.at_rest)

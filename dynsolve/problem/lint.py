@@ -15,6 +15,7 @@ from dynsolve.errors import Finding
 from dynsolve.notation.names import split
 from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
+from dynsolve.problem.lint_geometry import beside_its_link, drawn_angles, left_out_moment
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.model import Body, Robot
@@ -318,5 +319,8 @@ CHECKS: tuple[Callable[[Reading], Iterator[Finding]], ...] = (
     no_effect,
     unphysical,
     unasked,
+    beside_its_link,
+    left_out_moment,
+    drawn_angles,
 )
 """Every check, in no particular order."""

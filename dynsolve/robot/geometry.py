@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.robot.model import Convention, Joint, Robot, path_to
+from dynsolve.robot.model import Axes, AxesKind, Convention, Joint, Robot, path_to
 from dynsolve.robot.parallel import moving_part
 
 
@@ -123,3 +123,9 @@ class Links:
             about_x = elementary(self.ring, "x", joint.alpha)
             rotation = rotation @ (about_x @ about_z if self.modified else about_z @ about_x)
         return rotation
+
+    def axes_in_link(self, axes: Axes, link: int) -> Matrix:
+        """The body-attached axes seen from the link's frame at q = 0, 3×3."""
+        if axes.kind is AxesKind.LINK:
+            return axes.rotation
+        return self.rotation_at_rest(link).T @ axes.rotation.map(self.ring.at_rest)

@@ -44,6 +44,17 @@ FINDINGS = {
     "no-effect of a shape": body(
         "mass: M, link: 1, center: tip, «shape»: {sphere: {radius: r}}, inertia: {zz: I1}"
     ),
+    "beside-its-link": "dh: [{theta: q1*, d: h, a: l}]\n"
+    "masses: [{mass: m, link: 1, center: «midpoint», shape: {rod: {length: l, axis: x}}}]",
+    "beside-its-link with a density": "dh: [{theta: q1*, d: h, a: l}]\n"
+    "masses: [{link: 1, center: «midpoint», shape: {cylinder: {radius: r, length: h, axis: z, density: 2}}}]",
+    "left-out-moment": "dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}]\n"
+    "masses: [{mass: m, link: 2, center: tip, inertia: «{zz: I}»}]",
+    "left-out-moment of a body by its position": "model:\n  coordinates: {a: revolute}\n  bodies:\n"
+    "    - {mass: m, at: [0, 0, 0], turn: a, about: [1, 0, 0], inertia: «{zz: I}»}",
+    "drawn-angles": "axes: [{turn: q1, about: [0, 0, 1], through: [0, 0, 0]},\n"
+    "  {turn: q2, about: [0, -1, 0], through: [0, 0, h]}]\ntip: [0, 0, h + l]\nzero: «table»",
+    "drawn-angles without zero": "«axes»: [{turn: q1, about: [0, 0, 1], through: [0, 0, 0]}]\ntip: [0, l, 0]",
     "unphysical and negative": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {zz: -1}}»\n",
     "unphysical": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {xx: 1, yy: 1, zz: 3}}»\n",
 }
