@@ -18,6 +18,7 @@ answer got its verdict is decided, in this order, by
     diagnosis.diagnoser      why: the first explanation of its list that fits
     general_formulas         a formula of names alone is what the student's own answers make of it
     unwritten                what is asked for and not written by itself          missing
+    ledger                   what was not judged waits for a human, or is set aside
 
 A Denavit-Hartenberg table is judged as a whole, by the mechanism that it describes: `table_verdict`;
 sets of configurations are held in numbers: `configuration_verdict`; of what is said of matrices

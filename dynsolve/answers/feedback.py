@@ -88,7 +88,7 @@ def feedback(report: Report, title: str, view: FeedbackView) -> Document:
 def opening(report: Report) -> Iterator[Block]:
     """How it went, in a sentence or two."""
     count = sum(a.verdict is Verdict.CORRECT for a in report.answers)
-    if not any(a.given for a in report.answers):
+    if not any(a.given or a.fault for a in report.answers):
         how = ", and the value is in the symbols of the problem: other letters make a general formula."
         yield Text(
             ("No answer was found in it. The name stands before the value: ", Verbatim("K = ..."), how)
@@ -123,15 +123,21 @@ def slips(report: Report, view: FeedbackView) -> Iterator[Block]:
 
 
 def not_recognized(report: Report) -> Iterator[Block]:
-    """Equations that are no answers, each with the reason."""
-    if report.not_recognized:
-        yield Heading("Not recognized")
-        yield List(tuple(_listed(n) for n in report.not_recognized))
+    """Equations that are no answers, each with the reason; first those that wait for a human."""
+    for title, found in (
+        ("For a human to look at", [n for n in report.not_recognized if n.waits]),
+        ("Not recognized", [n for n in report.not_recognized if not n.waits]),
+    ):
+        if found:
+            yield Heading(title)
+            yield List(tuple(map(_listed, found)))
+    if report.set_aside:
+        yield Fold("Read, and set aside", (List(tuple(map(_listed, report.set_aside))),))
 
 
 def _listed(found: NotRecognized) -> Prose:
-    reason = f" ({found.why})" if found.why else ""
-    return (f"{found.place}: ", Verbatim(_short(found.text)), reason)
+    reasons = "; ".join(filter(None, (f"for {', '.join(found.waits)}" if found.waits else "", found.why)))
+    return (f"{found.place}: ", Verbatim(_short(found.text)), f" ({reasons})" if reasons else "")
 
 
 def _number(value: object) -> str:

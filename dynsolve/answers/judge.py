@@ -28,7 +28,8 @@ from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.hand_in import ComparedHandIn, last
+from dynsolve.answers.judging.hand_in import ComparedHandIn
+from dynsolve.answers.ledger import Ledger
 from dynsolve.answers.marking.marks import mark
 from dynsolve.answers.marking.policy import Policy
 from dynsolve.answers.marking.substance import weighed
@@ -116,7 +117,9 @@ class Judge:
         self.submission = submission
         self.tables = [answer for answer in submission.answers if answer.name == TABLE]
         others = [answer for answer in submission.answers if answer.name != TABLE]
-        others += general_formulas(submission, self._asked, quantities(self.problem.robot))
+        general = list(general_formulas(submission, self._asked, quantities(self.problem.robot)))
+        self._general = {answer.name for answer in general}
+        others += general
         self.hand_in = ComparedHandIn(checker.answer_ring, checker.compare_entry, others)
         self.graph = self.hand_in.graph
 
@@ -136,6 +139,8 @@ class Judge:
     def report(self) -> Report:
         """Everything that is said of the hand-in."""
         answers = self._answers()
+        ledger = self._ledger(answers)
+        answers = ledger.waiting(answers)
         position = self.graph.quantities.position
         in_order = tuple(sorted(answers.values(), key=lambda answer: position(answer.name)))
         ordered = weighed(self.problem, self.hand_in, in_order)
@@ -148,9 +153,10 @@ class Judge:
             self.submission.student,
             self.submission.file,
             self._marked(ordered),
-            self._not_recognized(),
+            tuple(ledger.not_recognized),
             wrong[0].name if wrong else "",
             self.submission.faults,
+            tuple(ledger.set_aside),
         )
 
     def _comes_late(self, name: str) -> bool:
@@ -186,33 +192,28 @@ class Judge:
         for name in self._asked:
             if name not in answers and (name == TABLE or self._has_key(name)):
                 answers[name] = self._unwritten(name, answers)
-        for name, chains in self.hand_in.definitions.items():
-            defined = answers[name] if name in answers else self._unwritten(name, answers)
-            if defined.verdict is Verdict.MISSING:
-                value = last(chains)
-                answers[name] = replace(
-                    defined, label=value.answer.label, place=value.answer.place, notes=(value.fault,)
-                )
-        for refused in self._of_names_alone:
-            for name in answers.keys() & set(refused.answers):
-                if answers[name].verdict is Verdict.MISSING:
-                    answers[name] = replace(
-                        answers[name], label=refused.label, place=refused.place, notes=(refused.why,)
-                    )
+        for name in self.hand_in.definitions.keys() - answers.keys():
+            if (defined := self._unwritten(name, answers)).verdict is Verdict.MISSING:
+                answers[name] = defined
         return answers
 
-    @cached_property
-    def _of_names_alone(self) -> tuple[NotRecognized, ...]:
-        """The equations of names alone that would answer something, and need what is given nowhere."""
+    def _ledger(self, answers: dict[str, JudgedAnswer]) -> Ledger:
+        """What becomes of the equations that are none of the answers; formulas that count are."""
         named, given = self.graph.quantities, self.hand_in.chains
-        found = []
+        refused, explained = list(self.submission.not_recognized), list[NotRecognized]()
         for one in self.submission.left_alone:
-            needs = needed(named, one.answers[0], one.needs) if one.answers else one.needs
+            needs = needed(named, one.answers[0], one.needs) if one.needs else []
             lacking = [name for name in needs if not is_given(named, name, given)]
             if lacking and not any(is_given(named, name, given) for name in one.answers):
                 why = f"{lacking[0]} stands in it and is given nowhere: this is a definition"
-                found.append(replace(one, why=why))
-        return tuple(found)
+                refused.append(replace(one, why=why))
+            elif lacking or not one.needs or self._general.isdisjoint(one.answers):
+                explained.append(one)
+        for name, chains in self.hand_in.definitions.items():
+            for value in (value for chain in chains for value in chain):
+                text, label, place = f"{name} = {value.answer.text}", value.answer.label, value.answer.place
+                refused.append(NotRecognized(text, label, place, value.fault, (name,)))
+        return Ledger(named, answers, refused, explained)
 
     @property
     def _asked(self) -> Collection[str]:
@@ -226,18 +227,6 @@ class Judge:
 
     def _unwritten(self, name: str, answers: dict[str, JudgedAnswer]) -> JudgedAnswer:
         return unwritten(self.graph, name, Fraction(self.problem.marks.get(name, 0)), answers)
-
-    def _not_recognized(self) -> tuple[NotRecognized, ...]:
-        """What is none of the answers: equations that name nothing known, and definitions."""
-        definitions = (
-            NotRecognized(
-                f"{name} = {value.answer.text}", value.answer.label, value.answer.place, value.fault
-            )
-            for name, chains in self.hand_in.definitions.items()
-            for chain in chains
-            for value in chain
-        )
-        return (*self.submission.not_recognized, *self._of_names_alone, *definitions)
 
 
 IN_OWN_FRAMES = "in your own frames"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report
+from dynsolve.answers.submission import Place
+from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report, Verdict
 
 FORMAT = "dynsolve-check/1"
 
@@ -29,7 +31,22 @@ def to_json(report: Report, *, level: int = 3, teacher: bool = False) -> dict[st
         "first_wrong": report.first_wrong,
         "marks": number(report.marks),
         "of": number(report.of),
+        "queued": [
+            *(_line(n.place, n.text, n.waits, n.why) for n in report.not_recognized if n.waits),
+            *(
+                _line(a.place, a.place.excerpt, (a.name,), a.fault)
+                for a in report.answers
+                if a.given and a.verdict is Verdict.UNREADABLE and a.place
+            ),
+        ],
+        "set_aside": [_line(n.place, n.text, n.answers, n.why) for n in report.set_aside],
     }
+
+
+def _line(place: Place, text: str, names: Sequence[str], reason: str) -> dict[str, Any]:
+    """An equation that was not judged, with the answers that it names, and the reason."""
+    where = {"line": place.line, "column": place.column}
+    return {**where, "text": text, "name": ", ".join(names), "reason": reason}
 
 
 def _answer(answer: JudgedAnswer, level: int, teacher: bool) -> dict[str, Any]:

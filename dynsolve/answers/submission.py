@@ -108,7 +108,8 @@ class VerdictAnswer:
 class NotRecognized:
     """An equation that is no answer; `why` says what kept it from being one.
 
-    One of names alone would answer `answers` if what it `needs` were given.
+    `answers` are what its sides name; one of names alone would answer them if what it `needs` were
+    given.  Where nothing else answers what is asked for, the answers of `waits`, a human has to look at it.
     """
 
     text: str
@@ -117,14 +118,15 @@ class NotRecognized:
     why: str = ""
     answers: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
+    waits: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Submission:
     """One file that was handed in, for one problem; `student` and `problem` as the file says, or empty.
 
-    What is no answer is `not_recognized`, which the student is shown, or `left_alone`: definitions,
-    general formulas, and what a sentence says.  So every equation of the file is in one of the three.
+    What is no answer is `not_recognized`, or `left_alone`: definitions, general formulas, and what a
+    sentence says.  So every equation of the file is in one of the three; see `ledger`.
     `general` has the formulas of names alone once more, as what they would answer (`general_formulas`).
     """
 

@@ -102,7 +102,10 @@ class JudgedAnswer:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What is said of a hand-in; `answers` stand in the order of the derivation."""
+    """What is said of a hand-in; `answers` stand in the order of the derivation.
+
+    What is no answer is in `not_recognized`, where some wait for a human, or in `set_aside` (`ledger`).
+    """
 
     problem: str
     student: str
@@ -111,6 +114,7 @@ class Report:
     not_recognized: tuple[NotRecognized, ...] = ()
     first_wrong: str = ""
     faults: tuple[Finding, ...] = ()
+    set_aside: tuple[NotRecognized, ...] = ()
 
     @property
     def marks(self) -> Fraction:
@@ -129,5 +133,5 @@ class Report:
 
     @property
     def none_read(self) -> bool:
-        """Whether no answer could be read at all."""
-        return not any(a.given and a.verdict is not Verdict.UNREADABLE for a in self.answers)
+        """Whether nothing is there to be read: no answer, and no equation."""
+        return not (any(a.given for a in self.answers) or self.not_recognized or self.set_aside)

@@ -41,8 +41,8 @@ def check(
 ) -> int:
     """Check a hand-in: correct, following from an earlier slip, or wrong, and which slip it is.
 
-    Ends with 0 where every answer is correct, with 1 otherwise, with 2 where nothing
-    could be read.
+    Ends with 0 where every answer is correct, with 1 otherwise, with 2 where there
+    is nothing to read.
     """
     from dynsolve.answers.judge import Checker
     from dynsolve.answers.sandbox import check_file

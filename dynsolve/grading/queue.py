@@ -84,6 +84,8 @@ def for_a_human(a: RecordedAnswer) -> str:
     """
     if a.verdict == "unreadable":
         return a.fault or "it could not be read"
+    if a.verdict == "missing" and a.fault:
+        return f"no answer was read, but line {a.line} names it: {a.fault}"
     if a.loss:
         return f"{a.verdict}, but {a.loss}"
     if a.verdict == "wrong" and not a.diagnosis and BY_PARTS not in a.note:

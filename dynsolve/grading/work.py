@@ -43,6 +43,9 @@ SHARE = 8
 MOST_TEXT = 2000
 """So much is kept of how an answer was read."""
 
+MOST_LISTED = 50
+"""So many equations that were not judged are kept."""
+
 MOST_TOLD = 300
 """So much is kept of what is said of a slip."""
 
@@ -83,11 +86,16 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
             }
             for answer, marks in zip(report.answers, marked, strict=True)
         ],
-        "not_recognized": [f"{n.place}: {n.text[:200]}" for n in report.not_recognized][:50],
+        "not_recognized": [_listed(n) for n in report.not_recognized[:MOST_LISTED]],
+        "set_aside": [f"{_listed(n)} ({n.why})" for n in report.set_aside[:MOST_LISTED]],
         "faults": [fault.message for fault in report.faults],
         "html": html,
         "markdown": markdown,
     }
+
+
+def _listed(found: NotRecognized) -> str:
+    return f"{found.place}: {found.text[:200]}"
 
 
 @lru_cache(maxsize=64)

@@ -52,6 +52,7 @@ def test_a_wrong_answer_ends_with_1_and_json_is_the_contract(problem: Path, tmp_
     report = json.loads(done.out)
     assert list(report) == [
         "format", "problem", "student", "answers", "not_recognized", "first_wrong", "marks", "of",
+        "queued", "set_aside",
     ]  # fmt: skip
     assert (report["format"], report["problem"], report["student"]) == ("dynsolve-check/1", "pendulum", "s1")
     assert (report["first_wrong"], report["marks"], report["of"]) == ("tau1", 1.5, 4.5)
@@ -72,11 +73,15 @@ def test_the_ladder_tells_more_and_more(problem: Path, tmp_path: Path) -> None:
     assert "minus what was expected" in check(problem, answers, "--teacher").out
 
 
-def test_nothing_readable_ends_with_2(problem: Path, tmp_path: Path) -> None:
+def test_what_cannot_be_read_ends_with_1_and_nothing_to_read_with_2(problem: Path, tmp_path: Path) -> None:
     done = check(problem, write(tmp_path, "  tau1: m1*\n"))
-    assert done.code == 2
+    assert done.code == 1
     assert "answers.yaml:3:" in done.err
     assert "^" in done.err
+    report = tmp_path / "report.md"
+    for text, code in (("", 2), ("Only words.\n", 2), ("$$\\tau = D \\ddot q + F x$$\n", 1)):
+        report.write_text(text)
+        assert check(problem, report).code == code
 
 
 def test_a_file_that_is_not_there_ends_with_2(problem: Path) -> None:

@@ -21,16 +21,20 @@ from dynsolve.quantities.model_families import QDD_FORWARD, REFERENCE
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """Where values come from: a display, the label of the equation in it, and its number in the file."""
+    """Where values come from: a display, the label of the equation in it, and its number in the file.
+
+    `names` are the answers that the sides of the equation name.
+    """
 
     display: Display
     label: str
     equation: int
+    names: tuple[str, ...] = ()
 
     def not_recognized(self, start: int, end: int, why: str = "") -> NotRecognized:
         """The record of a stretch of the display that is no answer."""
         text = self.display.text[start:end]
-        return NotRecognized(shown(text), self.label, self.display.locate(start, 1), why)
+        return NotRecognized(shown(text), self.label, self.display.locate(start, 1), why, self.names)
 
     def of(self, members: list[list[Token]], why: str) -> NotRecognized:
         """The record of an equation that is no answer."""
@@ -77,7 +81,7 @@ class AnswerList:
     verdicts: list[VerdictAnswer] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
-    _asides: list[tuple[tuple[str, ...], NotRecognized, Sequence[Answer]]] = field(default_factory=list)
+    _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
     _accelerations: dict[int, Answer] = field(default_factory=dict)
     _entries: VectorEntries = field(init=False)
 
@@ -169,14 +173,12 @@ class AnswerList:
             occurrence=(origin.equation, index),
         )
 
-    def said_aside(
-        self, candidates: tuple[str, ...], refused: NotRecognized, answers: Sequence[Answer] = ()
-    ) -> None:
+    def said_aside(self, refused: NotRecognized, answers: Sequence[Answer] = ()) -> None:
         """Keep what is said of an answer in passing: it is listed where nothing else gives that.
 
         Its `answers` count where another names them: C = [[c_11, c_12], [c_21, 0]] with c_11 = ...
         """
-        self._asides.append((candidates, refused, answers))
+        self._asides.append((refused, answers))
 
     def put_off(self, family: tuple[str, ...], answers: list[Answer], refused: NotRecognized) -> None:
         """Keep an equation until it is known which answers of its family are absent."""
@@ -207,7 +209,8 @@ class AnswerList:
         else:
             why = "not the accelerations of all coordinates are given"
             for one in self._accelerations.values():
-                self.not_recognized.append(NotRecognized(one.text, one.label, one.place, why))
+                names = (QDD_FORWARD.name,)
+                self.not_recognized.append(NotRecognized(one.text, one.label, one.place, why, names))
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)
@@ -217,8 +220,8 @@ class AnswerList:
     def _settle_asides(self) -> None:
         given = {answer.name for answer in self.answers}
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
-        for names, refused, answers in self._asides:
-            if given.isdisjoint(names) and not named.isdisjoint(names):
+        for refused, answers in self._asides:
+            if given.isdisjoint(refused.answers) and not named.isdisjoint(refused.answers):
                 self.answers += answers
             else:
-                (self.left_alone if given & set(names) else self.not_recognized).append(refused)
+                (self.left_alone if given & set(refused.answers) else self.not_recognized).append(refused)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from dynsolve.answers.reading.answer_list import Member, Origin
 from dynsolve.answers.reading.displays import Display, Equation, equations
 from dynsolve.answers.reading.equation_reader import EquationReader
@@ -14,6 +16,7 @@ from dynsolve.answers.reading.left_side import (
     UnknownSide,
     read_left_side,
     read_left_sides,
+    spoken_of,
 )
 from dynsolve.answers.reading.limits import MAX_MEMBERS
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
@@ -46,6 +49,7 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         reader.found.left_alone.append(origin.of(members, WHY))
         return
     side = read_left_side(reader.vocabulary, members[0])
+    origin = replace(origin, names=spoken_of(reader.vocabulary, members[0], side))
     value = (
         read_right_side(reader.vocabulary, members[-1])
         if len(members) <= MAX_MEMBERS
@@ -61,7 +65,7 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         names = [one.candidates for one in sides if isinstance(one, NamedAnswers)]
         member = Member(len(members) - 1, members[-1], value)
         answers = [reader.found.answer(candidates, member, origin) for candidates in names]
-        reader.found.said_aside(side.candidates, origin.of(members, why), answers)
+        reader.found.said_aside(origin.of(members, why), answers)
         return
     reader.found.left_alone.append(origin.of(members, WHY))
     if isinstance(value, ReadError):

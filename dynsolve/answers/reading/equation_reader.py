@@ -25,6 +25,7 @@ from dynsolve.answers.reading.left_side import (
     name_alone,
     read_left_side,
     read_left_sides,
+    spoken_of,
 )
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.linear_models import linear_parts
@@ -45,7 +46,7 @@ from dynsolve.answers.reading.tokens.macros import Macro
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vector_entries import entry_of
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
-from dynsolve.answers.submission import NotRecognized
+from dynsolve.answers.submission import Answer, NotRecognized
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import UnicodePrinter
@@ -147,7 +148,8 @@ class EquationReader:
             self.found.answers.append(self.found.unreadable(name.candidates, error, origin, 1))
         else:
             place = display.locate(error.offset, error.length)
-            refused = NotRecognized(shown(display.text), display.label, place, error.message)
+            names = name.candidates if isinstance(name, NamedAnswers) else ()
+            refused = NotRecognized(shown(display.text), display.label, place, error.message, names)
             self.found.not_recognized.append(refused)
 
     def _read_equation(self, equation: Equation, origin: Origin) -> None:
@@ -162,16 +164,17 @@ class EquationReader:
             return
         self.vocabulary.orders |= order_of_pair(members)
         if (part := part_of(self.vocabulary, members[0])) is not None:
-            self._part(part, members, origin)
+            self._part(part, members, replace(origin, names=part.entries))
             return
         sides = read_left_sides(self.vocabulary, members)
         names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, NamedAnswers)))
+        owners = tuple(name for candidates in names for name in candidates)
+        origin = replace(origin, names=owners or spoken_of(self.vocabulary, members[0], sides[0]))
         if self._of_motion(members, names, origin):
             return
         if calls_forces(self.vocabulary, members, sides[0]):
             self.found.left_alone.append(origin.of(members, "it says what drives the joints"))
             return
-        owners = tuple(name for candidates in names for name in candidates)
         read = [
             Member(index, tokens, read_right_side(self.vocabulary, tokens, owners))
             for index, tokens in enumerate(members)
@@ -283,22 +286,25 @@ class EquationReader:
     ) -> None:
         """Every value is an answer to each name; what cannot be read is one where no value follows it."""
         values = [member.index for member in read if is_value(member.found)]
-        said = ""
+        said = refused = ""
+        given = list[Answer]()
         for member in read:
             found = member.found
             if is_inertia_force(self.vocabulary, names, member.tokens):
                 self.found.left_alone.append(origin.of(members, "it is a vector of the recursions"))
-            elif is_value(found):
-                self.found.answers += self.found.value(names, member, origin)
+                return
+            if is_value(found):
+                given += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):
                 said = said or why_no_value(found)
             elif _CONTROL.match(found.message) or origin.display.among_prose:
-                self.found.not_recognized.append(origin.of(members, found.message))
+                refused = refused or found.message
             elif not values or member.index > values[-1]:
-                self.found.answers += [self.found.answer(candidates, member, origin) for candidates in names]
-            else:
-                self.found.left_alone.append(origin.of(members, found.message))
-        if not values:
+                given += [self.found.answer(candidates, member, origin) for candidates in names]
+        self.found.answers += given
+        if refused and not given:
+            self.found.not_recognized.append(origin.of(members, refused))
+        elif not given and not values:
             self._left_alone(names, members, read, origin, said)
 
     def _left_alone(
@@ -313,12 +319,10 @@ class EquationReader:
         refused = origin.of(members, said or "it says that two names are the same")
         letters = any(isinstance(m.found, RightSide) and m.found.has_letters for m in read)
         if letters:
-            self.found.said_aside(tuple(name for candidates in names for name in candidates), refused)
+            self.found.said_aside(refused)
         elif all(isinstance(member.found, RightSide) for member in read):
             needs = (n for m in read if isinstance(m.found, RightSide) for n in m.found.references)
-            answers = tuple(name for candidates in names for name in candidates)
-            refused = replace(refused, answers=answers, needs=tuple(dict.fromkeys(needs)))
-            self.found.left_alone.append(refused)
+            self.found.left_alone.append(replace(refused, needs=tuple(dict.fromkeys(needs))))
             self.found.general += [
                 self.found.answer(candidates, member, origin)
                 for candidates in names

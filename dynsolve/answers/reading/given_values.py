@@ -20,7 +20,8 @@ def read_value(reader: EquationReader, name: str, place: Place, display: Display
     """Read the value that an answer file gives under a name."""
     origin = reader.origin(display, display.label)
     side = _key(reader, name)
-    refused = NotRecognized(shown(f"{name}: {display.text}"), "", place, "it names nothing known")
+    names = side.family if isinstance(side, UnknownSide) else ()
+    refused = NotRecognized(shown(f"{name}: {display.text}"), "", place, "it names nothing known", names)
     if isinstance(side, NamedAnswers):
         reader.found.answers += _given(reader, side.candidates, origin)
     elif isinstance(side, UnknownSide) and side.family:

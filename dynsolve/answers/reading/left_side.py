@@ -15,11 +15,16 @@ from dynsolve.answers.reading.name_splitting import split_names
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Negative, Reference, Sum
+from dynsolve.notation.tree import Function, Negative, Reference, Sum, Symbol
 from dynsolve.quantities.spelling import key
 
 _DETERMINANT = re.compile(r"(?:det\(?|\|)J[\w^()]*\|?")
 _LONGEST_DETERMINANT = 20
+SETS = ("singular", "equilibria", "inverse")
+"""The answers that are sets of equations for coordinates."""
+
+_LONGEST_NAME = 9
+_AFTER = frozenset("[(_")
 _WHOLE = 6
 """With so many joints J itself is square."""
 
@@ -103,6 +108,35 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
         return NamedAnswers(candidates)
     own = name_alone(vocabulary, tokens)
     return UnknownSide(own, (), True, "") if own and own in vocabulary.defined else None
+
+
+def spoken_of(vocabulary: Vocabulary, member: list[Token], side: LeftSide) -> tuple[str, ...]:
+    """The answers that a side speaks of, though it may be more than their name: `(1) g2`, `D[0,0]`.
+
+    An equation for a coordinate may belong to any of the sets.
+    """
+    if isinstance(side, NamedAnswers):
+        return side.candidates
+    if isinstance(side, UnknownSide) and side.family:
+        return side.family
+    if [token.kind for token in member[:3]] == ["(", "number", ")"]:
+        member = member[3:]
+    for end in (at for at, token in enumerate([*member, None]) if at and (not token or token.kind in _AFTER)):
+        named = read_left_side(vocabulary, member[:end]) if end < _LONGEST_NAME else None
+        if isinstance(named, NamedAnswers):
+            return named.candidates
+    sets = tuple(name for name in SETS if name in vocabulary.quantities)
+    return sets if sets and _is_of_coordinate(vocabulary, member) else ()
+
+
+def _is_of_coordinate(vocabulary: Vocabulary, member: list[Token]) -> bool:
+    """Whether a side is a coordinate, or a sine or cosine of one."""
+    try:
+        value = FormulaReader(split_names(member, vocabulary), vocabulary).value()
+    except ReadError:
+        return False
+    node = value.argument if isinstance(value, Function) else value
+    return isinstance(node, Symbol) and not node.dots and vocabulary.coordinate(node) is not None
 
 
 def _is_called(reader: FormulaReader) -> bool:

@@ -19,7 +19,8 @@ def readable(answers: Sequence[Answer], quantities: Quantities) -> tuple[list[An
     lost: list[NotRecognized] = []
     for answer in answers:
         if answer.node is None and _is_given(answer.name, given, quantities):
-            lost.append(NotRecognized(answer.text, answer.label, answer.place, answer.fault))
+            refused = NotRecognized(answer.text, answer.label, answer.place, answer.fault, (answer.name,))
+            lost.append(refused)
         else:
             kept.append(answer)
     return kept, lost

@@ -95,7 +95,7 @@ def test_what_follows_a_table_in_other_frames_earns_its_marks() -> None:
 def test_a_later_file_that_cannot_be_read_takes_no_answer_away() -> None:
     result = grade_one(payload(RIGHT_K, "answers:\n  K: F_v q1_dot\n"))
     assert _answers(result)["K"]["marks"] == "4"
-    assert [line for line in result["not_recognized"] if line.startswith("line 2 of part1.yaml")]
+    assert [line for line in result["set_aside"] if line.startswith("line 2 of part1.yaml")]
 
 
 def test_of_several_files_a_line_says_which() -> None:

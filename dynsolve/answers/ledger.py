@@ -1,0 +1,58 @@
+"""What becomes of the equations of a hand-in that were not judged: they wait for a human, or are set aside.
+
+An equation whose left side names what is asked for waits where nothing else answers that, so that no
+mark is lost to what was not read; else it is set aside, with its reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+
+from dynsolve.answers.submission import NotRecognized
+from dynsolve.answers.verdict import JudgedAnswer, Verdict
+from dynsolve.quantities.index import Quantities
+
+
+class Ledger:
+    """The equations that were not judged: `not_recognized`, some of which wait, and `set_aside`.
+
+    `refused` could not be read as answers, `explained` are definitions, quotations and what a sentence says.
+    """
+
+    def __init__(
+        self,
+        quantities: Quantities,
+        answers: Mapping[str, JudgedAnswer],
+        refused: Iterable[NotRecognized],
+        explained: Iterable[NotRecognized],
+    ) -> None:
+        given = {name for name, answer in answers.items() if answer.verdict is not Verdict.MISSING}
+        absent = {
+            name: {quantities.entry_of(name)[0], *_with_parts(quantities, name)} - given
+            for name in answers.keys() - given
+        }
+        self.not_recognized = list[NotRecognized]()
+        self.set_aside = list[NotRecognized]()
+        for one, is_known in (*((r, False) for r in refused), *((e, True) for e in explained)):
+            waits = tuple(sorted(n for n, names in absent.items() if not names.isdisjoint(one.answers)))
+            if waits or not (is_known or given & set(one.answers)):
+                self.not_recognized.append(replace(one, waits=waits))
+            else:
+                self.set_aside.append(one)
+
+    def waiting(self, answers: Mapping[str, JudgedAnswer]) -> dict[str, JudgedAnswer]:
+        """The answers, the missing ones with the last equation that a human has to look at."""
+        found = dict(answers)
+        for one in self.not_recognized:
+            for name in one.waits:
+                found[name] = replace(
+                    found[name], label=one.label, place=one.place, notes=(one.why,), fault=one.why
+                )
+        return found
+
+
+def _with_parts(quantities: Quantities, name: str) -> Iterator[str]:
+    yield name
+    for part in quantities.parts(name):
+        yield from _with_parts(quantities, part)
