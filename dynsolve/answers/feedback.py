@@ -131,8 +131,8 @@ def not_recognized(report: Report) -> Iterator[Block]:
         if found:
             yield Heading(title)
             yield List(tuple(map(_listed, found)))
-    if report.set_aside:
-        yield Fold("Read, and set aside", (List(tuple(map(_listed, report.set_aside))),))
+    if aside := [n for n in report.set_aside if n.answers]:
+        yield Fold("Read, and set aside", (List(tuple(map(_listed, aside))),))
 
 
 def _listed(found: NotRecognized) -> Prose:

@@ -27,11 +27,11 @@ class Ledger:
         refused: Iterable[NotRecognized],
         explained: Iterable[NotRecognized],
     ) -> None:
+        self.quantities = quantities
         given = {name for name, answer in answers.items() if answer.verdict is not Verdict.MISSING}
-        absent = {
-            name: {quantities.entry_of(name)[0], *_with_parts(quantities, name)} - given
-            for name in answers.keys() - given
-        }
+        asked = {name: {quantities.entry_of(name)[0], *_with_parts(quantities, name)} for name in answers}
+        absent = {name: names - given for name, names in asked.items() if name not in given}
+        known = frozenset[str]().union(*asked.values())
         self.not_recognized = list[NotRecognized]()
         self.set_aside = list[NotRecognized]()
         for one, is_known in (*((r, False) for r in refused), *((e, True) for e in explained)):
@@ -39,11 +39,17 @@ class Ledger:
             if waits or not (is_known or given & set(one.answers)):
                 self.not_recognized.append(replace(one, waits=waits))
             else:
-                self.set_aside.append(one)
+                self.set_aside.append(replace(one, answers=tuple(n for n in one.answers if n in known)))
 
     def waiting(self, answers: Mapping[str, JudgedAnswer]) -> dict[str, JudgedAnswer]:
-        """The answers, the missing ones with the last equation that a human has to look at."""
+        """The answers, the missing ones with the last equation, or part, that a human has to look at."""
         found = dict(answers)
+        for name, answer in answers.items():
+            parts = [answers[p] for p in _with_parts(self.quantities, name) if p in answers]
+            unread = [part for part in parts if part.verdict is Verdict.UNREADABLE]
+            if answer.verdict is Verdict.MISSING and unread:
+                fault = f"{unread[0].name}: {unread[0].fault}"
+                found[name] = replace(answer, place=unread[0].place, notes=(fault,), fault=fault)
         for one in self.not_recognized:
             for name in one.waits:
                 found[name] = replace(
