@@ -1,18 +1,21 @@
-"""Names that mean an answer only where their value says so: k_1, u_1, H_11.
+"""Names that mean an answer only where their value says so: k_1, u_1, H_11, T_1, Γ_1.
 
 Craig calls the energies of a body k_i and u_i, others the torques u_i; Asada and Slotine call the
-inertia matrix H.  All of these are abbreviations as well: what stands on the other side decides.
+inertia matrix H; torques are called by any letter.  All of these are abbreviations as well, or other
+answers: what stands on the other side decides.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.notation.names import split
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.walk import walk
+from dynsolve.quantities.stages import Stage
 
 _NAME = re.compile(r"(k|u)([0-9a-z]?)|(H)((?:[1-9][1-9])?)")
 
@@ -31,7 +34,7 @@ def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
     if letter == "H":
         wanted = f"D{index}" if has_mass and rates <= {0} else ""
     elif 2 in rates:
-        wanted = f"tau{index}" if letter == "u" else ""
+        return ()
     elif letter == "k":
         wanted = f"K{index}" if 1 in rates and has_mass else ""
     else:
@@ -40,3 +43,31 @@ def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
     names = vocabulary.named(wanted) if wanted else ()
     scalar = not isinstance(value, Grid)
     return tuple(n for n in names if (vocabulary.shape(n) is None) == scalar)
+
+
+def force_meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
+    """The generalized force of the index of a name, where its value holds accelerations beside a mass."""
+    if not isinstance(value, Node) or not name or name in vocabulary.symbols:
+        return ()
+    symbols = [part for part in walk(value) if isinstance(part, Symbol)]
+    has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
+    if not has_mass or all(symbol.dots < 2 for symbol in symbols):
+        return ()
+    forces = [q.force for q in vocabulary.coordinates]
+    index = "".join(split(name)[1])
+    if not index:
+        driven = [force for force in forces if force not in vocabulary.passive]
+        return tuple(driven) if len(driven) == 1 else ()
+    counted = "".join(character for character in index if character.isdigit())
+    named = vocabulary.named(f"tau{index}") or vocabulary.named(f"tau{counted}")
+    return tuple(force for force in named if force in forces)
+
+
+def called_force(
+    vocabulary: Vocabulary, name: str, candidates: tuple[str, ...], values: Sequence[Value]
+) -> tuple[str, ...]:
+    """The generalized force that T_1 is, which may be an energy; none where the name is the energy's own."""
+    scalars = [vocabulary.quantities[c].family for c in candidates if vocabulary.shape(c) is None]
+    if name in candidates or not values or any(family.stage is not Stage.ENERGY for family in scalars):
+        return ()
+    return force_meant(vocabulary, name, values[-1])

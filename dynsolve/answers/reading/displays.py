@@ -207,7 +207,24 @@ def _label(row: list[Token]) -> tuple[str, list[Token]]:
         ):
             label = f"({kept[-2].text})"
             kept = kept[:-3]
-    return label, kept
+    if (length := _leading_number(kept)) and not label:
+        label = "(" + "".join(t.text for t in kept[:length] if t.kind in ("number", "name", ".")) + ")"
+    return label, kept[length:]
+
+
+def _leading_number(row: list[Token]) -> int:
+    """How many tokens the number of an equation takes that stands before it: `(4.7) g_2 =`, `a) g_2 =`."""
+    end = next((place for place, token in enumerate(row[:6]) if token.kind == ")"), 0)
+    inside = [t for t in row[:end] if t.kind != "."]
+    is_open = inside[:1] != [] and inside[0].kind == "("
+    inside = inside[is_open:]
+    is_number = 0 < len(inside) < 3 and all(t.kind == "number" or len(t.text) == 1 for t in inside)
+    if not is_number or any(t.kind not in ("number", "name") for t in inside):
+        return 0
+    after = row[end + 1 : end + 3]
+    has_digit = any(t.kind == "number" for t in inside)
+    begins = after[:1] != [] and after[0].kind in ("name", "letter", "command") and after[0].spaced
+    return end + 1 if begins and (has_digit or not is_open) and any(t.kind == "=" for t in row) else 0
 
 
 _PENDING = frozenset({"+", "-", "*", "/", "=", "cdot", "times", "command"})

@@ -12,7 +12,7 @@ import re
 from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
-from dynsolve.answers.reading.by_content import meant
+from dynsolve.answers.reading.by_content import called_force, force_meant, meant
 from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract
@@ -167,7 +167,12 @@ class EquationReader:
             self._part(part, members, replace(origin, names=part.entries))
             return
         sides = read_left_sides(self.vocabulary, members)
-        names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, NamedAnswers)))
+        called = {
+            side.candidates: member
+            for side, member in zip(sides, members, strict=True)
+            if isinstance(side, NamedAnswers)
+        }
+        names = list(called)
         owners = tuple(name for candidates in names for name in candidates)
         origin = replace(origin, names=owners or spoken_of(self.vocabulary, members[0], sides[0]))
         if self._of_motion(members, names, origin):
@@ -181,6 +186,13 @@ class EquationReader:
             if is_read(sides[index], bool(names))
         ]
         read = self._defined_by_the_end(read)
+        values = [found.value for found in _values(read)]
+        names = [
+            called_force(self.vocabulary, name_alone(self.vocabulary, called[name]), name, values) or name
+            for name in names
+        ]
+        if names:
+            origin = replace(origin, names=tuple(name for candidates in names for name in candidates))
         if self._entry_of_vector(members[0], read, origin):
             return
         if not names:
@@ -372,6 +384,10 @@ class EquationReader:
         if isinstance(last, RightSide) and names:
             self.define(side.key, last, side.has_arguments)
             self.found.answers += self.found.value([names], values[-1], origin)
+        elif isinstance(last, RightSide) and (forces := force_meant(self.vocabulary, side.key, last.value)):
+            self.define(side.key, last, side.has_arguments)
+            made = [self.found.answer(forces, values[-1], origin)]
+            self.found.put_off(forces, made, origin.of(members, _DEFINITION))
         elif side.family:
             note = side.message.replace("unknown symbol ", "")
             made = [self.found.answer(side.family[:1], member, origin) for member in values[-1:]]

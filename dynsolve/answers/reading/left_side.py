@@ -177,6 +177,8 @@ def name_alone(vocabulary: Vocabulary, tokens: list[Token]) -> str:
         if len(tokens) > 12 or not reader.begins_with_name():
             return ""
         form = reader.form()
+        if form.key not in vocabulary.symbols:
+            skip_arguments(reader)
     except ReadError:
         return ""
     return _defined_key(form) if reader.token.kind == "end" and not form.scripts.any else ""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from dynsolve.answers.reading.by_content import force_meant
 from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.left_side import NamedAnswers, UnknownSide, name_alone, read_left_side
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
@@ -49,12 +50,18 @@ class _Term:
 
 def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> MotionEquation | None:
     """The equation of motion that a chain a = b is; None of every other chain."""
-    if len(members) != 2:
+    if len(members) != 2 or name_alone(vocabulary, members[0]) in vocabulary.defined:
         return None
     sides = [_terms(vocabulary, member) for member in members]
     named = [(side, term) for side, terms in enumerate(sides) for term in terms if term.forces]
     if len(named) > 1:
         return None
+    if not named and isinstance(read_left_side(vocabulary, members[1]), UnknownSide):
+        left = read_right_side(vocabulary, members[0])
+        name = name_alone(vocabulary, members[1])
+        forces = force_meant(vocabulary, name, left.value) if isinstance(left, RightSide) else ()
+        if isinstance(left, RightSide) and forces:
+            return MotionEquation(forces, left, is_zero=False)
     rests = [_rest(vocabulary, terms) for terms in sides]
     values = [rest.value for rest in rests if rest is not None and isinstance(rest.value, Node)]
     if len(values) < 2:
@@ -155,8 +162,10 @@ def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
         forces = tuple(force for force in side.candidates if force in known)
         if forces or not {"tau", "friction"} & set(side.candidates):
             return forces
-    elif not isinstance(side, UnknownSide) or not side.is_name_alone or not DRIVING.fullmatch(side.key):
-        return ()
+    else:  # `M_2` is no mass where the problem has only an m_2
+        is_unknown = side.is_name_alone if isinstance(side, UnknownSide) else name[-1:].isdigit()
+        if not is_unknown or not DRIVING.fullmatch(name) or name in vocabulary.others:
+            return ()
     indexed = vocabulary.named(f"tau{name[1:]}") if name[1:].isdigit() else ()
     return indexed or tuple(force for force in known if force not in vocabulary.passive)
 

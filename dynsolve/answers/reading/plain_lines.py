@@ -5,9 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+_COUNTED = r"(?:[0-9]{1,2}(?:\.[0-9]{1,2}){0,2}[a-z]?|[A-Za-z](?:\.[0-9]{1,2})?|[ivx]{2,4})"
 _LEAD = re.compile(
-    r"[ \t]*(?:\(%[io][0-9]{1,4}\)[ \t]*|>>>?[ \t]+|[-*+•>][ \t]+|[0-9]{1,2}[.)][ \t]+|\(?[a-z]\)[ \t]+)?"
+    r"[ \t]*(?:\(%[io][0-9]{1,4}\)[ \t]*|>>>?[ \t]+|[-*+•>][ \t]+)?"
+    rf"(?:\({_COUNTED}\.?\)[ \t]+|\([0-9.]{{1,6}}\)|{_COUNTED}[.)][ \t]+"
+    r"|[0-9]{1,2}\.[0-9]{1,2}[ \t]+(?=[A-Za-z\\]))?"
 )
+"""What stands before an equation in its line: a prompt, the mark of a list, its number."""
+
 _EQUATION = re.compile(r"[^\n=]{1,200}=")
 _ITEM = re.compile(r"[-*+][ \t]+[^=]{1,60}=|[-*+][ \t]+[^\s:]{1,40}:[ \t]")
 """The next item of a list, which is no term of the equation above."""
@@ -17,7 +22,9 @@ _TERMINATOR = re.compile(r"\$[ \t]*\Z")
 """The sign that ends a line of Maxima without showing its value."""
 
 _SAID = re.compile(r"[^\n=$]{1,150}:[ \t]+(?=[^\s:=]{1,40}[ \t]*=)")
-_WORDS = re.compile(r"(?:[^\W\d_]{2,30}[,.]?[ \t]+){1,20}(?=[^\s:=]{1,40}[ \t]*=)")
+_WORDS = re.compile(
+    rf"(?:[^\W\d_]{{2,30}}[,.]?[ \t]+){{1,20}}(?:{_COUNTED}[.)][ \t]+)?(?=[^\s:=]{{1,40}}[ \t]*=)"
+)
 """The words of a sentence before an equation: `The potential energy P = ...`."""
 
 _SIGN_BELOW = re.compile(r"\n[ \t]*=(?!=)")

@@ -12,6 +12,8 @@ from dynsolve.robot.units import ENERGY
 _KINETIC = "K Ek T E"
 """What stands before the name of a velocity in that of the energy that belongs to it."""
 
+_POTENTIAL, _IN_ALL = "E W U V P", "tot total ges gesamt"
+
 P_BODY = Family(
     name="P{b}",
     owner=Owner.BODY,
@@ -20,7 +22,7 @@ P_BODY = Family(
     json="P",
     dimension=ENERGY,
     unit="J",
-    spellings=each("U Ep PE Epot V", "{b}"),
+    spellings=(*each("U Ep PE V Wp", "{b}"), *each(_POTENTIAL, "pot", "{b}"), *each("E W", "{b}", "pot p")),
     part_of="P",
 )
 
@@ -57,7 +59,7 @@ K_BODY = Family(
     json="K",
     dimension=ENERGY,
     unit="J",
-    spellings=each("T Ek KE Ekin", "{b}"),
+    spellings=(*each("T Ek KE Wk", "{b}"), *each("E W T K", "kin", "{b}"), *each("E W", "{b}", "kin k")),
     part_of="K",
 )
 
@@ -68,7 +70,11 @@ P = Family(
     json="P",
     dimension=ENERGY,
     unit="J",
-    spellings=("U", "Ep", "PE", "Epot", "Ptot", "Ptotal", "V", "Etp", "Utot"),
+    spellings=(
+        *("U", "Ep", "PE", "V", "Wp", "EP", "Etp", "Epottot", "Epotges", "Wpotges"),
+        *each(_POTENTIAL, "pot potential potentiell potensiell"),
+        *each("P U V", _IN_ALL),
+    ),
 )
 
 K = Family(
@@ -78,7 +84,11 @@ K = Family(
     json="K",
     dimension=ENERGY,
     unit="J",
-    spellings=("T", "Ek", "KE", "Ekin", "Ktot", "Ktotal", "Ttot"),
+    spellings=(
+        *("T", "Ek", "KE", "Wk", "EK", "Ekintot", "Ekinges", "Wkinges"),
+        *each("E W K T", "kin kinetic kinetisch kinetisk"),
+        *each("K T", _IN_ALL),
+    ),
 )
 
 L = Family(

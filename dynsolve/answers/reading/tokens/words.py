@@ -28,9 +28,8 @@ def token_of_word(token: Token, out: list[Token]) -> Token | None:
         and not word.isdecimal()
         and (out[-1].kind in ("_", "^") or (out[-1].kind in ("{", ",", "name") and _in_script(out)))
     ):
-        return (
-            token._replace(kind="name") if word.isascii() and word.isalnum() and word[0].isalpha() else None
-        )
+        word = "".join(character for character in word if character.isalnum())
+        return token._replace(kind="name", text=word) if word.isascii() and word[:1].isalpha() else None
     if word in _FUNCTIONS:
         return token._replace(kind="name")
     if word.isdecimal() and word.isascii():

@@ -1,0 +1,67 @@
+"""What students call an answer, and what stands before it: T_2, E_pot, (4.7) g_2; the value decides."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.unit.answers.hands import checker, verdicts
+from tests.unit.answers.reading.submissions import report
+
+TORQUE = (
+    r"(m_2l_{c2}^2+I_2)(\ddot q_1+\ddot q_2)+m_2l_1l_{c2}(\cos q_2\ddot q_1+\sin q_2\dot q_1^2)"
+    r"+m_2gl_{c2}\cos(q_1+q_2)"
+)
+FORCES = (
+    "T_2 M_2 \\Gamma_2 N_2 u_2 Q_2 F_2 U_2 V_2 W_2 T_{q_2} M_{q_2} \\tau_{\\theta_2} E_2 \\mu_2 "
+    "T_2(t) M_{m,2} \\tau_{m2} M_{\\mathrm{Motor},2}"
+).split()
+WEIGHT = r"m_2gl_{c2}\cos(q_1+q_2)"
+POTENTIAL = r"m_1gl_{c1}\sin q_1+m_2g(l_1\sin q_1+l_{c2}\sin(q_1+q_2))"
+
+
+def judged(text: str, file: str = "report.md") -> dict[str, str]:
+    return verdicts(checker("planar-2r")(report(text, file)))
+
+
+@pytest.mark.parametrize("name", FORCES)
+@pytest.mark.parametrize("chain", ["{name} = {value}", "{value} = {name}"])
+def test_what_holds_accelerations_is_a_torque(name: str, chain: str) -> None:
+    right = judged(f"$${chain.format(name=name, value=TORQUE)}$$")
+    wrong = judged(f"$${chain.format(name=name, value=TORQUE.replace('+I_2', '-I_2'))}$$")
+    assert (right["tau2"], wrong["tau2"]) == ("correct", "wrong")
+
+
+def test_energies_keep_their_names() -> None:
+    assert judged(r"$$T_1=\frac12(m_1l_{c1}^2+I_1)\dot q_1^2$$ $$P_1=m_1gl_{c1}\ddot q_1$$").items() >= {
+        ("K1", "correct"), ("P1", "wrong")
+    }  # fmt: skip
+
+
+def test_an_abbreviation_beside_the_torque_is_none() -> None:
+    parts = r"$$X_2=(m_2l_{c2}^2+I_2)(\ddot q_1+\ddot q_2)$$ $$N_2=m_2l_1l_{c2}\cos q_2\,\ddot q_1$$"
+    rest = r"m_2l_1l_{c2}\sin q_2\dot q_1^2+m_2gl_{c2}\cos(q_1+q_2)"
+    assert judged(rf"{parts} $$\tau_2=X_2+N_2+{rest}$$")["tau2"] == "correct"
+
+
+@pytest.mark.parametrize(
+    "name",
+    r"W_{pot} W_p E_\text{pot} V_{ges} U_{tot} E_{\mathrm{potentiell}} E_{pot,ges} U".split(),
+)
+def test_what_the_potential_energy_is_called(name: str) -> None:
+    right, wrong = judged(f"$${name}={POTENTIAL}$$"), judged(f"$${name}={POTENTIAL.replace('sin', 'cos')}$$")
+    assert (right["P"], wrong["P"]) == ("correct", "wrong")
+
+
+LEADS = ["(1) ", "(4.7) ", "a) ", "(1a) ", "1.2) ", "1.2 ", "ii) ", "- (3) ", "(A.3) ", "(1)", "Aufgabe 1a) "]
+
+
+@pytest.mark.parametrize("lead", LEADS)
+def test_a_number_stands_before_a_line(lead: str) -> None:
+    assert judged(f"{lead}g2 = m2*g*lc2*cos(q1+q2)\n{lead}d22 = I2\n", "report.txt").items() >= {
+        ("g2", "correct"), ("d22", "wrong")
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("lead", [r"(1)\ ", r"1)\ ", r"a)\; ", r"(4.7)\quad ", r"\text{a)}\ "])
+def test_a_number_stands_before_a_display(lead: str) -> None:
+    assert judged(f"$${lead}g_2 = {WEIGHT}$$")["g2"] == "correct"
