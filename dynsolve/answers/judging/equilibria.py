@@ -14,8 +14,8 @@ from dynsolve.answers.judging.example_point import example_point
 from dynsolve.answers.judging.held_equations import held_equations
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import Part
-from dynsolve.derivation.configuration_check import is_zero, with_half_turns
-from dynsolve.derivation.equilibrium_check import in_balance, starts, zero_near
+from dynsolve.derivation.configuration_check import is_zero, with_half_turns, zero_near
+from dynsolve.derivation.equilibrium_check import in_balance, starts
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees

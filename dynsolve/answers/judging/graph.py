@@ -18,6 +18,7 @@ from typing import Any
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
+from dynsolve.answers.judging.differentiation_routes import differentiation_routes
 from dynsolve.answers.judging.model_routes import model_routes
 from dynsolve.answers.judging.recursion_routes import recursion_routes
 from dynsolve.answers.judging.route import Route
@@ -149,7 +150,7 @@ class AnswerGraph:
 
     @cached_property
     def _further(self) -> dict[str, tuple[Route, ...]]:
-        """Further routes, by their nodes: to results about the task, and to the forces by the recursions."""
+        """Further routes, by their nodes: about the task, by the recursions, by differentiating a position."""
         rules = self.answer_ring.rules
         found: dict[str, tuple[Route, ...]] = {}
         for quantity in self.quantities.values():
@@ -157,6 +158,7 @@ class AnswerGraph:
                 ways = (
                     *task_routes(self.robot.questions, quantity, self.key),
                     *recursion_routes(self.answer_ring, quantity),
+                    *differentiation_routes(self.robot, quantity),
                 )
                 if ways:
                     found[quantity.rule] = ways
