@@ -1,4 +1,4 @@
-"""Velocities and Jacobians by differentiating a position, beside the geometric way: v = ṙ_c, J_v = ∂r_c/∂q."""
+"""Velocities and Jacobians by differentiating, beside the geometric way: v = ṙ_c, J_v = ∂r_c/∂q."""
 
 from __future__ import annotations
 

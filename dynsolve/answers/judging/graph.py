@@ -150,7 +150,7 @@ class AnswerGraph:
 
     @cached_property
     def _further(self) -> dict[str, tuple[Route, ...]]:
-        """Further routes, by their nodes: about the task, by the recursions, by differentiating a position."""
+        """Further routes, by their nodes: about the task, by the recursions, by differentiating."""
         rules = self.answer_ring.rules
         found: dict[str, tuple[Route, ...]] = {}
         for quantity in self.quantities.values():

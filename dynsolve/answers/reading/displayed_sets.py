@@ -19,41 +19,35 @@ from dynsolve.answers.reading.configurations import is_set, read_equations
 from dynsolve.answers.reading.coordinate_formulas import coordinate_named, function_named, names_within
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.headed_sets import ANY
 from dynsolve.answers.reading.placed_text import placed
-from dynsolve.answers.reading.set_text import joined
+from dynsolve.answers.reading.set_text import FOLLOWS, joined
+from dynsolve.answers.reading.set_words import AND, ANNOUNCED, DENIED, OR, SO
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.span_text import space_named, span_text
 from dynsolve.answers.submission import Place
 from dynsolve.quantities.spelling import key
 
-_SPEAKS_OF = {
-    "singular": re.compile(r"singular|rank|invertib|determinant|\\det\b|\bdet\b", re.IGNORECASE),
-    "inverse": re.compile(r"invers|reach|solution|branch|elbow", re.IGNORECASE),
-    "equilibria": re.compile(r"equilibri|at rest\b|balance", re.IGNORECASE),
-}
-"""The words that announce a set of equations."""
-
 _BEFORE = 600
 """So far before a display its words are looked for."""
 
 _INLINE = r"\$[^$\n]{1,200}\$"
-_FORMULAS = re.compile(rf"(?<![$\\]){_INLINE}(?:(?:\s{{0,9}},|\s{{1,9}}(?:or|and))\s{{0,9}}{_INLINE}){{0,8}}")
+_FORMULAS = re.compile(
+    rf"(?<![$\\]){_INLINE}(?:(?:\s{{0,9}},|(?:\s{{0,9}},)?\s{{1,9}}(?:{OR}|{AND}|{SO}))\s{{0,9}}{_INLINE}){{0,8}}"
+)
 """Formulas in a sentence, one behind the other."""
 
 _MOST_FORMULAS = 500
 _MOST_ROWS = 100
 """A display of more rows is read as a whole."""
 
-_DENIED = re.compile(
-    r"\b(?:not|never|no|non-?singular|un\w+|except|near|about|around|lineari[sz]\w*)\b", re.IGNORECASE
-)
 _LAYOUT = re.compile(
     r"\\(?:label|tag)\*?\{[^{}]*\}|\\(?:begin|end)\{(?:aligned|cases|split|array)\}(?:\{[lcr]*\})?"
 )
 _GOES_ON = re.compile(r"\s*&?\s*[-+=]")
 _ROW = re.compile(r"\\\\(?:\[[^\[\]]{0,20}\])?")
 _ALIGN = re.compile(r"&\s*=|=\s*&")
-_ARROW = re.compile(r"\\(?:implies|iff|(?:Long)?(?:left)?[rR]ightarrow|to)\b|[⇒⇔⟹⟺→]")
+_ARROW = re.compile(rf"{FOLLOWS.pattern}|\\to\b|→")
 _IS_STATEMENT = re.compile(r"=|\\in\b|∈")
 _ZERO = re.compile(r"=\s*0(?:\s|\\[,;:! ]|\\q?quad|[.,;])*\Z")
 _DETERMINANT = re.compile(
@@ -76,12 +70,13 @@ class DisplayedSets:
         if (space := self._space(display)) is not None:
             display = space
         rows = _rows(display.text)
-        if not any(self._may_be_one(offset, _plain(row)) for row in rows):
+        words = self.text[max(offset - _BEFORE, 0) : offset] + _plain(display.text.partition("=")[0])
+        if not any(self._may_be_one(words, _plain(row)) for row in rows):
             self.reader.read_display(display)
             return
         for row in rows:  # what one defines may stand in the next
             text = _plain(row)
-            name = self._set_of(offset, text)
+            name = self._set_of(words, text)
             if name is not None:
                 where = display.locate(0, len(display.text))
                 self.found.setdefault(name, (where, []))[1].append(text)
@@ -111,30 +106,30 @@ class DisplayedSets:
 
     def _read_sentence(self, name: str) -> None:
         r"""`The arm is singular for $q_2 = 0$ and $q_2 = \pi$.`"""
-        for found in islice(_FORMULAS.finditer(self.text), _MOST_FORMULAS):
-            words = self.text[max(found.start() - _BEFORE, 0) : found.start()].rpartition(".")[2]
-            if not _SPEAKS_OF[name].search(words) or _DENIED.search(words):
+        text = ANY.sub(lambda said: " " * len(said[0]), self.text)
+        for found in islice(_FORMULAS.finditer(text), _MOST_FORMULAS):
+            words = text[max(found.start() - _BEFORE, 0) : found.start()].rpartition(".")[2]
+            if not ANNOUNCED[name].search(words) or DENIED.search(words):
                 continue
             formulas = _plain(found[0].replace("$", " "))
             if is_set(self.reader.vocabulary, formulas):
                 self.found[name] = (self.source.place(found.start(), len(found[0])), [formulas])
                 return
 
-    def _may_be_one(self, offset: int, text: str) -> bool:
+    def _may_be_one(self, words: str, text: str) -> bool:
         """Whether a row is part of a set, or may be when those before it are read."""
         is_formula = "inverse" in self.reader.vocabulary.quantities and self._is_unknown(
             text.partition("=")[0]
         )
-        return is_formula or self._set_of(offset, text) is not None
+        return is_formula or self._set_of(words, text) is not None
 
-    def _set_of(self, offset: int, text: str) -> str | None:
-        """The answer that the equations of a display belong to."""
+    def _set_of(self, words: str, text: str) -> str | None:
+        """The answer that the equations of a display belong to; `words` stand before them."""
         vocabulary = self.reader.vocabulary
-        asked = [name for name in _SPEAKS_OF if name in vocabulary.quantities and name not in self.told]
+        asked = [name for name in ANNOUNCED if name in vocabulary.quantities and name not in self.told]
         if not asked or not _IS_STATEMENT.search(text):
             return None
-        words = self.text[max(offset - _BEFORE, 0) : offset] + text
-        spoken = self._spoken_of(asked, words)
+        spoken = self._spoken_of(asked, words + text)
         has_begun = not spoken and "inverse" in self.found
         if "inverse" in asked and self._are_branches(text, has_begun or spoken == "inverse"):
             return "inverse"
@@ -159,7 +154,7 @@ class DisplayedSets:
     @staticmethod
     def _spoken_of(asked: list[str], words: str) -> str:
         """Which of the sets the words speak of last."""
-        ends = {name: [found.end() for found in _SPEAKS_OF[name].finditer(words)] for name in asked}
+        ends = {name: [found.end() for found in ANNOUNCED[name].finditer(words)] for name in asked}
         told = {name: found[-1] for name, found in ends.items() if found}
         return max(told, key=lambda name: told[name]) if told else ""
 

@@ -31,7 +31,7 @@ from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_ME
 from dynsolve.answers.reading.linear_models import linear_parts
 from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
 from dynsolve.answers.reading.motion_equations import acceleration_of, motion_equation
-from dynsolve.answers.reading.no_answers import calls_forces, is_inertia_force, states_constant
+from dynsolve.answers.reading.no_answers import calls_forces, is_condition, is_inertia_force, states_constant
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.right_side import (
     RightSide,
@@ -298,14 +298,16 @@ class EquationReader:
     ) -> None:
         """Every value is an answer to each name; what cannot be read is one where no value follows it."""
         values = [member.index for member in read if is_value(member.found)]
-        said = refused = ""
+        said = refused = condition = ""
         given = list[Answer]()
         for member in read:
             found = member.found
             if is_inertia_force(self.vocabulary, names, member.tokens):
                 self.found.left_alone.append(origin.of(members, "it is a vector of the recursions"))
                 return
-            if is_value(found):
+            if is_condition(self.vocabulary, names, found):
+                condition = "it says where the determinant is 0"
+            elif is_value(found):
                 given += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):
                 said = said or why_no_value(found)
@@ -316,6 +318,8 @@ class EquationReader:
         self.found.answers += given
         if refused and not given:
             self.found.not_recognized.append(origin.of(members, refused))
+        elif condition and not given:
+            self.found.said_aside(origin.of(members, condition))
         elif not given and not values:
             self._left_alone(names, members, read, origin, said)
 

@@ -12,40 +12,41 @@ from dataclasses import dataclass
 
 from dynsolve.answers.reading.configurations import read_configurations
 from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.set_words import AND, ARBITRARY, HEADS, OR, SO, STABLE
 from dynsolve.answers.reading.sources import Source
 from dynsolve.quantities.spelling import key
 
 _MARK = r"(?:[ \t>*_#+$|-]|[0-9]{1,2}[.)][ \t]|\\(?:item|noindent|par|quad|,|;|:|!|\[|\())*"
 _FONT = r"(?:\\(?:text\w{0,2}|emph|underline|paragraph\*?|(?:sub){0,2}section\*?|math(?:rm|bf))[ \t]*\{)?"
-_HEAD = r"(?P<head>[A-Za-z][A-Za-z \t'-]{2,60}?)[*_ \t}]*[:=][*_ \t}]*"
-_LINE = re.compile(rf"(?m)^{_MARK}(?P<shown>{_FONT}[*_]*{_HEAD}(?P<value>[^\n]*))$")
-_ITEM = re.compile(r"\n(?:[ \t]*\n)?[ \t]*(?:[-*+•]|\(?[0-9a-z]{1,2}[.)]|\\item\b)[ \t]*(?P<value>[^\n]*)")
-_PLACES = r"(?: (?:points?|configurations?|positions?|states?|sets?))?(?: are| is)?"
-_HEADS = {
-    "equilibria": re.compile(rf"(?:the |all )*equilibri(?:a|um){_PLACES}", re.IGNORECASE),
-    "singular": re.compile(rf"(?:the |all )*singular(?:ity|ities)?{_PLACES}", re.IGNORECASE),
-    "reduced": re.compile(r"(?:the )?reduced equations(?: of motion)?(?: are)?", re.IGNORECASE),
-    "balance": re.compile(
-        r"(?:the )?(?:conditions? (?:for|of) )?(?:gravity )?balanc(?:e|ed|ing)(?: conditions?| of gravity)?",
-        re.IGNORECASE,
-    ),
-}
-"""What a set is called at the head of a line."""
+_HEAD = r"(?P<head>[^\W\d_](?:[^\W\d_]|[ \t'-]){2,60}?)[*_ \t}]*"
+_POINT = r"(?:[ \t]*\$?\([^()=\n]{1,60}\)\$?[ \t]*)?"
+"""The coordinates in their order, behind a head: `$(q_1, q_2)$`."""
 
+_LINE = re.compile(
+    rf"(?m)^{_MARK}(?P<shown>{_FONT}[*_]*{_HEAD}"
+    rf"(?:{_POINT}(?:[:=]|\.(?=[*_ \t}}]*\$))[*_ \t}}]*(?P<value>[^\n]*)|(?P<alone>)))$"
+)
+_ITEM = re.compile(
+    r"\n(?:[ \t]*\n)?(?:[ \t]*\\begin\{(?:itemize|enumerate)\}[^\n]*\n)?"
+    r"[ \t]*(?:[-*+•]|\(?[0-9a-z]{1,2}[.)]|\\item\b)[ \t]*(?P<value>[^\n]*)"
+)
 _REMARK = re.compile(
-    r"\((?=[^()=\\]*[^\W\d_]{4})[^()=\\]*\)(?!\s*(?:=|∈|\\in))|,?[ \t]+(?:both |all )?(?:un)?stable\b"
+    r"\((?=[^()=\\]*[^\W\d_]{4})[^()=\\]*\)(?!\s*(?:=|∈|\\in))"
+    rf"|,?[ \t]+(?:both |all |beide |begge )?(?:{STABLE})\b|^[ \t]*(?:{STABLE})[ \t]*:",
+    re.IGNORECASE,
 )
 _NAME = r"\$?\\?[A-Za-z]\w{0,9}(?:_\{?\w{1,3}\}?)?\$?"
-_ANY = re.compile(
-    rf"[,;]?[ \t]*(?:\b(?:with|for|and|where)[ \t]+)?(?:\b(?:any|all|every|arbitrary)[ \t]+{_NAME}"
-    rf"|{_NAME}[ \t]+(?:(?:is|are|may be|can be)[ \t]+)?(?:arbitrary|any(?:thing|where)?|free)\b"
+ANY = re.compile(
+    rf"[,;]?[ \t]*(?:\b(?:with|for|and|where|mit|med|{AND})[ \t]+)?"
+    rf"(?:\b(?:any|all|every|arbitrary|alle|jedes|beliebiges|hver)[ \t]+{_NAME}"
+    rf"|{_NAME}[ \t]+(?:(?:is|are|may be|can be|ist|er)[ \t]+)?(?:{ARBITRARY})\b[,;]?"
     rf"|{_NAME}[ \t]*(?:∈|\\in\b)[ \t]*(?:\\mathbb[ \t]*\{{?[ \t]*)?[Rℝ]\}}?(?![A-Za-z])\$?)"
 )
 _DECORATION = re.compile(r"\\bar\b\s*|(?<=[\w}])(?:_\{?eq?\}?(?![A-Za-z0-9])|\^\{?\*\}?)")
-_LEADING = re.compile(r"\A(?:[\s,;]|(?:and|with|for)\s)+")
-_WORDS = re.compile(r";|∨|∧|\s(?:and|or)\s")
+_LEADING = re.compile(rf"\A(?:[\s,;]|(?:{AND}|with|for|mit|für|med|ved)\s)+")
+_WORDS = re.compile(rf";|∨|∧|\s(?:{AND}|{OR}|{SO})\s")
 _TUPLE = re.compile(r"\(([^()=]{1,80}(?:\([^()]{1,40}\)[^()=]{0,40})?)\)")
-_BETWEEN = re.compile(r"(?:\s|,|;|and|or|=|∈|\\in\b|\\?[{}])*")
+_BETWEEN = re.compile(rf"(?:\s|,|;|\b(?:{AND}|{OR})\b|=|∈|\\in\b|\\?[{{}}])*")
 _TRAILING = re.compile(r"(?:[\s.,;]|\\\]|\\\)|\\\\|\$\$)+\Z")
 _RELATION = re.compile(r"=|∈|\\in\b|\bnone\b|\bno\b")
 _MATHEMATICS = re.compile(r"\$|\\[()\[\]]")
@@ -69,11 +70,11 @@ class HeadedSet:
 
 def headed_sets(text: str, reader: EquationReader) -> list[HeadedSet]:
     """The sets that heads name in a report."""
-    asked = [name for name in _HEADS if name in reader.vocabulary.quantities]
+    asked = [name for name in HEADS if name in reader.vocabulary.quantities]
     coordinates = [q.name for q in reader.vocabulary.coordinates]
     found: list[HeadedSet] = []
     for line in _LINE.finditer(text) if asked else ():
-        name = next((name for name in asked if _HEADS[name].fullmatch(line["head"])), "")
+        name = next((name for name in asked if HEADS[name].fullmatch(line["head"])), "")
         if name and len(found) < _MOST and line.start() >= (found[-1].end if found else 0):
             end, values = _values(text, line)
             value = _value(values, coordinates, is_joined=name != "singular")
@@ -85,7 +86,7 @@ def headed_sets(text: str, reader: EquationReader) -> list[HeadedSet]:
 
 def _values(text: str, line: re.Match[str]) -> tuple[int, list[str]]:
     """Where the values of a head end, and these: those of its line, else the items of the list below."""
-    if line["value"].strip(_BLANK):
+    if (line["value"] or "").strip(_BLANK):
         return line.end(), [line["value"]]
     end, values = line.end(), list[str]()
     while len(values) < _MOST and (item := _ITEM.match(text, end)) is not None:
@@ -109,7 +110,7 @@ def _value(values: list[str], coordinates: Sequence[str], is_joined: bool) -> st
     """
     plain = []
     for value in values:
-        value = _MATHEMATICS.sub(" ", _DECORATION.sub("", _ANY.sub("", _REMARK.sub("", value))))
+        value = _MATHEMATICS.sub(" ", _DECORATION.sub("", ANY.sub("", _REMARK.sub("", value))))
         plain.append(_points(_LEADING.sub("", _TRAILING.sub("", value)).strip(), coordinates))
     if is_joined and len(plain) == 1:
         pieces = plain[0].split(",")

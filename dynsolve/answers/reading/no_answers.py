@@ -15,7 +15,8 @@ from dynsolve.answers.reading.right_side import RightSide
 from dynsolve.answers.reading.shapes import fitted, is_gravity_vector
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
-from dynsolve.notation.tree import Symbol
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import ZERO, Symbol
 from dynsolve.notation.walk import walk
 from dynsolve.quantities.spelling import key
 
@@ -44,6 +45,12 @@ def calls_forces(vocabulary: Vocabulary, members: Sequence[list[Token]], first: 
     forces = {"tau", *(q.force for q in vocabulary.coordinates)}
     named = [name for name in first.candidates if name in forces] if isinstance(first, NamedAnswers) else []
     return len(members) == 2 and bool(named) and says_what_drives(vocabulary, named, members[-1])
+
+
+def is_condition(vocabulary: Vocabulary, names: Names, found: RightSide | ReadError) -> bool:
+    """Whether det J = 0 says which configurations are singular, where these are asked for."""
+    is_asked = names == [("det",)] and "singular" in vocabulary.quantities
+    return is_asked and isinstance(found, RightSide) and found.value == ZERO
 
 
 def is_inertia_force(vocabulary: Vocabulary, names: Names, tokens: Sequence[Token]) -> bool:

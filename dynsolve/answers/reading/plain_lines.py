@@ -78,7 +78,8 @@ def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool
     said = _SAID.match(text, first, stop)
     first = said.end() if said else first
     words = _WORDS.match(text, first, stop)
-    if words is not None and names_answer(text[words.end() : text.index("=", words.end())].strip()):
+    heads = [text[at : text.index("=", at)].strip() for at in (first, words.end() if words else first)]
+    if words is not None and names_answer(heads[1]) and not names_answer(heads[0]):  # `det J = ...`
         return words.end()
     return first
 

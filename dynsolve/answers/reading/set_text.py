@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
 
+from dynsolve.answers.reading.set_words import AND, OR, SO
 from dynsolve.errors import ReadError
 
 Together = tuple[str, ...]
@@ -20,14 +21,16 @@ WHOLE_NUMBERS = range(4)
 """What is put for k in `k*pi/2`: every multiple of a quarter turn within one turn."""
 
 _WORD = re.compile(
-    r"\\(?:text|textrm|textnormal|mathrm|mbox)\s*\{\s*(or|and|oder|und|eller|og|ou|et)\s*\}", re.IGNORECASE
+    rf"\\(?:text|textrm|textnormal|mathrm|mbox)\s*\{{\s*,?\s*({OR}|{AND}|{SO})\s*,?\s*\}}", re.IGNORECASE
 )
 _SPACE = re.compile(r"\\[,;:! ]|\\q?quad\b|[$~]")
 _EQUALS = re.compile(r"==")
 _DETERMINANT = re.compile(r"\s*(?:\\?det\b|\||\\lvert|\\left\s*\|)[^=]*=(?=[^=]+=)")
-_FOLLOWS = re.compile(
-    r"\\(?:implies|iff|(?:Long)?(?:left)?[rR]ightarrow|(?:Long)?Leftrightarrow)\b|<?=>|[⇒⇔⟹⟺]"
+FOLLOWS = re.compile(
+    rf"\\(?:implies|iff|(?:Long|long)?(?:[lL]eft)?[rR]ightarrow)\b|<?=>|[⇒⇔⟹⟺]|(?:,\s{{0,9}}|\s)(?:{SO})(?=[\s,])"
 )
+"""What leads from one form of a set to the next, which says the same."""
+
 _INTEGERS = re.compile(
     r"\s*[,;]?\s*\(?\s*(?:\\(?:quad|text\{\s*for\s*\}|forall)\s*|for\s+|with\s+|∀\s*)?"
     r"[kn]\s*(?:(?:\\in|∈|\bin\b)\s*(?:\\mathbb\s*\{?\s*Z\s*\}?|ℤ|Z\b|(?:the\s+)?integers)|(?:an?\s+)?integer)\s*\)?"
@@ -37,11 +40,11 @@ _MODULO = re.compile(r"\s*(?:\(\s*mod(?:ulo)?\s+([^()]+)\)|\\pmod\s*\{([^{}]*)\}
 _HALF_TURN = re.compile(r"\s*(?:\\?pi|π|180\s*(?:°|deg|\^\\circ|\^\{\\circ\}))\s*\Z")
 _MEMBERS = re.compile(r"(?:\\in\b|∈|\bin\b|=)\s*\\?\{((?:[^{}]|\{[^{}]*\})*?)\\?\}\s*\Z")
 _WHOLE = re.compile(r"(?<![A-Za-z_\\])([kn])(?![A-Za-z_0-9])")
-_OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\s\|\|?\s|∨|\\(?:lor|vee)\b|;")
-_AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b")
-_JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|{_FOLLOWS.pattern}|,")
+_OR = re.compile(rf"\s(?:{OR})\s|\s\|\|?\s|∨|\\(?:lor|vee)\b|;")
+_AND = re.compile(rf"\s(?:{AND})\s|&&?|∧|\\(?:land|wedge)\b")
+_JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|{FOLLOWS.pattern}|,")
 _COMMA = re.compile(",")
-_LEADING_AND = re.compile(r"\A\s*(?:and|und|og)\s(?=[^=]*=)")
+_LEADING_AND = re.compile(rf"\A\s*(?:{AND})\s(?=[^=]*=)")
 _LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
 
@@ -83,7 +86,7 @@ def _with_numbers(text: str, values: Mapping[str, int]) -> str:
 def _spelled_out(text: str) -> str:
     """The text with words for signs, behind its last arrow, and without what is said of whole numbers."""
     text = _EQUALS.sub("=", _SPACE.sub(" ", _WORD.sub(r" \1 ", text)))
-    text = _DETERMINANT.sub("", _FOLLOWS.split(text)[-1], count=1)
+    text = _DETERMINANT.sub("", FOLLOWS.split(text)[-1], count=1)
     text = _COUNTED.sub("", _INTEGERS.sub("", text))
     if (modulo := _MODULO.search(text)) is not None:
         by = next(group for group in modulo.groups() if group is not None)

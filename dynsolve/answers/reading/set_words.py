@@ -1,0 +1,79 @@
+"""The words around sets in English, German and Norwegian: a table each, one row per language.
+
+`HEADS` are what a set is called at the head of a line or as a heading, `ANNOUNCED` what speaks of one in the
+text before a formula, `DENIED` what takes that back.  `AND`, `OR` and `SO` join formulas.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+
+def _any(*rows: str) -> str:
+    return "|".join(rows)
+
+
+def _compiled(rows: Iterable[str]) -> re.Pattern[str]:
+    return re.compile("|".join(rows), re.IGNORECASE)
+
+
+_PLACES = (
+    r"(?: (?:points?|configurations?|positions?|states?|sets?))?(?: are| is)?",
+    r"(?:lagen?|punkte?|zustände?|stellung(?:en)?|konfiguration(?:en)?)",
+    r"(?:punkt|still?ing|tilstand|posisjon|konfigurasjon)(?:er|en|et|ene)?",
+)
+_AT = ("(?: sind| ist| bei| für)?", "(?: er| når| for| ved)?")
+
+HEADS = {
+    "equilibria": _compiled((
+        rf"(?:the |all )*equilibri(?:a|um){_PLACES[0]}",
+        rf"(?:die |alle )*(?:gleichgewichte?|gleichgewichts{_PLACES[1]}|ruhelagen?){_AT[0]}",
+        rf"(?:alle )?likevekts?-?(?:{_PLACES[2]})?{_AT[1]}",
+    )),
+    "singular": _compiled((
+        rf"(?:the |all )*singular(?:ity|ities)?{_PLACES[0]}",
+        rf"(?:die |alle )*(?:singularität(?:en)?|singuläre? ?(?:{_PLACES[1]})?){_AT[0]}",
+        rf"(?:alle )?(?:singularitet(?:er|en|ene)?|singulære? ?(?:{_PLACES[2]})?){_AT[1]}",
+    )),
+    "reduced": _compiled((
+        r"(?:the )?reduced equations(?: of motion)?(?: are)?",
+        r"(?:die )?reduzierten? (?:bewegungs)?gleichungen",
+        r"(?:de )?reduserte (?:bevegelses)?(?:ligningene|ligninger|likninger|likningene)",
+    )),
+    "balance": _compiled((
+        r"(?:the )?(?:conditions? (?:for|of) )?(?:gravity )?balanc(?:e|ed|ing)(?: conditions?| of gravity)?",
+        r"(?:die )?(?:ausgleichsbedingung(?:en)?|bedingung(?:en)? für den (?:gewichts|massen)ausgleich)",
+        r"(?:betingelse(?:r|n|ne)? for )?balanser(?:ing|t)",
+    )),
+}  # fmt: skip
+
+ANNOUNCED = {
+    "singular": _compiled((
+        r"singular|rank|invertib|determinant|\\det\b|\bdet\b", r"singulär|\brang\b|invertierbar",
+        r"singulær|inverterbar",
+    )),
+    "inverse": _compiled((
+        r"invers|reach|solution|branch|elbow", r"rückwärtskinemati|erreich|lösung|ellbogen|ellenbogen",
+        r"løsning|\bnå\b|albue",
+    )),
+    "equilibria": _compiled((
+        r"equilibri|at rest\b|balance", r"gleichgewicht|ruhelage|in ruhe\b", r"likevekt|\bi ro\b",
+    )),
+}  # fmt: skip
+
+DENIED = _compiled((
+    r"\b(?:not|never|no|non-?singular|un\w+|except|near|about|around|lineari[sz]\w*)\b",
+    r"\b(?:nicht|kein\w*|nie|außer|nahe|regulär|linearisier\w*)\b",
+    r"\b(?:ikke|ingen|aldri|unntatt|nær|rundt|regulær)\b",
+))  # fmt: skip
+
+OR = _any("or", "oder", "eller", "ou")
+AND = _any("and", "und", "og", "et", "y")
+SO = _any(
+    r"i\.\s?e\.", "that is", "hence", "thus", "therefore", "so",
+    r"d\.\s?h\.", "das heißt", "also", "somit", "folglich",
+    r"dvs\.?", "det vil si", "altså", "dermed",
+)  # fmt: skip
+ARBITRARY = _any("arbitrary", r"any(?:thing|where)?", "free", "beliebig", "frei", "vilkårlig", "fri")
+STABLE = r"(?:un)?stable|(?:in)?stabil\w*|ustabil\w*"
