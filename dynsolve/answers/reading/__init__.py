@@ -27,7 +27,8 @@ Every equation ends as an answer, in `not_recognized`, which the student is show
 `configurations` reads sets: singular configurations, branches of the inverse kinematics; `set_text`
 takes apart what words join in them, `coordinate_formulas` reads their formulas, `loose_lists` finds the
 lists in what YAML refuses, `span_text` the vectors of a space, `displayed_sets` those of a report;
-`headed_sets` those behind their heads, by the words of `set_words`; `verdicts` what is said of matrices, `spoken_verdicts` in a report.
+`headed_sets` those behind their heads, by the words of `set_words`;
+`verdicts` what is said of matrices, `spoken_verdicts` in a report.
 `definitions` reads the names that an answer file declares under `symbols:` and `let:`;
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
 from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,
