@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from dynsolve.notation.tree import Node
-from dynsolve.problem.cells import read_cell
 from dynsolve.problem.fields import Fields, describe, items, word
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, STRICT
-from dynsolve.problem.table import COLUMNS
+from dynsolve.problem.table import COLUMNS, read_listed_row
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, YamlNode
 
 Table = tuple[tuple[Node, ...], ...]
@@ -48,13 +47,9 @@ def _read_table(faults: Faults, node: YamlNode, number: int) -> Table | None:
 def _read_row(faults: Faults, node: YamlNode, index: int) -> tuple[Node, ...] | None:
     if isinstance(node, FaultyNode):
         return None
-    columns = COLUMNS
-    if not isinstance(node, ListNode) or len(node.items) != len(columns):
-        found = f"{len(node.items)} cells" if isinstance(node, ListNode) else describe(node)
-        faults.error(node.span, f"row {index} of this table is [θ, d, a, α], not {found}", _HELP)
+    if not isinstance(node, ListNode):
+        message = f"row {index} of this table is [θ, d, a, α], not {describe(node)}"
+        faults.error(node.span, message, _HELP)
         return None
-    cells = [
-        read_cell(faults, item, f"{column} of row {index}", stars=column in ("theta", "d"))
-        for column, item in zip(columns, node.items, strict=True)
-    ]
-    return None if None in cells else tuple(cell.tree for cell in cells if cell)
+    cells = read_listed_row(faults, node, index)
+    return tuple(cell.tree for cell in cells.values()) if len(cells) == len(COLUMNS) else None

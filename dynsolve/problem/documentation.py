@@ -45,6 +45,7 @@ def _entry(key: Key) -> str:
 def _parts(key: Key) -> list[str]:
     """The keys of each item of a list, a line each."""
     items = key.kind.items if isinstance(key.kind, ListOf) else None
+    items = items.kinds[0] if isinstance(items, OneOf) else items
     record = items.kind if isinstance(items, Shared) else items
     if not isinstance(record, Keyed):
         return []

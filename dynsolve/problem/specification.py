@@ -201,7 +201,8 @@ OF_A_TABLE = (
 PLACED_BODY = placed_body(OneOf((TENSOR, MATRIX)))
 MODEL = model(PLACED_BODY, MAX_BODIES)
 CONVENTION = Word(tuple(convention.value for convention in Convention))
-ROWS = ListOf(Shared("row", ROW, "a row"), "a list of rows", 1, MAX_ROWS)
+LISTED_ROW = ListOf(EXPRESSION, "`[θ, d, a, α]`", 4, 4)
+ROWS = ListOf(OneOf((Shared("row", ROW, "a row"), LISTED_ROW)), "a list of rows", 1, MAX_ROWS)
 AXES_LIST = ListOf(Shared("axis", DRAWN_AXIS, "an axis"), "a list of joint axes", 1, MAX_ROWS)
 BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES)
 BASE = Keyed((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
@@ -254,7 +255,7 @@ PROBLEM = Keyed(
         Key(
             "dh",
             ROWS,
-            "The Denavit-Hartenberg table, one row per frame; missing columns are 0.",
+            "The Denavit-Hartenberg table, one row per frame, missing columns are 0; or rows [θ, d, a, α].",
             "\n- {theta: theta1* + 90deg, d: L1,  a: 0, alpha: 90deg}"
             "\n- {theta: 0,               d: L2*, a: 0, alpha: 0}",
             "must be given, or `axes`, or `model`",
@@ -293,7 +294,7 @@ PROBLEM = Keyed(
         ),
         Key(
             "also",
-            ListOf(ListOf(ListOf(EXPRESSION, "", 4, 4), "", 1, MAX_ROWS), "a list of tables"),
+            ListOf(ListOf(LISTED_ROW, "", 1, MAX_ROWS), "a list of tables"),
             "Further tables, rows of [θ, d, a, α], that count as an answer DH as they stand.",
             "[[[theta1*, L1, 0, 90deg], [0, L2*, 0, 0]]]",
             "none",

@@ -102,7 +102,7 @@ def read_table(faults: Faults, fields: Fields, modified: bool) -> DHTable:
 
 
 def _read_cells(faults: Faults, node: YamlNode, index: int) -> _Raw:
-    """The four columns of a row; a missing one is 0."""
+    """The four columns of a row, a mapping in which a missing one is 0, or a list."""
     before = len(faults.errors)
     cells: dict[str, Cell] = {}
     branch = None
@@ -115,9 +115,33 @@ def _read_cells(faults: Faults, node: YamlNode, index: int) -> _Raw:
                 cells[column] = made_cell(what, "0", node.span[0])
             elif cell := read_cell(faults, fields.get(column), what, stars=column in _KINDS):
                 cells[column] = cell
+    elif isinstance(node, ListNode):
+        cells = read_listed_row(faults, node, index)
     elif not isinstance(node, FaultyNode):
         faults.error(node.span, f"row {index} is not a mapping but {describe(node)}", _EXAMPLE)
     return _Raw(node.span, cells, len(faults.errors) > before or len(cells) < len(COLUMNS), branch)
+
+
+def read_listed_row(faults: Faults, node: ListNode, index: int) -> dict[str, Cell]:
+    """The columns of a row [θ, d, a, α]; empty (reported) where it is not four, in this order."""
+    help = "write [theta1*, 0, l1, 0], with a 0 where nothing is, or by names, {theta: theta1*, a: l1}"
+    count = len(node.items)
+    if count != len(COLUMNS):
+        message = f"row {index} is [θ, d, a, α], not {count} cell{'s' * (count != 1)}"
+        faults.error(node.span, message, help)
+        return {}
+    theta, d, *constant = (item.text.strip() if isinstance(item, ScalarNode) else "" for item in node.items)
+    if any(text.endswith("*") for text in constant) and "*" not in theta + d:
+        message = (
+            f"row {index} is [θ, d, a, α] in both conventions, and its star stands in the place of a or α"
+        )
+        faults.error(node.span, message, help)
+        return {}
+    cells = {
+        column: read_cell(faults, item, f"{column} of row {index}", stars=column in _KINDS)
+        for column, item in zip(COLUMNS, node.items, strict=True)
+    }
+    return {column: cell for column, cell in cells.items() if cell}
 
 
 def _read_start(faults: Faults, fields: Fields, index: int) -> int | None:

@@ -28,7 +28,7 @@ TABLE = {
     "unknown key": ("«mass»: []\n" + PLANAR, "unknown key `mass`", "did you mean `masses`?"),
     "unknown column": (row("{theta: q1*, «alfa»: 90deg}"), "unknown key `alfa`", "did you mean `alpha`?"),
     "no blank after the colon": (row("{theta: q1*, «d:L1»}"), "a blank is missing", "`d: L1`"),
-    "a row as a list": (row("«[q1*, 0, 0, 0]»"), "not a mapping but a list", "{theta: theta1*"),
+    "a row as a word": (row("«q1*»"), "not a mapping but `q1*`", "{theta: theta1*"),
     "a bare number": (row("{theta: theta1* + «90», d: L1}"), "bare number 90", "did you mean 90deg?"),
     "a bare number in radians": (row("{theta: q1* - «1.5708»}"), "bare number", "did you mean 90deg?"),
     "a bare number in alpha": (row("{theta: q1*, alpha: -«90»}"), "bare number", "90deg"),
