@@ -25,6 +25,7 @@ from dynsolve.grading.extensions import read_extensions
 from dynsolve.grading.groups import read_groups
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.set_keys import CAPS, POLICY, SET
+from dynsolve.problem.answer_names import answer_meant
 from dynsolve.problem.cells import read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, items, mapping, whole_number
 from dynsolve.problem.library import find
@@ -142,9 +143,7 @@ def _marks(
         for key, points in value.entries:
             name = names.canonical(key.text)
             if name is None:
-                help = (
-                    did_you_mean(key.text, names.examples()) or "answers are tau, D, C, g, P, K, L, K1, ..."
-                )
+                help = answer_meant(names, key.text) or "answers are tau, D, C, g, P, K, L, K1, ..."
                 faults.error(key.span, f"`{key.text[:40]}` is no answer of {stem}", help)
             elif name in found[stem]:
                 faults.error(key.span, f"{name} has marks already", "keep one of them")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from dynsolve.errors import ReadError
@@ -73,6 +74,15 @@ def unknown_function(token: FormulaToken, name: str) -> ReadError | None:
     return None
 
 
+def _with_point(text: str, comma: FormulaToken) -> str:
+    """What is said of a comma: the number that it was meant in, where digits stand on both sides."""
+    before = re.search(r"[0-9]+\Z", text[: comma.start])
+    after = re.match(r"[0-9]+", text[comma.end :])
+    if before and after:
+        return f"did you mean {before[0]}.{after[0]}? A decimal is written with a point"
+    return "a decimal is written with a point: 9.81"
+
+
 def unexpected(text: str, token: FormulaToken) -> ReadError:
     """A token that cannot follow a whole formula."""
     if token.kind == ")":
@@ -80,9 +90,7 @@ def unexpected(text: str, token: FormulaToken) -> ReadError:
             "this `)` closes nothing", token.start, 1, "delete it, or add the `(` that it belongs to"
         )
     if token.kind == ",":
-        return ReadError(
-            "a `,` has no meaning here", token.start, 1, "a decimal is written with a point: 9.81"
-        )
+        return ReadError("a `,` has no meaning here", token.start, 1, _with_point(text, token))
     return ReadError(f"`{token.text}` cannot stand here", token.start, token.end - token.start)
 
 
@@ -117,7 +125,7 @@ def unclosed(text: str, opening: FormulaToken, token: FormulaToken) -> ReadError
     if token.kind == "end":
         return ReadError("this `(` is never closed", opening.start, 1, "add the `)` that it belongs to")
     if token.kind == ",":
-        help = "functions take one argument; a decimal is written with a point: 9.81"
+        help = f"functions take one argument; {_with_point(text, token)}"
         return ReadError("a `,` has no meaning here", token.start, 1, help)
     return unexpected(text, token)
 

@@ -36,6 +36,7 @@
                      accepted_tables
                                     `also`, `strict`
                      exercise       `find`, `marks`, `values`, `units`
+                     answer_names   what the field calls the answers
                      remarks        `remarks`
                      parsed_file    all of them together
       -> checked     symbols        one name is one thing

@@ -14,7 +14,7 @@ from dynsolve.notation.tree import Function, Negative, Node, Power, Quotient
 from dynsolve.notation.walk import walk
 from dynsolve.problem.fields import describe
 from dynsolve.problem.source import Faults
-from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, ScalarNode, Span, YamlNode
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, ScalarNode, Span, YamlNode, too_many
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,8 @@ def read_vector(faults: Faults, node: YamlNode | None, what: str) -> tuple[Cell,
         faults.error(node.span, f"{what} is a list [x, y, z], not {describe(node)}", "write three components")
         return None
     if len(node.items) != 3:
-        faults.error(node.span, f"{what} has {len(node.items)} components, not 3", "write [x, y, z]")
+        message = f"{what} has {len(node.items)} components, not 3"
+        faults.error(node.span, message, too_many(node, "write [x, y, z]"))
         return None
     cells = tuple(
         read_cell(faults, item, f"{what}, {axis}") for item, axis in zip(node.items, "xyz", strict=True)
@@ -134,7 +135,9 @@ def _matrix_row(faults: Faults, node: YamlNode, what: str) -> tuple[Cell, ...] |
         return None
     if not isinstance(node, ListNode) or len(node.items) != 3:
         found = f"{len(node.items)} entries" if isinstance(node, ListNode) else describe(node)
-        faults.error(node.span, f"{what}: three entries are expected, not {found}", "write [..., ..., ...]")
+        help = "write [..., ..., ...]"
+        help = too_many(node, help) if isinstance(node, ListNode) else help
+        faults.error(node.span, f"{what}: three entries are expected, not {found}", help)
         return None
     cells = [read_cell(faults, item, what) for item in node.items]
     return None if None in cells else tuple(cell for cell in cells if cell)

@@ -14,8 +14,9 @@ from dynsolve.errors import AlgebraError, ReadError
 from dynsolve.notation.names import normalize
 from dynsolve.notation.tree import Node as Tree
 from dynsolve.notation.tree_values import evaluate
+from dynsolve.problem.answer_names import answer_meant
 from dynsolve.problem.cells import Cell, read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items
+from dynsolve.problem.fields import Fields, describe, items
 from dynsolve.problem.model import FIND
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.remarks import Remark, read_remarks
@@ -96,10 +97,7 @@ def _answer(faults: Faults, node: YamlNode, names: Quantities | None) -> str | N
         return node.text
     canonical = names.canonical(node.text)
     if canonical is None:
-        help = (
-            did_you_mean(node.text, names.examples())
-            or f"answers are {', '.join(FIND)}, P, K, L, K1, tau1, d11, ..."
-        )
+        help = answer_meant(names, node.text) or f"answers are {', '.join(FIND)}, P, K, L, K1, tau1, d11, ..."
         faults.error(node.span, f"`{node.text[:40]}` is no answer of this problem", help)
     return canonical
 

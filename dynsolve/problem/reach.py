@@ -12,7 +12,15 @@ from dynsolve.problem.kinematic_keys import MAX_TASK
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.table import by_coordinate
-from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
+from dynsolve.problem.yaml_nodes import (
+    FaultyNode,
+    ListNode,
+    MappingNode,
+    ScalarNode,
+    Span,
+    YamlNode,
+    too_many,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +117,8 @@ def _ranges(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> Iter
                 message = f"the range of {name} is a list [low, high], not {describe(value)}"
                 if isinstance(value, ListNode):
                     message = f"the range of {name} has {len(value.items)} ends, not 2"
-                faults.error(value.span, message, help)
+                remedy = too_many(value, help) if isinstance(value, ListNode) else help
+                faults.error(value.span, message, remedy)
         else:
             low, high = (_end(faults, item, name, kinds) for item in value.items)
             if low and high:

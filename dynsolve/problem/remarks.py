@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.problem.fields import describe, did_you_mean
+from dynsolve.problem.answer_names import answer_meant
+from dynsolve.problem.fields import describe
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, YamlNode
@@ -34,7 +35,7 @@ def read_remarks(faults: Faults, node: YamlNode | None, names: Quantities | None
         texts = _texts(faults, value, key.decoded)
         name = key.decoded if names is None else names.canonical(key.decoded)
         if name is None:
-            meant = did_you_mean(key.decoded, names.examples() if names else ())
+            meant = answer_meant(names, key.decoded) if names else ""
             message = f"`{key.decoded[:40]}` is no result of this problem"
             faults.error(key.span, message, meant or "results are P1, Kv1, K, L, tau1, D, d11, ...")
         elif name in found:

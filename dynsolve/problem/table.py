@@ -16,7 +16,15 @@ from dynsolve.problem.linear import NotLinear, linear_rates
 from dynsolve.problem.motor_coordinates import motor_coordinates
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW
-from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
+from dynsolve.problem.yaml_nodes import (
+    FaultyNode,
+    ListNode,
+    MappingNode,
+    ScalarNode,
+    Span,
+    YamlNode,
+    too_many,
+)
 
 START = "from"
 """The key of a row that says which frame it starts from."""
@@ -128,7 +136,7 @@ def read_listed_row(faults: Faults, node: ListNode, index: int) -> dict[str, Cel
     count = len(node.items)
     if count != len(COLUMNS):
         message = f"row {index} is [θ, d, a, α], not {count} cell{'s' * (count != 1)}"
-        faults.error(node.span, message, help)
+        faults.error(node.span, message, too_many(node, help))
         return {}
     theta, d, *constant = (item.text.strip() if isinstance(item, ScalarNode) else "" for item in node.items)
     if any(text.endswith("*") for text in constant) and "*" not in theta + d:

@@ -7,6 +7,7 @@ a boolean, `010` for 8 and `1:30` for 90).  A scalar is its source text.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -59,6 +60,29 @@ class FaultyNode:
 
 
 YamlNode = ScalarNode | ListNode | MappingNode | FaultyNode
+
+
+_DIGITS = re.compile("[+-]?[0-9]+")
+
+
+def decimal_comma(before: YamlNode, after: YamlNode) -> str:
+    """The number that two values next to each other were meant as: 9.81 of 9,81; empty for any others."""
+    if not (isinstance(before, ScalarNode) and isinstance(after, ScalarNode)):
+        return ""
+    adjoin = before.span[1] + 1 == after.span[0] and after.text.isdecimal()
+    return f"{before.text}.{after.text}" if adjoin and _DIGITS.fullmatch(before.text) else ""
+
+
+def write_point(number: str) -> str:
+    """The remedy for a decimal comma."""
+    return f"did you mean {number}? A decimal is written with a point"
+
+
+def too_many(node: ListNode, help: str) -> str:
+    """The remedy for a list of the wrong length: a decimal comma in it, where there is one."""
+    pairs = zip(node.items, node.items[1:], strict=False)
+    found = next(filter(None, (decimal_comma(one, other) for one, other in pairs)), "")
+    return write_point(found) if found else help
 
 
 def read_nodes(faults: Faults) -> YamlNode | None:
@@ -177,8 +201,15 @@ class _Tree:
 
     def _entries(self, items: list[YamlNode]) -> tuple[tuple[ScalarNode, YamlNode], ...]:
         entries: dict[str, tuple[ScalarNode, YamlNode]] = {}
+        last = ""
         for key, value in zip(items[::2], items[1::2], strict=True):
             if isinstance(key, FaultyNode):
+                continue
+            if last and (whole := decimal_comma(entries[last][1], key)) and value.span[0] == value.span[1]:
+                before = entries[last]
+                span = (before[1].span[0], key.span[1])
+                self.faults.error(span, f"{whole.replace('.', ',')} is cut at its comma", write_point(whole))
+                entries[last] = (before[0], FaultyNode(span))
                 continue
             if not isinstance(key, ScalarNode):
                 self.faults.error(key.span, "a key is a word, not a list or a mapping", "write `key: value`")
@@ -188,6 +219,7 @@ class _Tree:
                 self.faults.error(key.span, message, "keep one of them")
             else:
                 entries[key.decoded] = (key, value)
+                last = key.decoded
         return tuple(entries.values())
 
     def _place(self, node: YamlNode) -> None:
