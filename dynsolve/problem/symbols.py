@@ -53,7 +53,7 @@ def _kinds(parsed: ParsedFile) -> Iterator[tuple[str, Cell]]:
         for turn in rotation.turns:
             yield "an angle", turn.cell
     for body in parsed.bodies:
-        if body.mass:
+        if body.mass and body.density is None:  # in a mass that follows, a length may stand alone
             yield "a mass", body.mass
         if body.center and body.center.kind != "along":
             yield from (("a length", cell) for cell in body.center.cells)

@@ -207,6 +207,13 @@ masses: [{{link: 1, shape: {{{kind}: {{{sizes}, axis: x, density: rho0}}}}}}]
     assert not lint_text(text)
 
 
+def test_a_length_may_be_a_term_of_the_mass_that_follows() -> None:
+    """1 + 2 x over the length b is b + b²: b is no mass for that."""
+    assert not errors(
+        "dh: [{theta: q1*, a: b}]\nmasses: [{link: 1, shape: {rod: {length: b, density: 1 + 2*x}}}]"
+    )
+
+
 # -- what is refused -------------------------------------------------------------------------------
 
 
