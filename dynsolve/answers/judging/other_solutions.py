@@ -27,6 +27,7 @@ from dynsolve.answers.judging.answer_values import as_value
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, put_numbers
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.own_parameters import forces_of, multiplies_to, other_references
+from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS
 from dynsolve.derivation import statics
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rates import wanted_by_accelerations
@@ -41,6 +42,7 @@ class Other(StrEnum):
 
     OF_MANY = "another solution than that of least norm, which is the key"
     WITH_GRAVITY = "right with gravity as an acceleration of the base; in the key it is a force on each link"
+    UP_TO_CONSTANT = "right; the letter that is added is the potential energy at the zero of height"
     SPRINGS_FROM_ELSEWHERE = "right; the energy of the springs is counted from elsewhere than in the key"
     WITHOUT_LOADS = "right with the forces from outside moved over: here τ is the left side, τ + Q the right"
     WITHOUT_MULTIPLIERS = (
@@ -79,6 +81,9 @@ def other_solution(
         if _is_what_motors_give(graph, quantity, rows, compare):
             return Other.WITHOUT_LOADS
         return Other.UP_TO_FACTOR if is_equation and _is_multiple(graph, quantity, rows, compare) else None
+    is_potential = quantity is not None and quantity.family in (families.P, families.P_BODY, families.L)
+    if quantity is not None and is_potential and _differs_by_level(graph, quantity, rows[0][0]):
+        return Other.UP_TO_CONSTANT
     if quantity is not None and quantity.family in (families.P, families.L, action_families.PS):
         return Other.SPRINGS_FROM_ELSEWHERE if _differs_by_springs(graph, quantity, rows[0][0]) else None
     if node == "Cqd":
@@ -118,6 +123,21 @@ def _with_other_gravity(
     if not right:
         return None
     return Other.WITH_GRAVITY if standard else Other.WITHOUT_GRAVITY
+
+
+def _differs_by_level(graph: AnswerGraph, quantity: Quantity, written: WrittenEntry) -> bool:
+    """Whether an energy differs from the key by a letter alone, for the energy at the zero of height."""
+    difference = written.value.numerator - graph.key(quantity.rule)
+    if written.value.divisor is not None or len(difference.poly.monoms()) != 1:
+        return False
+    used = [g for g in difference.ring.generators if difference.poly.degrees()[g.index] > 0]
+    own = graph.robot.parameters
+    return (
+        len(used) == 1
+        and used[0].name in ENERGY_LEVELS
+        and used[0].name not in own
+        and difference.poly.total_degree() == 1
+    )
 
 
 def _differs_by_springs(graph: AnswerGraph, quantity: Quantity, written: WrittenEntry) -> bool:

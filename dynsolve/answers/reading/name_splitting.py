@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from dynsolve.answers.reading.tokens.lexer import Token
-from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS, ZERO_LEVELS, Vocabulary
 from dynsolve.quantities.spelling import key
 
 _LONGEST_RUN = 60
@@ -46,6 +46,8 @@ def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = Fals
         open_end = tokens[position + 1].kind == "_" if position + 1 < len(tokens) else False
         called = position + 1 < len(tokens) and tokens[position + 1].kind in _ARGUMENTS
         pieces = _pieces(token.text, vocabulary, open_end, called, naming)
+        if len(pieces) == 1 and not naming:  # the h_0 of mgh_0 is no name of the problem
+            pieces = _pieces(token.text, vocabulary, open_end, called, naming, ZERO_LEVELS)
         if len(pieces) == 1:
             out.append(token)
             continue
@@ -72,11 +74,18 @@ def _is_name(text: Token, after: list[Token], vocabulary: Vocabulary, naming: bo
     if (after and after[0].kind in ("_", "^", "'")) or len(text.text) == 1 or text.text[-1].isdigit():
         return True
     name = key(text.text)
-    return vocabulary.symbol(name) is not None or bool(vocabulary.named(name))
+    return vocabulary.symbol(name) is not None or bool(vocabulary.named(name)) or name in ENERGY_LEVELS
 
 
-def _pieces(text: str, vocabulary: Vocabulary, open_end: bool, called: bool, naming: bool) -> list[str]:
-    """The fewest names that make up a run of letters; the run itself where there are none."""
+def _pieces(
+    text: str,
+    vocabulary: Vocabulary,
+    open_end: bool,
+    called: bool,
+    naming: bool,
+    others: frozenset[str] = frozenset(),
+) -> list[str]:
+    """The fewest names, `others` among them, that make up a run of letters; the run where there are none."""
     if _known(text, vocabulary, naming) or text in _CALLS or len(text) > _LONGEST_RUN:
         return [text]
     if called and vocabulary.has_inverse_functions and _INVERSE.fullmatch(text):
@@ -93,7 +102,7 @@ def _pieces(text: str, vocabulary: Vocabulary, open_end: bool, called: bool, nam
                 continue
             final = end == len(text)
             good = _known(piece, vocabulary, naming) or (final and open_end and len(piece) == 1)
-            good = good or (piece in _FUNCTIONS and (not final or called))
+            good = good or (piece in _FUNCTIONS and (not final or called)) or key(piece) in others
             if good:
                 found = [piece, *rest]
         best[start] = found

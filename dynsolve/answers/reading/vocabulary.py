@@ -30,6 +30,12 @@ _RUNNING = re.compile(r"(?:[vwcml]|omega|lin|rot)?[ijkn]{1,3}(?:-?1)?")
 DRIVING = re.compile(r"(?:u|U|F|f|T|M|Q|tau)(?:[a-z]{0,3}|[1-9])")
 """Names of a force or torque that drives a mechanism, as students write them."""
 
+ENERGY_LEVELS = frozenset("P0 V0 U0 E0 W0 Ep0 Epot0 C c const konst".split())
+"""What students call the potential energy at their zero of height."""
+
+ZERO_LEVELS = ENERGY_LEVELS | frozenset("h0 H0 z0 y0 x0 h H href Href hzero hb P0h zref yref".split())
+"""What they call that, or the height itself."""
+
 _SHORTHAND = re.compile(r"([sScC])([0-9]+)")
 
 

@@ -10,12 +10,11 @@ from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import only_coordinates, placeholder, skip_arguments
 from dynsolve.answers.reading.grammar.scripts import BAR
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, grid
-from dynsolve.answers.reading.vocabulary import is_running
+from dynsolve.answers.reading.vocabulary import ZERO_LEVELS, is_running
 from dynsolve.notation.tree import Number, Symbol
 from dynsolve.quantities.families import HOLD_FORCES
 from dynsolve.robot.model_questions import reference
 
-_ZERO_LEVELS = frozenset("h0 H0 z0 y0 h href hzero hb P0h zref".split())
 _ANGLES = ("theta", "phi", "varphi", "th")
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
@@ -46,6 +45,14 @@ def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
     reader.notes.setdefault(f"{form.text} is read as {symbol.name}")
     skip_arguments(reader)
     return reader.with_scripts(value, form.scripts, form.start)
+
+
+def zero_level(reader: Reader, form: Form, name: str) -> Value | None:
+    """h₀, from which a student counts heights, or the potential energy P₀ that is there."""
+    if name not in ZERO_LEVELS or form.dots or not _POTENTIAL.fullmatch(reader.owner):
+        return None
+    reader.free.setdefault(name)
+    return reader.with_scripts(Symbol(name), form.scripts, form.start)
 
 
 def letter(reader: Reader, form: Form, name: str) -> Value | None:
@@ -121,14 +128,6 @@ def _running(reader: Reader, form: Form, name: str) -> Value | None:
     return _abstract(reader, f"{form.text} has a running index")
 
 
-def _zero_level(reader: Reader, form: Form, name: str) -> Value | None:
-    """h₀, from which a student counts heights."""
-    if name not in _ZERO_LEVELS or not _POTENTIAL.fullmatch(reader.owner):
-        return None
-    reader.free.setdefault(name)
-    return reader.with_scripts(Symbol(name), form.scripts, form.start)
-
-
 def _of_derivation(reader: Reader, form: Form, name: str) -> Value | None:
     """z₀, o₂, R₁"""
     is_short = form.base[:1].isalpha() and len(form.base.split("_")[0]) <= 2
@@ -172,7 +171,6 @@ _READINGS = (
     _references,
     _spelled_rates,
     _running,
-    _zero_level,
     _of_derivation,
     _height,
     _without_index,

@@ -6,7 +6,7 @@ import re
 from difflib import get_close_matches
 
 from dynsolve.answers.reading.grammar.forms import Form
-from dynsolve.answers.reading.grammar.letters import letter, only_coordinate
+from dynsolve.answers.reading.grammar.letters import letter, only_coordinate, zero_level
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import only_coordinates, quantity, skip_arguments
@@ -57,7 +57,7 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning is None:
         meaning = _meaning(reader, form, name)
     if meaning is None:
-        other = None if reader.naming else quantity(reader, form, name)
+        other = None if reader.naming else zero_level(reader, form, name) or quantity(reader, form, name)
         if other is None:
             other = letter(reader, form, name)
         if other is not None:

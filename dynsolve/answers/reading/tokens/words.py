@@ -34,6 +34,9 @@ def token_of_word(token: Token, out: list[Token]) -> Token | None:
         return token._replace(kind="name")
     if word.isdecimal() and word.isascii():
         return token._replace(kind="number")
+    if out and out[-1].kind in ("+", "-"):
+        word = word.rstrip(".")
+        token = token._replace(text=word)
     if _WORD_AS_NAME.fullmatch(word) and word.lower() not in _WORDS:
         return token
     if any(part.strip(",.:;").lower() in _WORDS for part in word.split()):

@@ -65,3 +65,19 @@ def test_a_number_stands_before_a_line(lead: str) -> None:
 @pytest.mark.parametrize("lead", [r"(1)\ ", r"1)\ ", r"a)\; ", r"(4.7)\quad ", r"\text{a)}\ "])
 def test_a_number_stands_before_a_display(lead: str) -> None:
     assert judged(f"$${lead}g_2 = {WEIGHT}$$")["g2"] == "correct"
+
+
+LEVELS = [
+    # what is added to the potential energy, and whether it may be
+    *(
+        (level, "correct")
+        for level in ("(m_1+m_2)gh_0", "(m_1+m_2)gH", "gh_{ref}(m_1+m_2)", "-(m_1+m_2)gz_0")
+    ),
+    *((level, "correct") for level in ("P_0", "V_0", "E_{p,0}", "C", r"\text{const.}", r"\mathrm{konst}")),
+    *((level, "wrong") for level in ("m_2gh_0", "h_0", "P_0^2", "m_1P_0", "P_0l_1", "m_1gl_1", "5")),
+]
+
+
+@pytest.mark.parametrize(("level", "verdict"), LEVELS)
+def test_the_zero_of_height_under_any_name(level: str, verdict: str) -> None:
+    assert judged(f"$$P = {POTENTIAL} + {level}$$")["P"] == verdict
