@@ -54,7 +54,7 @@ from dynsolve.notation.walk import names_in
 from dynsolve.quantities.model_families import QDD_FORWARD
 from dynsolve.quantities.spelling import key
 
-_CONTROL = re.compile(r"unknown (?:symbol `[Kk]_?\{?[pPdDiI]\}?`|command `\\tilde`)")
+_CONTROL = re.compile(r"unknown symbol `(?:[Kk]_?\{?[pPdDiI]\}?|[^`]*tilde\}?)`")
 """What a controller's gains and errors are told as: an equation that holds them is none of the answers."""
 
 _DEFINITION = "it defines an abbreviation"

@@ -11,7 +11,7 @@ from dynsolve.answers.reading.limits import MAX_BYTES
 from dynsolve.answers.reading.own_coordinates import with_own_coordinates
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, decoded
-from dynsolve.answers.reading.vocabulary import vocabulary
+from dynsolve.answers.reading.vocabulary import counted_from_zero, vocabulary
 from dynsolve.answers.submission import Submission
 from dynsolve.errors import Finding, ReadError
 from dynsolve.explain.style import style_of
@@ -51,11 +51,15 @@ class FileReader:
             return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
         if self.printer.remembered > MOST_PRINTED:
             self.printer = UnicodePrinter(self.style)
-        reader = EquationReader(self.vocabulary.fresh(), self.printer)
+        names = self.vocabulary.fresh()
+        names.from_zero = counted_from_zero(
+            content if isinstance(content, str) else content.decode(errors="ignore"), len(names.coordinates)
+        )
+        reader = EquationReader(names, self.printer)
         problem, student, faults = _read(reader, content, file)
         reader.found.settle()
-        names = [q.name for q in self.vocabulary.coordinates]
-        answers = tuple(with_own_coordinates(reader.found.answers, reader.coordinates, names))
+        coordinates = [q.name for q in self.vocabulary.coordinates]
+        answers = tuple(with_own_coordinates(reader.found.answers, reader.coordinates, coordinates))
         refused = tuple(reader.found.not_recognized)
         return Submission(
             problem,

@@ -66,7 +66,7 @@ class Vocabulary:
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
     `candidates` are the matrices that are to be judged;
-    `defined` is what the student defined.
+    `defined` is what the student defined; `from_zero` are the names whose indices count from 0.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -86,13 +86,14 @@ class Vocabulary:
     missed: set[str] = field(default_factory=set)
     own_entries: set[str] = field(default_factory=set)
     orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
+    from_zero: frozenset[str] = frozenset()
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
-            subscripts=self.subscripts,
+            subscripts=self.subscripts, from_zero=self.from_zero,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -280,6 +281,19 @@ class Vocabulary:
 
 _HOLD_ANGLES = frozenset({"inverse", "singular", "equilibria"})
 """Answers that give angles, and so may hold arccos and its like."""
+
+
+_BRACKETED = re.compile(r"([A-Za-z]\w*)\[(\d)(?:(?:,[ ]?|\]\[)(\d))?\]")
+
+
+def counted_from_zero(text: str, n: int) -> frozenset[str]:
+    """The names whose bracketed indices count from 0: those with a 0, beside one those that never reach n."""
+    indices: dict[str, set[int]] = {}
+    for name, *found in _BRACKETED.findall(text):
+        indices.setdefault(key(name), set()).update(int(index) for index in found if index)
+    if all(0 not in found for found in indices.values()):
+        return frozenset()
+    return frozenset(name for name, found in indices.items() if 0 in found or max(found) < n)
 
 
 def is_running(index: str) -> bool:

@@ -8,7 +8,7 @@ from dynsolve.answers.reading.grids import Abstract, Grid, Value, stacked
 from dynsolve.answers.reading.limits import MAX_ENTRIES
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node, Reference, Symbol
+from dynsolve.notation.tree import ZERO, Node, Reference, Symbol
 
 STOPS = frozenset({"quad", "qquad"})
 _MATRICES = frozenset(
@@ -21,6 +21,9 @@ _SYMMETRIC = frozenset("sym symm symmetric".split())
 _ENTRY_ENDS = frozenset({"&", "\\\\", ",", ";", "]", "}", "close", "⟩", "|"})
 MIRRORED = Symbol("*")
 """What stands for an entry that a symmetric matrix has across its diagonal: `*`, `sym.`"""
+
+EMPTY = Symbol("")
+"""What stands for an entry that was left blank."""
 
 SYMMETRIC_NOTE = "a mark in a symmetric matrix is read as the entry across the diagonal"
 
@@ -213,6 +216,7 @@ def environment(reader: Reader) -> Value:
             message, opening.start, opening.end - opening.start, "matrices are written in bmatrix"
         )
     rows: list[list[Value]] = [[]]
+    blanks: list[Token] = []
     count = 0
     while reader.token.kind not in ("close", "end"):
         kind = reader.token.kind
@@ -220,19 +224,16 @@ def environment(reader: Reader) -> Value:
             reader.take()
             rows.append([])
         elif kind == "&":
-            missing = reader.take()
-            raise ReadError(
-                "an entry of this matrix is empty", missing.start, 1, "write 0 where nothing stands"
-            )
+            blanks.append(reader.take())
+            rows[-1].append(EMPTY)
         else:
             rows[-1].append(entry(reader))
             count += 1
             if reader.token.kind in ("&", ",") and count <= MAX_ENTRIES:
                 sign = reader.take()
                 if reader.token.kind in ("\\\\", "close"):
-                    raise ReadError(
-                        "an entry of this matrix is empty", sign.start, 1, "write 0 where nothing stands"
-                    )
+                    blanks.append(sign)
+                    rows[-1].append(EMPTY)
             elif reader.token.kind not in ("\\\\", "close"):
                 raise reader.unexpected("`&` or `\\\\` is expected between the entries of a matrix")
     if reader.token.kind == "end":
@@ -244,7 +245,22 @@ def environment(reader: Reader) -> Value:
         raise ReadError(
             "this matrix is empty", opening.start, opening.end - opening.start, "write its entries"
         )
-    return finished(reader, rows, opening)
+    if blanks and not _are_zeros(rows):
+        raise ReadError(
+            "an entry of this matrix is empty", blanks[0].start, 1, "write 0 where nothing stands"
+        )
+    return finished(reader, [[ZERO if entry is EMPTY else entry for entry in row] for row in rows], opening)
+
+
+def _are_zeros(rows: list[list[Value]]) -> bool:
+    """Whether blanks are the zeros beside a diagonal: the one across is blank too, and no 0 is written."""
+    size = range(len(rows))
+    is_square = all(len(row) == len(rows) for row in rows)
+    return is_square and all(
+        rows[i][j] != ZERO and (rows[i][j] is not EMPTY or (i != j and rows[j][i] is EMPTY))
+        for i in size
+        for j in size
+    )
 
 
 def entry(reader: Reader) -> Value:

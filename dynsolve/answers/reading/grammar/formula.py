@@ -26,9 +26,8 @@ from dynsolve.answers.reading.grammar import (
 )
 from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.scripts import ACCENTS, BAR, BEGINS
+from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS, MARKS
 from dynsolve.answers.reading.grids import (
-    Abstract,
     Grid,
     Value,
     divided,
@@ -276,7 +275,7 @@ class FormulaReader(Reader):
     def begins_with_name(self) -> bool:
         """Whether a name stands here that is no function, call or derivative."""
         token = self.token
-        accented = token.kind == "command" and (token.text in ACCENTS or token.text == BAR)
+        accented = token.kind == "command" and (token.text in ACCENTS or token.text in MARKS)
         if token.kind not in ("name", "letter") and not accented:
             return False
         return not (
@@ -295,8 +294,8 @@ class FormulaReader(Reader):
             frame = self.group()
             if len(frame) == 1 and frame[0].kind == "number" and len(frame[0].text) < 3:
                 frames[kind] = frame[0].text
-        if "^" in frames and self.token.text == "hat":
-            return self.unit_vector()
+        if "^" in frames and self.token.text == "hat" and (vector := self.unit_vector()) is not None:
+            return vector
         if "^" not in frames or not self.begins_with_name():
             raise ReadError(
                 f"nothing stands before this `{sign.text}`", sign.start, 1, "a script follows its base"
@@ -322,7 +321,9 @@ class FormulaReader(Reader):
     def command(self, token: Token) -> Value:
         """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""
         name = token.text
-        if name in ACCENTS or name in (BAR, "script"):
+        if name == "hat" and (vector := self.unit_vector()) is not None:
+            return vector
+        if name in ACCENTS or name in MARKS or name == "script":
             return names.value_of(self, self.form())
         if (function := functions.name_of(token, self.vocabulary)) is not None:
             return functions.read(self, function)
@@ -336,25 +337,12 @@ class FormulaReader(Reader):
             self.take()
             above, below = self.group(), self.group()
             return self.scripted(brackets.finished(self, [[self.inner(above)], [self.inner(below)]], token))
-        if name == "hat":
-            return self.unit_vector()
-        if name in ("underbrace", "overbrace"):
-            return self.braced()
         length = token.end - token.start
         if name in ("cdots", "ldots", "dots", "vdots", "ddots"):
             message = "dots stand for something that was left out"
             raise ReadError(message, token.start, length, "write it out")
         message = f"unknown command `\\{name[:40]}`"
         raise ReadError(message, token.start, length, "the commands of LaTeX's formulas are read")
-
-    def braced(self) -> Value:
-        r"""`\underbrace{a + b}_{text}`: what the brace stands under."""
-        self.take()
-        found = self.inner(self.group())
-        while self.token.kind in ("_", "^"):
-            self.take()
-            self.group()
-        return found
 
     def fraction(self) -> Value:
         r"""`\frac{a}{b}`, which may be a derivative."""
@@ -367,14 +355,16 @@ class FormulaReader(Reader):
         self.nesting -= 1
         return found
 
-    def unit_vector(self) -> Value:
-        r"""`\hat{k}`: a unit vector of the base frame; of other frames none is known."""
-        self.take()
+    def unit_vector(self) -> Value | None:
+        r"""`\hat{k}`, which is taken: a unit vector of the base frame; other names with a hat are none."""
+        position = self.position
         form = self.form()
-        axis = {"i": 0, "x": 0, "x0": 0, "j": 1, "y": 1, "y0": 1, "k": 2, "z": 2, "z0": 2}.get(form.key)
-        if axis is None:
-            self.names_used += 1
-            return Abstract(f"{form.text} with a hat is a letter of the derivation")
+        axis = {"i": 0, "x": 0, "x0": 0, "j": 1, "y": 1, "y0": 1, "k": 2, "z": 2, "z0": 2}.get(
+            form.key.replace("hat", "")
+        )
+        if axis is None or form.key in self.vocabulary.defined:
+            self.position, self.token = position, self.tokens[position]
+            return None
         return Grid(tuple((Number(int(row == axis)),) for row in range(3)))
 
 

@@ -45,6 +45,9 @@ def read(reader: Reader, function: str) -> Value:
     """A function with its power and its argument."""
     reader.enter()
     name = reader.take()
+    if function == "atan" and reader.token.text == "2" and reader.peek().kind == "(":
+        reader.take()  # \\arctan2(y, x)
+        function = "atan2"
     scripts = Scripts()
     if function == "sqrt" and reader.token.kind == "[":
         raise ReadError("only square roots are read", reader.token.start, 1, "write \\sqrt{x}")

@@ -8,7 +8,7 @@ from dynsolve.answers.reading.grammar.forms import PSEUDO_INVERSE, Form
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import only_coordinates, placeholder, skip_arguments
-from dynsolve.answers.reading.grammar.scripts import BAR
+from dynsolve.answers.reading.grammar.scripts import MARKS
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, grid
 from dynsolve.answers.reading.vocabulary import ZERO_LEVELS, is_running
 from dynsolve.notation.tree import Number, Symbol
@@ -85,7 +85,7 @@ def _unit_vector(reader: Reader, form: Form, name: str) -> Value | None:
 
 def _other_matrix(reader: Reader, form: Form, name: str) -> Value | None:
     """J⁺ or J̄: made of another matrix, by its name."""
-    if reader.naming or not name.endswith((PSEUDO_INVERSE, BAR)):
+    if reader.naming or not name.endswith((PSEUDO_INVERSE, *MARKS)):
         return None
     return _missed(reader, name, f"{form.text} is a name for another matrix")
 

@@ -27,8 +27,8 @@ _PARTS = {
 }
 """What stands as the superscript of a kinetic energy for its translation, v, and its rotation, w."""
 
-BAR = "bar"
-r"""The accent that makes another name: `\bar J` is the student's own, and so is a pseudo-inverse `J^\#`."""
+MARKS = ("bar", "hat", "tilde")
+r"""Accents that make another name: `\bar J` is the student's own, and so is a pseudo-inverse `J^\#`."""
 
 _PSEUDO = frozenset({"sharp", "dagger", "dag", "ddagger"})
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
@@ -50,12 +50,12 @@ class ScriptCursor(Cursor):
     def form(self) -> Form:
         """A name with its accents and scripts, before it is looked up."""
         self.enter()
-        token = self.take()
+        token, mark = self.take(), ""
         if token.kind == "command" and token.text in ACCENTS:
             form = self.accented(token)
-        elif token.kind == "command" and token.text == BAR:
+        elif token.kind == "command" and token.text in MARKS:
             form = self.under(token)
-            form.index += BAR
+            mark = token.text
         elif token.kind == "command" and token.text == "script":
             form = self.under(token)
             form.script = True
@@ -67,8 +67,17 @@ class ScriptCursor(Cursor):
             raise self.unexpected("a name is expected here")
         form.start = token.start
         self.beside(form)
+        if (form.scripts.mark or form.scripts.primes) and self.is_parameter(form):
+            mark += "star" * form.scripts.mark + "prime" * form.scripts.primes
+            form.scripts.mark, form.scripts.primes = False, 0
+        form.index += mark
         self.nesting -= 1
         return form
+
+    def is_parameter(self, form: Form) -> bool:
+        r"""Whether a name is a parameter of the problem: `I^*` and `I'` are names of the student's own."""
+        symbol = self.vocabulary.symbols.get(form.key)
+        return symbol is not None and self.vocabulary.coordinate(symbol) is None
 
     def accented(self, accent: Token) -> Form:
         """A name under a dot."""
@@ -112,10 +121,8 @@ class ScriptCursor(Cursor):
                 form.index += part
             elif kind == "^" and self.pseudo_inverse():
                 form.index += PSEUDO_INVERSE
-            elif kind == "[" and self.is_index(form):
-                self.take()
-                form.index += self.take().text
-                self.take()
+            elif kind == "[" and (index := self.bracketed_index(form)):
+                form.index += index
             elif kind == "*" and self.star_is_mark(form):
                 self.take()
                 form.scripts.mark = True
@@ -123,20 +130,32 @@ class ScriptCursor(Cursor):
                 break
         form.end = self.tokens[max(self.position - 1, 0)].end
 
-    def is_index(self, form: Form) -> bool:
-        """Whether the index of a symbol stands in brackets, as Maple writes it: `m[1]`, `q[2](t)`.
+    def bracketed_index(self, form: Form) -> str:
+        """The index in brackets, which is taken, of a name with it: `m[1]`, `q[2](t)`, `D[0,0]`, `D[0][0]`.
 
-        Programs that count from 0 write them too: where there is an index 0 none is read.
+        Of a name that has an index 0 in the file every index counts from 0, as Python's do.
         """
-        index = self.peek(1)
-        if self.token.spaced or index.kind not in ("number", "name") or self.peek(2).kind != "]":
-            return False
-        if index.text == "t" or self.vocabulary.symbol(form.key + index.text) is None:
-            return False
-        return not any(
-            before.kind == "[" and token.text == "0" and after.kind == "]"
-            for before, token, after in zip(self.tokens, self.tokens[1:], self.tokens[2:], strict=False)
-        )
+        found: list[Token] = []
+        ahead = 0
+        while self.peek(ahead).kind == "[" and not self.peek(ahead).spaced and len(found) < 2:
+            found.append(self.peek(ahead + 1))
+            ahead += 2
+            if self.peek(ahead).kind == ",":
+                found.append(self.peek(ahead + 1))
+                ahead += 2
+            if self.peek(ahead).kind != "]":
+                return ""
+            ahead += 1
+        if any(t.kind not in ("number", "name") or t.text == "t" for t in found):
+            return ""
+        shift = int(form.key in self.vocabulary.from_zero)
+        index = "".join(str(int(t.text) + shift) if t.text.isdigit() else t.text for t in found)
+        name = form.key + index
+        if self.vocabulary.symbol(name) is None and not self.vocabulary.named(name):
+            return ""
+        for _ in range(ahead):
+            self.take()
+        return index
 
     def energy_part(self, form: Form) -> str:
         r"""The letter of the part of an energy that its superscript names, which is taken: `K_1^{rot}`."""

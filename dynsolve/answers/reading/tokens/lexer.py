@@ -42,10 +42,11 @@ _GREEK = "".join(SPELLED)
 _LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳℓ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
 _BRACED = r"_\{[ ]?[A-Za-z0-9]{1,20}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{1,20}){0,5}[ ]?\}"
-_NAME_PART = rf"[{_LETTER}{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}"
+_UNDOTTED = rf"(?!(?:_?[{_INDEX}]+|_\{{[0-9]+\}})?[\u0307\u0308])"
+_NAME_PART = rf"[{_LETTER}]{_UNDOTTED}|[{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}"
 _TOKEN = re.compile(
     rf"""[ ]*(?:
-      (?P<name>[{_LETTER}](?![\u0307\u0308])(?:{_NAME_PART})*)
+      (?P<name>[{_LETTER}]{_UNDOTTED}(?:{_NAME_PART})*)
     | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f\u2061-\u2064~]|%(?!pi\b)[^\n]*(?:\n|$)
           |\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
     | (?P<comma>[0-9]+\{{,\}}[0-9]+)
@@ -55,7 +56,8 @@ _TOKEN = re.compile(
     | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|=:|==|[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″■@〖〗!$≡≜≔≕≝⟨⟩])
     | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
     | (?P<dotted>(?:[{_LETTER}][\u0307\u0308]{{1,2}}|[{_PRECOMPOSED}])
-          (?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
+          (?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*
+          |[{_LETTER}](?:_?[{_INDEX}]+|_\{{[0-9]+\}})[\u0307\u0308]{{1,2}})
     | (?P<percent>%pi)
     | (?P<accent>[\u0307\u0308])
     | (?P<fraction>[½⅓⅔¼¾⅙⅚⅛⅜⅝⅞])
@@ -104,7 +106,8 @@ _LAYOUT = frozenset(
     "negthinspace hfill hfil noindent centering small normalsize large Large it rm cal sf tt scriptsize "
     "footnotesize allowbreak newline hline protect relax smallskip medskip bigskip par bfseries itshape "
     "upshape mathstrut strut null displaybreak nobreak IEEEnonumber IEEEyesnumber empheqlbrace empheqlbrack "
-    "toprule midrule bottomrule xspace unskip ignorespaces boldmath unboldmath".split()
+    "toprule midrule bottomrule xspace unskip ignorespaces boldmath unboldmath "
+    "checkmark blacksquare square Box qed".split()
 )
 SEPARATORS = frozenset(
     "quad qquad implies Rightarrow Leftrightarrow Longrightarrow iff therefore because".split()
@@ -326,7 +329,7 @@ def _name(piece: Token) -> Token:
     if not text.isascii():
         if text[0] in _PRECOMPOSED:
             text = unicodedata.normalize("NFD", text[0]) + text[1:]
-        dots = sum(_DOTTED.get(character, 0) for character in text[1:3])
+        dots = sum(_DOTTED.get(character, 0) for character in text)
         text = _plain(text)
     return piece._replace(kind="name", text=text, dots=dots)
 

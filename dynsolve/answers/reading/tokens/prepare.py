@@ -29,6 +29,11 @@ _MATRICES = {"pmatrix": "pmatrix", "bmatrix": "bmatrix", "matrix": "matrix", "mq
     "pmqty": "pmatrix", "bmqty": "bmatrix", "Pmqty": "pmatrix", "smqty": "matrix"
 }  # fmt: skip
 """Commands whose argument is a matrix: `\\pmatrix{a\\cr b}`, as Maxima and plain TeX write it."""
+_CANCELLED = frozenset("cancel bcancel xcancel hcancel sout st".split())
+_ACCENTS = {"widehat": "hat", "widetilde": "tilde", "overline": "bar"}
+_BEFORE_TERM = frozenset({"+", "-", "=", "&", "\\\\", "(", "[", "{", "begin"})
+_AFTER_TERM = frozenset({"+", "-", "=", "&", "\\\\", ")", "]", "}", "close", "end", ",", ";"})
+"""What stands beside a whole term."""
 _DERIVATIVES = {"dv": "d", "odv": "d", "derivative": "d", "pdv": "partial", "partialderivative": "partial"}
 _STACKED = frozenset({"overset", "underset", "stackrel"})
 _FRACTIONS = frozenset("frac dfrac tfrac cfrac nicefrac sfrac flatfrac xfrac".split())
@@ -89,6 +94,8 @@ def simplified(tokens: list[Token]) -> list[Token]:
             out.append(token._replace(kind="separator"))
         elif kind == "name" and is_qualified(token, tokens, position):
             position += 1
+        elif kind == "$" and out and (out[-1].kind == "{" or tokens[position].kind == "}"):
+            continue  # a box around a formula: \\fbox{$a$}
         elif kind == "=" and systems:
             systems[-1][1] = 1
             out.append(token)
@@ -173,7 +180,16 @@ def _simplify_command(
 ) -> int:
     """A command with one spelling, or left out if it is a font; gives where to go on."""
     if token.text in _FONTS:
+        if token.spaced and tokens[position].kind != "end":
+            tokens[position] = tokens[position]._replace(spaced=True)
         return _script_inside(tokens, position, out)
+    if token.text in _CANCELLED or token.text == "cancelto":
+        return _without_cancelled(token, tokens, position, out)
+    if token.text in ("underbrace", "overbrace"):
+        _, end = taken_group(tokens, position)
+        if tokens[end].kind in ("_", "^"):
+            del tokens[end : taken_group(tokens, end + 1)[1]]
+        return position
     if token.text in _FRACTIONS:
         out.append(token._replace(text="frac"))
         if tokens[position].kind in ("name", "number", "letter"):
@@ -194,11 +210,30 @@ def _simplify_command(
         if dots and dots == len(over) and dots < 3:
             out.append(token._replace(text="dot" if dots == 1 else "ddot"))
         return position
-    out.append(token._replace(text="script") if token.text in _SCRIPT else token)
+    text = "script" if token.text in _SCRIPT else _ACCENTS.get(token.text, token.text)
+    out.append(token._replace(text=text))
     has_power = token.text in _POWERED and tokens[position].kind == "^"
     if has_power or token.text == "sqrt":
         _one_token(tokens, position + has_power)
     return position
+
+
+def _without_cancelled(command: Token, tokens: list[Token], position: int, out: list[Token]) -> int:
+    r"""`\cancel{a}`: of a term nothing is left, of a factor or a numerator 1; `\cancelto{0}{a}` says what.
+
+    Gives where to go on.
+    """
+    inside, end = taken_group(tokens, position)
+    if command.text == "cancelto":
+        del tokens[end : taken_group(tokens, end)[1]]
+        return position
+    before = out[-1].kind if out else "="
+    if before in _BEFORE_TERM and tokens[end].kind in _AFTER_TERM and inside[:1] != []:
+        is_argument = before == "{" and tokens[end].kind == "}"
+        left = "1" if is_argument else "0"
+        if inside[0].kind not in ("+", "-"):
+            out.append(command._replace(kind="number", text=left))
+    return end
 
 
 def _script_inside(tokens: list[Token], position: int, out: list[Token]) -> int:

@@ -81,3 +81,32 @@ LEVELS = [
 @pytest.mark.parametrize(("level", "verdict"), LEVELS)
 def test_the_zero_of_height_under_any_name(level: str, verdict: str) -> None:
     assert judged(f"$$P = {POTENTIAL} + {level}$$")["P"] == verdict
+
+
+@pytest.mark.parametrize(
+    "entries",
+    [
+        "M[0,0] = I1 + I2 + m1*lc1**2 + m2*(l1**2 + lc2**2 + 2*l1*lc2*cos(q[1]))\nM[1, 1] = {0}\n",
+        "M[0][0] = I1 + I2 + m1*lc1**2 + m2*(l1**2 + lc2**2 + 2*l1*lc2*cos(q2))\nM[1][1] = {0}\n",
+        "M[2,2] = {0}\nM[1,1] = I[1] + I[2] + m[1]*lc1^2 + m2*(l[1]^2 + lc2^2 + 2*l1*lc2*cos(q[2]))\n",
+    ],
+)
+def test_indices_from_0_and_from_1(entries: str) -> None:
+    right = judged(entries.format("I2 + m2*lc2^2"), "report.txt")
+    wrong = judged(entries.format("I2 + m1*lc2^2"), "report.txt")
+    assert (right["d11"], right["d22"], wrong["d22"]) == ("correct", "correct", "wrong")
+
+
+@pytest.mark.parametrize("name", [r"\hat I_2", r"\tilde{I}_2", r"\overline{I}_2", "I_2^*", "I_2'"])
+def test_a_parameter_under_a_mark_is_another_name(name: str) -> None:
+    assert judged(f"$${name} = I_2 + m_2l_{{c2}}^2$$ $$d_{{22}} = {name}$$")["d22"] == "correct"
+
+
+def test_blanks_beside_a_diagonal_are_zeros() -> None:
+    given = verdicts(
+        checker("in3140-rp")(
+            report(r"$$D=\begin{bmatrix} I_{1zz}+m_2L_2^2 & \\ & m_2\end{bmatrix}$$", stem="in3140-rp")
+        )
+    )
+    missed = judged(r"$$D = \begin{bmatrix} I_2 & m_2l_{c2}^2 \\ & I_2 \end{bmatrix}$$")
+    assert (given["D"], missed["D"]) == ("correct", "unreadable")

@@ -63,6 +63,12 @@ ELBOW = [
     ("I1*q̈1 + I2*q̇₂²", "I1*q1_ddot + I2*q2_dot**2"),
     ("I1*theta1 + I2*θ̇2", "I1*q1 + I2*q2_dot"),
     ("½ m₁ lc1² q̇₁²", "m1*lc1**2*q1_dot**2/2"),
+    # what is crossed out, put in boxes or braces
+    (r"m_1g - \cancel{m_2g} + \cancelto{0}{m_2}", "m1*g"),
+    (r"\frac{\cancel{2}m_1g}{\bcancel{2}}\xcancel{+ m_2}", "m1*g"),
+    (r"\underbrace{m_1g}_{\text{weight}}l_1 + \overbrace{m_2}^{=a}g", "m1*g*l1 + m2*g"),
+    (r"\fbox{$m_1g$} \checkmark", "m1*g"),
+    ("I1*q1̈ + I2*q₂̇²", "I1*q1_ddot + I2*q2_dot**2"),
     # TeX takes one character, or one command, as an argument
     (r"\frac g2m_1l_1", "g*m1*l1/2"),
     (r"\frac{m_1}2l_1^2 + \frac12m_2 + \frac1{2}I_1 + \frac {I_2}34", "m1*l1**2/2 + m2/2 + I1/2 + 4*I2/3"),
