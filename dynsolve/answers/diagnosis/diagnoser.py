@@ -23,10 +23,11 @@ from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSl
 from dynsolve.answers.diagnosis.differences import what_differs
 from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermSlip
 from dynsolve.answers.diagnosis.factors import FactorPairs
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming
+from dynsolve.answers.diagnosis.numbers import number_for_a_letter
 from dynsolve.answers.diagnosis.one_place import ratio_of
 from dynsolve.answers.diagnosis.own_steps import OwnSteps
-from dynsolve.answers.diagnosis.parts import is_small, parts
+from dynsolve.answers.diagnosis.parts import is_small, parts, used
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
 from dynsolve.answers.diagnosis.substitution import substitutions
 from dynsolve.answers.diagnosis.term_writer import TermWriter
@@ -106,7 +107,10 @@ class Diagnoser:
             return tuple(self._of_fractions(wrong))
         if mine is None or not is_small(mine):
             return ()
-        found = tuple(dict.fromkeys(self._named(wrong, mine)))
+        mine, numbers = self._in_letters(wrong, mine)
+        found = tuple(dict.fromkeys((*numbers, *self._named(wrong, mine))))
+        if any(one.code == "numbers_for_letters" for one in found):
+            return found
         return (*found, *(d for d in self.dimension_check(wrong, mine) if d not in found))
 
     def of_coriolis(self, row: WrongEntry, compared: KeyComparison) -> tuple[Diagnosis, ...]:
@@ -145,8 +149,21 @@ class Diagnoser:
                 return key
         return nearest
 
+    def _in_letters(self, wrong: WrongEntry, mine: Expr) -> tuple[Expr, list[Diagnosis]]:
+        """The answer with letters for the numbers in their places, and what is said of these."""
+        told: list[Diagnosis] = []
+        expected = self.expected(wrong)
+        while is_small(expected) and (found := number_for_a_letter(mine, expected, self._numbers)):
+            letter, number, mend = found
+            part, other = self.words.of(self.ring.constant(number)), self.words.generator(letter)
+            told.append(slip("number_for_letter", yours=self.words.of(mend.have), part=part, other=other))
+            mine = mend.applied(mine)
+        return mine, told
+
     def _named(self, wrong: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
         """What is told of an answer: the first explanation that holds, else what differs."""
+        if mine == self.expected(wrong):
+            return
         constant = self._is_constant(wrong, mine)
         if constant:
             yield slip("constant_term")
@@ -203,17 +220,16 @@ class Diagnoser:
 
     def _with_numbers(self, mine: Expr, expected: Expr) -> tuple[Expr, Expr]:
         """Both with the numbers of the problem file, as far as the answer has numbers for symbols."""
-        put = self._numbers
-        if not put or not mine.poly:
+        put, here = self._numbers, set(used(mine))
+        unused = {i: value for i, value in put.items() if i not in here}
+        if not unused.keys() & set(used(expected)):
             return mine, expected
-        degrees = mine.poly.degrees()
-        unused = {i: value for i, value in put.items() if degrees[i] <= 0}
         choices = [
-            (mine, expected),
             (mine, substituted(expected, unused)),
+            (mine, expected),
             (substituted(mine, put), substituted(expected, put)),
         ]
-        return max(choices, key=lambda pair: likeness(*pair))
+        return max((pair for pair in choices if pair[0] != pair[1]), key=lambda pair: likeness(*pair))
 
     # -- one explanation after the other, see _IN_ORDER --------------------------------------------
 
@@ -240,6 +256,15 @@ class Diagnoser:
         else:
             told = slip("factor_all", yours=case.wrong.called, part=self.words.number(ratio))
         yield self._told((mend,), self._refined(told, case.wrong))
+
+    def _another_model(self, case: Case) -> Iterator[Explanation]:
+        """Something more than the problem has, as a load at the tip: without its letters all is right."""
+        here = [self.ring.generators[i] for i in used(case.mine)]
+        unknown = [g for g in here if g.kind == "symbol" and self.words.is_unknown(g)]
+        if unknown:
+            mend = Renaming(case.mine, {g.index: self.ring.zero.poly for g in unknown})
+            told = slip("another_model", part=" and ".join(map(self.words.generator, unknown)))
+            yield self._told((mend,), told)
 
     def _one_place(self, case: Case) -> Iterator[Explanation]:
         """One slip in one place: a lost square, a dropped mass, an index, a missing term."""
@@ -332,6 +357,7 @@ class Diagnoser:
 _IN_ORDER: tuple[Callable[[Diagnoser, Case], Iterator[Explanation]], ...] = (
     Diagnoser._step_otherwise,
     Diagnoser._one_number,
+    Diagnoser._another_model,
     Diagnoser._one_place,
     Diagnoser._one_substitution,
     Diagnoser._something_left_out,

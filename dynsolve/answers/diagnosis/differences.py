@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.answers.diagnosis.numbers import letters_in_numbers
 from dynsolve.answers.diagnosis.parts import monomial_expr, parts
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
@@ -21,6 +22,10 @@ def what_differs(words: TermWriter, called: str, mine: Expr, expected: Expr) -> 
     """
     if mine.is_zero:
         yield slip("zero", yours=called)
+        return
+    letters = letters_in_numbers(mine, expected)
+    if letters:
+        yield slip("numbers_for_letters", other=_listed([words.generator(g) for g in letters]))
         return
     ours, theirs = parts(mine), parts(expected)
     missing = len(theirs.keys() - ours.keys())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from fractions import Fraction
 from itertools import permutations
 from typing import Any
 
@@ -11,7 +10,6 @@ from flint import fmpq
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
-from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.mends import Exchange, Mend, Renaming, put_polynomials
 from dynsolve.answers.diagnosis.parts import used
@@ -154,33 +152,10 @@ def _symbols(words: TermWriter, values: _Pair) -> Iterator[Found]:
         if g.kind in ("symbol", "function") and not g.dots and g.name not in ring.names and g.name != "pi"
     ]  # fmt: skip
     have, wanted = {*used(mine)}, {*used(expected)}
-    for g in parameters:
-        number = _number_for(g, mine, expected) if g.index in wanted - have else None
-        if number is not None and values.becomes({g.index: ring.constant(number).poly}):
-            yield from _number(words, values, ring.constant(number), ring.generator(g.index))
     changed = (mine - expected).poly.monoms()
     for a, b in permutations(parameters, 2):
         if a.index in wanted and b.index in have and all(m[a.index] or m[b.index] for m in changed):
             yield from _symbol(words, a, b, values)
-
-
-def _number(words: TermWriter, values: _Pair, number: Expr, symbol: Expr) -> Iterator[Found]:
-    """A number where a symbol belongs."""
-    rest, left = divmod((values.expected - values.mine).poly, (symbol - number).poly)
-    if not left:
-        mend = Exchange(Expr(values.ring, rest), number, symbol)
-        yield slip("symbol", yours=words.of(mend.have), part=words.of(number), other=words.of(symbol)), mend
-
-
-def _number_for(g: Generator, mine: Expr, expected: Expr) -> Fraction | None:
-    """The number that may stand for a symbol of first degree: told by the first term that holds it."""
-    ours = mine.poly.to_dict()
-    for exponents, value in expected.poly.to_dict().items():
-        if exponents[g.index] == 1:
-            bare = (*exponents[: g.index], 0, *exponents[g.index + 1 :])
-            number = fraction(ours[bare] / value) if bare in ours else None
-            return None if number in (None, 1, -1) else number
-    return None
 
 
 def _symbol(words: TermWriter, a: Generator, b: Generator, values: _Pair) -> Iterator[Found]:
@@ -189,10 +164,10 @@ def _symbol(words: TermWriter, a: Generator, b: Generator, values: _Pair) -> Ite
     x, y = ring.generator(a.index), ring.generator(b.index)
     if values.becomes({a.index: y.poly}):
         yours = words.of(mine)
-        if b.kind == "function":
-            told = slip("odd_argument", yours=yours)
-        elif words.is_unknown(b):
-            told = slip("unknown_symbol", part=words.generator(b))
+        if words.is_unknown(b):
+            is_function = b.kind == "function"
+            unknown = slip("unknown_symbol", part=words.generator(b))
+            told = slip("odd_argument", yours=yours) if is_function else unknown
         else:
             told = slip("symbol", yours=yours, part=words.generator(b), other=words.generator(a))
         yield told, values.back({b.index: x.poly})

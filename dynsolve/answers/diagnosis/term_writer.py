@@ -12,7 +12,7 @@ from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.explain.forms import leading_names, parallel_coordinates
 from dynsolve.explain.style import style_of
 from dynsolve.notation.build import power
-from dynsolve.notation.tree import Negative, Node, Number, Product, Quotient, Symbol, number
+from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter
 
 LONGEST = 160
@@ -59,8 +59,10 @@ class TermWriter:
         return self._printer.text(power(node, exponent))
 
     def is_unknown(self, g: Generator) -> bool:
-        """Whether a symbol, or a function of an unexpected argument, is none of the problem's."""
-        return g.kind in ("symbol", "function") and bool(self._problem) and g.name not in self._problem
+        """Whether a symbol, or a sine or cosine of an unexpected argument, is none of the problem's."""
+        is_odd = isinstance(g.node, Function) and g.node.name in ("sin", "cos", "tan")
+        is_known = g.name in self._problem if g.kind == "symbol" else not (g.kind == "function" and is_odd)
+        return bool(self._problem) and not is_known
 
 
 def _coefficient(node: Node) -> Fraction:

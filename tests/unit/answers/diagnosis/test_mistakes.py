@@ -31,7 +31,14 @@ NAMES_A_STEP = {
 }  # fmt: skip
 """What claims no formula."""
 
-ONLY_SAYS_WHAT_DIFFERS = {"terms_differ", "terms_missing", "trig_part", "unknown_symbol", "constant_term"}
+ONLY_SAYS_WHAT_DIFFERS = {
+    "terms_differ",
+    "terms_missing",
+    "trig_part",
+    "unknown_symbol",
+    "constant_term",
+    "number_for_letter",
+}
 
 
 @lru_cache(maxsize=512)

@@ -1,0 +1,88 @@
+"""A number where a letter belongs: 9.81 for g, in some terms of an answer or in all of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection
+from fractions import Fraction
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.rationals import fraction
+from dynsolve.answers.diagnosis.mends import Exchange, put_polynomials
+from dynsolve.answers.diagnosis.parts import used
+
+PLAIN = {Fraction(p, q) for p in (-4, -2, -1, 0, 1, 2, 4) for q in (1, 2, 4)}
+"""What stands before a term by itself is taken for no letter."""
+
+Exponents = tuple[int, ...]
+Found = tuple[Generator, Fraction, Exchange]
+"""A letter, the number in its place, and what mends that."""
+
+
+def number_for_a_letter(mine: Expr, expected: Expr, given: Collection[int]) -> Found | None:
+    """The number that stands for a letter in the most terms; `given` may stand as either."""
+    absent = _absent(mine, expected)
+    letters = (g for g in absent if g.index not in given)
+    found = (one for g in letters if (one := _of(g, absent, mine, expected)) is not None)
+    return max(found, key=lambda one: len(one[2].have), default=None)
+
+
+def letters_in_numbers(mine: Expr, expected: Expr) -> list[Generator]:
+    """The letters in whose places numbers stand, in all terms that differ; none where any is no such term."""
+    absent = _absent(mine, expected)
+    right = expected.poly.to_dict()
+    terms: dict[Exponents, list[Exponents]] = {}
+    for exponents in right:
+        terms.setdefault(_without(exponents, absent), []).append(exponents)
+    missing = set()
+    for bare, value in mine.poly.to_dict().items() if mine.poly else ():
+        if bare not in right:
+            there = terms.get(bare, [])
+            if not there or any(fraction(value / right[e]) in PLAIN for e in there):
+                return []
+            missing |= {g for g in absent for e in there if e[g.index]}
+    return sorted(missing, key=lambda g: g.index)
+
+
+def _absent(mine: Expr, expected: Expr) -> list[Generator]:
+    """The parameters that are expected and not there."""
+    ring, here = mine.ring, set(used(mine))
+    found = (ring.generators[i] for i in used(expected) if i not in here)
+    return [g for g in found if g.kind == "symbol" and not g.dots and g.name not in (*ring.names, "pi")]
+
+
+def _of(g: Generator, absent: list[Generator], mine: Expr, expected: Expr) -> Found | None:
+    """The number in place of one letter, None where there is none, or it may be that of another term."""
+    if not mine.poly:
+        return None
+    ours, right = mine.poly.to_dict(), expected.poly.to_dict()
+    alike = Counter(_without(exponents, absent) for exponents in right)
+    ratios = Counter(
+        fraction(ours[bare] / value)
+        for exponents, value in right.items()
+        if exponents[g.index] == 1 and (bare := _without(exponents, [g])) in ours and bare not in right
+        and alike[_without(exponents, absent)] == 1
+    )  # fmt: skip
+    number = next((one for one, _ in ratios.most_common() if one not in PLAIN), None)
+    if number is None:
+        return None
+    ring = mine.ring
+    put = put_polynomials(expected, {g.index: ring.constant(number).poly}).poly.to_dict()
+    moved = {_without(exponents, [g]) for exponents in right if exponents[g.index]}
+    there = {bare for bare in moved if bare in ours and ours[bare] == put.get(bare)}
+    if not there:
+        return None
+    have = _kept(mine, ours, there)
+    want = _kept(mine, right, {e for e in right if _without(e, [g]) in there})
+    return g, number, Exchange(ring.one, have, want)
+
+
+def _without(exponents: Any, letters: list[Generator]) -> Exponents:
+    places = {g.index for g in letters}
+    return tuple(0 if i in places else int(e) for i, e in enumerate(exponents))
+
+
+def _kept(mine: Expr, terms: dict[Any, Any], places: Collection[Exponents]) -> Expr:
+    return Expr(mine.ring, mine.ring.ctx.from_dict({e: v for e, v in terms.items() if e in places}))
