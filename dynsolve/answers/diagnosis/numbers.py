@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection
 from fractions import Fraction
+from math import isqrt
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
@@ -60,9 +61,9 @@ def _of(g: Generator, absent: list[Generator], mine: Expr, expected: Expr) -> Fo
     ours, right = mine.poly.to_dict(), expected.poly.to_dict()
     alike = Counter(_without(exponents, absent) for exponents in right)
     ratios = Counter(
-        fraction(ours[bare] / value)
+        _root(fraction(ours[bare] / value), int(exponents[g.index]))
         for exponents, value in right.items()
-        if exponents[g.index] == 1 and (bare := _without(exponents, [g])) in ours and bare not in right
+        if exponents[g.index] and (bare := _without(exponents, [g])) in ours and bare not in right
         and alike[_without(exponents, absent)] == 1
     )  # fmt: skip
     number = next((one for one, _ in ratios.most_common() if one not in PLAIN), None)
@@ -77,6 +78,12 @@ def _of(g: Generator, absent: list[Generator], mine: Expr, expected: Expr) -> Fo
     have = _kept(mine, ours, there)
     want = _kept(mine, right, {e for e in right if _without(e, [g]) in there})
     return g, number, Exchange(ring.one, have, want)
+
+
+def _root(value: Fraction, power: int) -> Fraction:
+    """The number with a power, 0 where none is rational."""
+    root = value if power == 1 else Fraction(isqrt(abs(value.numerator)), isqrt(value.denominator))
+    return root if root**power == value else Fraction(0)
 
 
 def _without(exponents: Any, letters: list[Generator]) -> Exponents:

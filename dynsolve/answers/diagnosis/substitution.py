@@ -11,7 +11,7 @@ from flint import fmpq
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Renaming, put_polynomials
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, put_polynomials
 from dynsolve.answers.diagnosis.parts import used
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
@@ -35,8 +35,9 @@ class _Pair:
     points of a circle there, so that what is equal in the ring is equal at the point.
     """
 
-    def __init__(self, mine: Expr, expected: Expr) -> None:
-        self.mine, self.expected = _differing(mine, expected), _differing(expected, mine)
+    def __init__(self, mine: Expr, expected: Expr, whole: bool = False) -> None:
+        pair = (mine, expected) if whole else (_differing(mine, expected), _differing(expected, mine))
+        self.mine, self.expected = pair
         self.right = {*used(mine - self.mine)}
         self.ring = mine.ring
         kinds = {self.ring.generators[i].kind for i in (*used(self.mine), *used(self.expected))}
@@ -82,6 +83,7 @@ def substitutions(graph: AnswerGraph, words: TermWriter, mine: Expr, expected: E
         return
     yield from _angles(words, pair)
     yield from _symbols(words, pair)
+    yield from _throughout(words, _Pair(mine, expected, whole=True))
 
 
 def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Found]:
@@ -146,16 +148,29 @@ def _holds(node: Node, part: Node) -> bool:
 
 def _symbols(words: TermWriter, values: _Pair) -> Iterator[Found]:
     """One parameter for another throughout, or two exchanged."""
-    ring, mine, expected = values.ring, values.mine, values.expected
-    parameters = [
-        g for g in ring.generators
-        if g.kind in ("symbol", "function") and not g.dots and g.name not in ring.names and g.name != "pi"
-    ]  # fmt: skip
+    mine, expected, parameters = values.mine, values.expected, _parameters(values.ring)
     have, wanted = {*used(mine)}, {*used(expected)}
     changed = (mine - expected).poly.monoms()
     for a, b in permutations(parameters, 2):
         if a.index in wanted and b.index in have and all(m[a.index] or m[b.index] for m in changed):
             yield from _symbol(words, a, b, values)
+
+
+def _throughout(words: TermWriter, values: _Pair) -> Iterator[Found]:
+    """One parameter for another everywhere, also where the other stands rightly."""
+    have, wanted = {*used(values.mine)}, {*used(values.expected)}
+    for a, b in permutations(_parameters(values.ring), 2):
+        is_gone = a.index in wanted - have and b.index in have & wanted
+        if is_gone and values.becomes({a.index: values.ring.generator(b.index).poly}):
+            told = slip("symbol_throughout", part=words.generator(b), other=words.generator(a))
+            yield told, Redoing(values.mine, values.expected)
+
+
+def _parameters(ring: Ring) -> list[Generator]:
+    return [
+        g for g in ring.generators
+        if g.kind in ("symbol", "function") and not g.dots and g.name not in ring.names and g.name != "pi"
+    ]  # fmt: skip
 
 
 def _symbol(words: TermWriter, a: Generator, b: Generator, values: _Pair) -> Iterator[Found]:
