@@ -12,7 +12,8 @@
     pages                   the student's page
     record                  everything that is known, in SQLite
     outputs, files          grades.csv, answers.csv and the students' pages, from the record
-    queue                   what waits for a human
+    queue, queue_page       what waits for a human, and the page on which it is decided
+    key_forms, keys         the key of each answer, set for that page by a worker; in the record
     cohort, item_analysis   what is counted of a course, and how well its answers tell students apart
     teacher, histogram      the teacher's page
     copies                  what was handed in, where that page links to it

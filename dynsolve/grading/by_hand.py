@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from dynsolve.errors import Finding, InputError
+from dynsolve.grading.files import safe
 
 COLUMNS = ("student", "problem", "answer", "marks", "comment")
 
@@ -51,4 +52,4 @@ def read_by_hand(path: Path) -> Iterator[ByHand]:
 def _plain(cell: str) -> str:
     """A cell without the apostrophe that keeps a spreadsheet from running it."""
     cell = cell.strip()
-    return cell[1:] if cell[:2] in ("'=", "'+", "'-", "'@") else cell
+    return cell[1:] if cell[:1] == "'" and safe(cell[1:]) == cell else cell

@@ -17,7 +17,8 @@ from dynsolve.render.files import write_changed
 
 FOLDER = "hand-ins"
 
-_SHOWN = (".pdf", ".png", ".jpg", ".jpeg", ".gif", ".webp", ".bmp")
+PICTURES = (".png", ".jpg", ".jpeg", ".gif", ".webp", ".bmp")
+_SHOWN = (".pdf", *PICTURES)
 _SAVED = (
     ".docx", ".doc", ".odt", ".rtf", ".pages", ".xlsx", ".pptx", ".zip", ".rar", ".7z", ".gz", ".tar",
     ".heic", ".tif", ".tiff", ".mp4", ".mov",

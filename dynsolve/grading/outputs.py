@@ -19,6 +19,8 @@ from dynsolve.grading.files import decimal, folder_name, remove_others, table, w
 from dynsolve.grading.pages import HEAD_HERE, absent_page, unpack
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.queue import Entry, queue
+from dynsolve.grading.queue_page import FILE as QUEUE_PAGE
+from dynsolve.grading.queue_page import queue_page
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
 from dynsolve.grading.teacher import teachers_page
 from dynsolve.render.markdown import escaped
@@ -38,6 +40,7 @@ def write_outputs(
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
     write(folder / "queue.csv", table(_queue(waits)))
+    write(folder / QUEUE_PAGE, queue_page(folder, problems, record, waits, names))
     _feedback(folder / "feedback", problems, record, names)
     copies = {path.name for path in (folder / FOLDER).glob("*")}
     write(folder / "report.html", teachers_page(problems, record, waits, names, copies))

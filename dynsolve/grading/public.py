@@ -16,6 +16,7 @@ from dynsolve.grading.cohort import standings
 from dynsolve.grading.copies import write_copies
 from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
+from dynsolve.grading.keys import keep_keys
 from dynsolve.grading.meant import meant_student
 from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.platforms import canvas
@@ -32,7 +33,7 @@ from dynsolve.grading.platforms.registry import (
 )
 from dynsolve.grading.pool import Bounds, LocalPool
 from dynsolve.grading.problem_set import ProblemSet, store_set, stored_set
-from dynsolve.grading.queue import Entry
+from dynsolve.grading.queue import Entry, queue
 from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.set_file import load_set
@@ -123,6 +124,8 @@ def grade(
             keep_names(record, intake.names)
             store_set(record, chosen)
             done = grade_all(chosen, uploads, intake, record, pool, progress)
+            waiting = {entry.problem for entry in queue(record, chosen.stems)}
+            keep_keys(record, chosen, waiting.intersection(chosen.stems), pool)
         write_copies(folder, uploads, intake.files)
         waits = write_outputs(folder, chosen, record, names(record))
         warnings = (*export(folder, chosen, record), *filter(None, (unknown,)))

@@ -28,7 +28,7 @@ from dynsolve.grading.fingerprints import (
 from dynsolve.grading.hand_ins import File, HandIn, Intake
 from dynsolve.grading.marking import rescored
 from dynsolve.grading.pool import Bounds
-from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.rows import row_of_result, rows_of_absent
 from dynsolve.grading.sections import without
@@ -149,15 +149,21 @@ def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: Hand
 
 def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
     """What a worker needs, independent of this machine."""
-    item = problems.item(hand_in.problem)
     return {
-        "problem": {"file": Path(item.problem.file).name, "text": item.text},
-        "marks": {name: str(of) for name, of in item.problem.marks.items()},
+        **payload_of_problem(problems.item(hand_in.problem)),
         "policy": to_data(problems.policy),
         "files": [
             {"name": name, "content": base64.b64encode(content).decode()}
             for name, content in (_own_part(file, _same(uploads, file)) for file in hand_in.files)
         ],
+    }
+
+
+def payload_of_problem(item: Item) -> Data:
+    """What a worker needs of a problem."""
+    return {
+        "problem": {"file": Path(item.problem.file).name, "text": item.text},
+        "marks": {name: str(of) for name, of in item.problem.marks.items()},
     }
 
 

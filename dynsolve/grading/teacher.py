@@ -257,7 +257,8 @@ def _queue(cohort: Cohort, copies: Set[str]) -> str:
             yield _row(who, _hand_in(cohort, copies, e.student, e.problem), answer, what, _text(e.why))
 
     more = len(cohort.queue) - MOST_WAITING
-    note = "The problem leads to what was handed in."
+    note = 'Decide them on <a href="queue.html">the page of the queue</a>, or fill in queue.csv.'
+    note += " The problem leads to what was handed in."
     note += f" {more} more are in queue.csv." if more > 0 else ""
     return _table(_waiting(cohort), ("student", "problem", "answer", "what", "why"), rows(), note)
 

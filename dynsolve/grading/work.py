@@ -28,6 +28,7 @@ from dynsolve.answers.submission import (
     VerdictAnswer,
 )
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
+from dynsolve.grading.key_forms import key_pages
 from dynsolve.grading.marking import basis
 from dynsolve.grading.pages import student_page
 from dynsolve.problem.reader import read_problem
@@ -54,8 +55,11 @@ def grade_one(payload: Data, answer_by_answer: float = 0.0) -> Data:
     """Judge and mark a hand-in; `payload` has problem, marks, policy and files.
 
     With `answer_by_answer` seconds every answer is tried by itself first; what is too much is unreadable.
+    A payload with a `key` has no hand-in, and asks for the key of each answer.
     """
     checker = checker_of(payload)
+    if payload.get("key"):
+        return key_pages(checker)
     read = [checker.reader(base64.b64decode(file["content"]), file["name"]) for file in payload["files"]]
     submission = _joined(read, checker.reader.vocabulary.quantities)
     if not answer_by_answer:
