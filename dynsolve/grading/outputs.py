@@ -18,7 +18,7 @@ from dynsolve.grading.copies import FOLDER
 from dynsolve.grading.files import decimal, folder_name, remove_others, table, write
 from dynsolve.grading.pages import HEAD_HERE, absent_page, unpack
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.queue import Entry, queue
+from dynsolve.grading.queue import Entry, for_a_human, queue
 from dynsolve.grading.queue_page import FILE as QUEUE_PAGE
 from dynsolve.grading.queue_page import queue_page
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
@@ -40,8 +40,8 @@ def write_outputs(
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
     write(folder / "queue.csv", table(_queue(waits)))
-    write(folder / QUEUE_PAGE, queue_page(folder, problems, record, waits, names))
     _feedback(folder / "feedback", problems, record, names)
+    write(folder / QUEUE_PAGE, queue_page(folder, problems, record, waits, names))
     copies = {path.name for path in (folder / FOLDER).glob("*")}
     write(folder / "report.html", teachers_page(problems, record, waits, names, copies))
     return waits
@@ -159,7 +159,8 @@ def _explained(row: RecordedHandIn, answers: list[RecordedAnswer]) -> Iterator[t
     for a in answers:
         if a.of != "0" and (a.said or a.comment or not row.reason or a.fault != row.reason):
             name = f"{a.answer} {a.label}".strip()
-            yield name, f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why
+            looks = "; your teacher looks at it" if for_a_human(a) and not a.said else ""
+            yield name, f"{shown(points(a.marks))} of {shown(points(a.of))}", f"{a.why}{looks}"
 
 
 def _html(head: _Head, page: str) -> str:

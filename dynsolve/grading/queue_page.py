@@ -25,7 +25,7 @@ from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import ReadError
 from dynsolve.grading.copies import FOLDER, PICTURES, copy_name
-from dynsolve.grading.files import decimal, safe
+from dynsolve.grading.files import decimal, folder_name, safe
 from dynsolve.grading.keys import kept_keys
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.queue import Entry
@@ -192,6 +192,9 @@ def _hand_in(course: _Course, entry: Entry) -> str:
     paths = course.uploads.get((entry.student, entry.problem), ())
     every = dict.fromkeys((*([entry.what] if entry.what not in paths else []), *paths))
     links = " ".join(filter(None, (_linked(course.folder, path) for path in every)))
+    page = f"feedback/{folder_name(entry.student)}/{entry.problem}.html"
+    if (course.folder / page).is_file():
+        links += f' · <a href="{quote(page)}" target="_blank">what the student reads</a>'
     path, line = _place(course, entry)
     lines = "".join(_window(_lines(course.folder, path), line))
     text = f'<pre tabindex="0" aria-label="What was handed in" dir="auto">{lines}</pre>' if lines else ""
