@@ -101,7 +101,7 @@ def test_of_many_refused_files_the_report_names_the_rest(tmp_path: Path, set_fol
     ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"))
     assert ran.err.count("refused: link") == 20
     assert "refused: 3 more, which the report names" in ran.err
-    assert (tmp_path / "out" / "report.html").read_text().count(".yaml</td><td>a link") == 23
+    assert (tmp_path / "out" / "report.html").read_text().count(".yaml</td><td>a link") == 46  # K and g
 
 
 def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, set_folder: Path) -> None:

@@ -7,6 +7,7 @@ import os
 from concurrent.futures import Future
 from dataclasses import replace
 from fractions import Fraction
+from math import floor
 from pathlib import Path
 
 import pytest
@@ -163,8 +164,10 @@ def test_the_marks_of_answers_are_the_grades(tmp_path: Path) -> None:
     for row in rows:
         mine = [answer for answer in answers if answer["student"] == row["student"]]
         for stem in PROBLEMS:
-            marks = [Fraction(a["marks"]) for a in mine if a["problem"] == stem]
-            assert sum(marks) == Fraction(row[stem] or 0)  # what nobody has judged is left open
+            earned = sum(Fraction(a["marks"]) for a in mine if a["problem"] == stem)
+            if row["student"] in ("s0_0", "s4_4", "s8_8"):  # late, which keeps 80 %
+                earned = Fraction(floor(earned * Fraction(4, 5) * 4 + Fraction(1, 2)), 4)
+            assert earned == Fraction(row[stem] or 0)  # what nobody has judged is left open
         assert sum(Fraction(row[stem] or 0) for stem in PROBLEMS) == Fraction(row["total"] or 0)
         assert (row["student"] == "pdf") == (not row["planar-2r"])
         assert sum(Fraction(answer["of"]) for answer in mine) == Fraction(row["of"])
