@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+from dynsolve.answers.reading.pretty_print import one_line
+
+_HEAD = r"[ \t]*[^\s=:][^=:\n]{0,40}[ \t]*(?::=|[=:])[ \t]*"
 _COUNTED = r"(?:[0-9]{1,2}(?:\.[0-9]{1,2}){0,2}[a-z]?|[A-Za-z](?:\.[0-9]{1,2})?|[ivx]{2,4})"
 _LEAD = re.compile(
     r"[ \t]*(?:\(%[io][0-9]{1,4}\)[ \t]*|>>>?[ \t]+|[-*+•>][ \t]+)?"
@@ -40,6 +43,11 @@ _BLANK_LINE = re.compile(r"\n[ \t]*(?=\n|\Z)")
 _ENTRY = re.compile(r"[ \t]*[^\s=\[#%:][^=\n:]*")
 """A line that is one entry of a column, or one row of a matrix, as MATLAB prints it."""
 
+_PARAGRAPH = re.compile(
+    rf"(?:{_HEAD}\n(?:[ \t]*\n)?)?(?:(?!{_HEAD}(?:\n|\Z))[^\n]*[^\s][^\n]*(?:\n|\Z))+", re.MULTILINE
+)
+"""Lines below each other, which may draw one formula; a name and its sign may stand above them alone."""
+
 _POWERS = re.compile(r"[ \t]{2,}[0-9][0-9 \t]*")
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _TRAILING = frozenset("=+-*/,([{&\\")
@@ -50,10 +58,16 @@ def plain_lines(
     text: str, start: int, end: int, names_answer: Callable[[str], bool]
 ) -> Iterator[tuple[int, str]]:
     """The equations between two offsets: each with its own, and its text, which has the length it had."""
-    position = start
+    position, begins = start, True
     while position < end:
         stop = text.find("\n", position, end)
         stop = end if stop < 0 else stop
+        drawn = _PARAGRAPH.match(text, position, end) if begins else None
+        if drawn is not None and (equation := one_line(drawn[0], names_answer)):
+            yield position, equation
+            position = drawn.end()
+            continue
+        begins = not text[position:stop].strip()
         first = _begins(text, position, stop, names_answer)
         if first >= 0:
             head, stop = stop, _whole(text, first, stop, end)

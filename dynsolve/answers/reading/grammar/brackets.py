@@ -79,8 +79,9 @@ def angular(reader: Reader) -> Value:
 def parenthesis(reader: Reader) -> Value:
     """(a + b); or a tuple (a, b), a column."""
     before, reader.rows_by_line = reader.rows_by_line, False
+    blanks, reader.by_blanks = reader.by_blanks, False
     found = _parenthesis(reader)
-    reader.rows_by_line = before
+    reader.rows_by_line, reader.by_blanks = before, blanks
     return found
 
 
@@ -120,10 +121,10 @@ def listed(reader: Reader, first: Value, opening: Token) -> Value:
 
 def square(reader: Reader) -> Value:
     """[...]: rows after commas, semicolons or line ends; or a bracket around a sum."""
-    before = reader.rows_by_line
-    reader.rows_by_line = _lines_are_rows(reader)
+    before, blanks = reader.rows_by_line, reader.by_blanks
+    reader.rows_by_line, reader.by_blanks = _lines_are_rows(reader), "spaces" in reader.options
     found = _square(reader)
-    reader.rows_by_line = before
+    reader.rows_by_line, reader.by_blanks = before, blanks
     return found
 
 
@@ -169,7 +170,7 @@ def _square(reader: Reader) -> Value:
             reader.take()
         elif reader.rows_by_line and reader.token.broken and kind != "]":
             rows.append([])
-        elif kind not in (";", "\\\\", "]") and not ("spaces" in reader.options and reader.token.spaced):
+        elif kind not in (";", "\\\\", "]") and not (reader.by_blanks and reader.token.spaced):
             reader.expect("]", opening)
     reader.expect("]", opening)
     rows = [row for row in rows if row]

@@ -23,8 +23,10 @@ _DOTS = {"dot": 1, "ddot": 2}
 def is_call(reader: Reader) -> bool:
     """Whether a call of a function that programs print stands here."""
     token = reader.token
-    if token.text == "Derivative" and reader.peek().kind == "[":
+    if token.text in ("Derivative", "Hold") and reader.peek().kind == "[":
         return True
+    if token.text == "D" and reader.peek().kind == "[":
+        return _is_by_time(reader)
     if token.kind != "name" or reader.peek().kind != "(":
         return False
     if functions.is_elsewhere(token) and functions.name_of(token, reader.vocabulary) is None:
@@ -44,8 +46,13 @@ def read(reader: Reader) -> Value:
     reader.enter()
     name = reader.take()
     opening = reader.take()
-    if opening.kind == "[":
+    if name.text == "Hold":
+        found = reader.sum()
+        reader.expect("]", opening)
+    elif opening.kind == "[" and name.text == "Derivative":
         found = _mathematica_derivative(reader, opening)
+    elif name.text == "D":
+        found = _derivative(reader, opening, "]")
     elif name.text in _DERIVATIVES:
         found = _derivative(reader, opening)
     elif name.text in _MATRICES:
@@ -75,10 +82,13 @@ def _matrix(reader: Reader, opening: Token) -> Value:
     while True:
         value = reader.sum()
         rows.append([value])
-        if reader.token.kind != ",":
+        if reader.token.kind != "," or reader.peek(2).kind == "=":
             break
         reader.take()
-    reader.expect(")", opening)
+    if reader.token.kind == ",":  # Maple's `storage = rectangular`
+        reader.until(")", opening)
+    else:
+        reader.expect(")", opening)
     while len(rows) > 1 and isinstance(rows[0][0], Number) and isinstance(rows[-1][0], Grid):
         rows = rows[1:]  # Matrix(2, 2, [[a, b], [c, d]]) says its size first
     if len(rows) == 1:
@@ -122,10 +132,21 @@ def _was_nested(reader: Reader, opening: Token) -> bool:
     return reader.tokens[at + 2].kind == "[" if at + 2 < len(reader.tokens) else False
 
 
-def _derivative(reader: Reader, opening: Token) -> Value:
-    """diff(x, t), diff(x, t, 2), diff(x, t$2), Derivative(x, (t, 2)), diff(L, x)."""
+def _is_by_time(reader: Reader) -> bool:
+    """Whether Mathematica's D[x, t] or D[x, {t, 2}] stands here, and no entry D[1, 2]."""
+    level = 0
+    for place in range(reader.position + 1, len(reader.tokens)):
+        level += {"[": 1, "]": -1}.get(reader.tokens[place].kind, 0)
+        if level == 0:
+            ends = [token.text for token in reader.tokens[place - 5 : place]]
+            return ends[-2:] == [",", "t"] or ends[:3] == ["{", "t", ","]
+    return False
+
+
+def _derivative(reader: Reader, opening: Token, closing: str = ")") -> Value:
+    """diff(x, t), diff(x, t, 2), diff(x, t$2), Derivative(x, (t, 2)), diff(L, x), D[x, {t, 2}]."""
     of = reader.sum()
-    tokens = reader.until(")", opening)
+    tokens = reader.until(closing, opening)
     order, by_time, others = 0, False, []
     for token in tokens:
         if token.kind == "name" and token.text == "t":

@@ -66,7 +66,13 @@ class Form:
 
 def index_text(tokens: list[Token]) -> str:
     r"""The index that tokens spell: `{\omega_1}` is omega1, `{1,zz}` is 1zz."""
-    kept = [t.text for t in tokens if t.kind in ("name", "letter", "number") or t.kind in ("+", "-")]
+    kept, dots = [], ""
+    for token in tokens:
+        if token.kind == "command" and token.text in ("dot", "ddot"):
+            dots = token.text  # SymPy sets the ddot of theta1_ddot as a d with a dot
+        elif token.kind in ("name", "letter", "number", "+", "-"):
+            kept.append(token.text + (dots or ("", "dot", "ddot")[token.dots]))
+            dots = ""
     return key("".join(kept))
 
 

@@ -110,6 +110,8 @@ class FormulaReader(Reader):
             sign = self.token.kind
             if (sign != "+" and sign != "-") or (self.rows_by_line and self.token.broken):
                 break
+            if self.by_blanks and self.token.spaced and not self.peek().spaced:  # MATLAB's [a -b]
+                break
             self.take()
         self.nesting -= 1
         if len(terms) > 1:
@@ -154,7 +156,7 @@ class FormulaReader(Reader):
         token = self.token
         kind = token.kind
         if kind in BEGINS:
-            if "spaces" in self.options and token.spaced:
+            if self.by_blanks and token.spaced:
                 return False
             if kind == "command" and token.text in brackets.STOPS:
                 return False
@@ -165,7 +167,7 @@ class FormulaReader(Reader):
         return not (self.rows_by_line and token.broken)
 
     def _quote_follows(self) -> bool:
-        return self.is_quoted() and not ("spaces" in self.options and self.token.spaced)
+        return self.is_quoted() and not (self.by_blanks and self.token.spaced)
 
     def factor(self) -> Value:
         """Signs, then an atom with its scripts."""

@@ -29,8 +29,8 @@ class Reader(ScriptCursor):
 
     How it is read: `naming` makes names of answers win over symbols, as on a left-hand side;
     `owner` is the answer that the value is given for; `options` are the bolder guesses that
-    are allowed (see `right_side`); `rows_by_line` says that line ends separate rows, `bars_separate`
-    that `|` stands between entries.
+    are allowed (see `right_side`); `rows_by_line` says that line ends separate rows, `by_blanks` that
+    blanks separate entries, `bars_separate` that `|` does.
 
     What was found: `references` are the names of answers in the value, `symbols` its symbols,
     `free` those that belong to no problem, `notes` what the student is told about the reading;
@@ -39,7 +39,7 @@ class Reader(ScriptCursor):
     """
 
     __slots__ = (
-        "naming", "owner", "options", "rows_by_line", "bars_separate",
+        "naming", "owner", "options", "rows_by_line", "by_blanks", "bars_separate",
         "references", "symbols", "free", "notes", "candidates", "names_used", "letters",
     )  # fmt: skip
 
@@ -53,7 +53,7 @@ class Reader(ScriptCursor):
     ) -> None:
         super().__init__(tokens, vocabulary)
         self.naming, self.owner, self.options = naming, owner, options
-        self.rows_by_line = self.bars_separate = False
+        self.rows_by_line = self.by_blanks = self.bars_separate = False
         self.references: dict[str, None] = {}
         self.symbols: dict[str, None] = {}
         self.notes: dict[str, None] = {}

@@ -43,7 +43,9 @@ _LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳℓ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
 _BRACED = r"_\{[ ]?[A-Za-z0-9]{1,20}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{1,20}){0,5}[ ]?\}"
 _UNDOTTED = rf"(?!(?:_?[{_INDEX}]+|_\{{[0-9]+\}})?[\u0307\u0308])"
-_NAME_PART = rf"[{_LETTER}]{_UNDOTTED}|[{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}"
+_NAME_PART = (
+    rf"[{_LETTER}]{_UNDOTTED}|[{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9](?![\u0307\u0308]))|{_BRACED}"
+)
 _TOKEN = re.compile(
     rf"""[ ]*(?:
       (?P<name>[{_LETTER}]{_UNDOTTED}(?:{_NAME_PART})*)

@@ -1,0 +1,283 @@
+"""Formulas in two dimensions, as SymPy prints them, and matrices drawn in plain text -> one line.
+
+Exponents stand on the line above, fractions over a line of dashes, brackets go over several lines:
+
+          2 ⎛  2        ⎞
+        θ̇₁ ⋅⎝L₂ ⋅m₂ + I₁⎠
+    K = ─────────────────
+                2
+
+A formula is read from left to right along its base line, which is that of what stands leftmost.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from dynsolve.answers.reading.limits import MAX_NESTING
+
+_OPENING = frozenset("⎛⎜⎝⎡⎢⎣")
+_CLOSING = frozenset("⎞⎟⎠⎤⎥⎦")
+_ASCII = frozenset("/\\|[]")
+_BARS = frozenset("─-")
+_CELL = re.compile("[^\u0307\u0308][\u0307\u0308]*")
+_BESIDE = re.compile(r"[ \t0-9/\\|]+")
+"""A line with exponents alone, or with brackets beside them."""
+
+_HEAD = re.compile(r"[ \t]*([^\s=:][^=:\n]{0,40}?)[ \t]*(?::=|[=:])[ \t]*$", re.MULTILINE)
+_DERIVATIVE = re.compile(r"[d∂](?:\^\d)?")
+_LONGEST, _MOST_LINES = 20_000, 100
+
+
+class _NoFormulaError(Exception):
+    """What was drawn is no formula of this kind."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Box:
+    """A part of what was drawn: rows from `top` to before `bottom`, columns from `left` to before `right`."""
+
+    top: int
+    bottom: int
+    left: int
+    right: int
+
+
+def one_line(paragraph: str, names_answer: Callable[[str], bool]) -> str:
+    """The equation that a paragraph draws over several lines, in one line; empty where it draws none."""
+    if "\n" not in paragraph or len(paragraph) > _LONGEST or not _is_drawn(paragraph):
+        return ""
+    head = _HEAD.match(paragraph)
+    drawn = paragraph[head.end() :].strip("\n") if head else paragraph
+    if drawn.count("\n") > _MOST_LINES:
+        return ""
+    picture = _Picture([_CELL.findall(line.expandtabs()) for line in drawn.split("\n")])
+    try:
+        text = picture.text()
+    except (_NoFormulaError, RecursionError):
+        return ""
+    text = f"{head[1]} = {text}" if head else text
+    name, sign, _ = text.partition("=")
+    return text if sign and names_answer(name.strip()) else ""
+
+
+def _is_drawn(paragraph: str) -> bool:
+    """Whether brackets over lines, a line of dashes or one of exponents stand in a paragraph."""
+    lines = paragraph.split("\n")
+    ends = [line.rstrip()[-1:] for line in lines]
+    is_matrix = any(end and end in "|]" and end == below for end, below in itertools.pairwise(ends))
+    has_signs = any(sign in paragraph for sign in ("⎛", "⎡", "─", "--"))
+    return has_signs or is_matrix or any(line.strip() and _BESIDE.fullmatch(line) for line in lines)
+
+
+@dataclass(slots=True)
+class _Picture:
+    """Lines cut into cells, a letter with its dots being one; `read` are those that were read."""
+
+    lines: list[list[str]]
+    read: set[tuple[int, int]] = field(default_factory=set)
+    depth: int = 0
+
+    def text(self) -> str:
+        """All of it as one line."""
+        whole = _Box(0, len(self.lines), 0, max(map(len, self.lines)))
+        found = self._formula(whole)
+        cells = ((row, column) for row, line in enumerate(self.lines) for column in range(len(line)))
+        if any(self._at(*cell) != " " and cell not in self.read for cell in cells):
+            raise _NoFormulaError
+        return found
+
+    def _at(self, row: int, column: int) -> str:
+        line = self.lines[row] if 0 <= row < len(self.lines) else []
+        return line[column] if 0 <= column < len(line) else " "
+
+    def _take(self, row: int, column: int) -> str:
+        self.read.add((row, column))
+        return self._at(row, column)
+
+    def _is_blank(self, box: _Box) -> bool:
+        return all(
+            self._at(row, column) == " "
+            for row in range(box.top, box.bottom)
+            for column in range(box.left, box.right)
+        )
+
+    def _formula(self, box: _Box, base: int = -1) -> str:
+        self.depth += 1
+        if self.depth > MAX_NESTING:
+            raise _NoFormulaError
+        base = self._base_line(box) if base < 0 else base
+        out: list[str] = []
+        column = box.left
+        while column < box.right:
+            sign = self._at(base, column)
+            above = _Box(box.top, base, column, column + 1)
+            if sign == " " and not self._is_blank(above) and out:
+                column = self._exponent(box, base, column, out)
+            elif sign in _BARS and self._is_fraction(box, base, column):
+                column = self._fraction(box, base, column, out)
+            elif (rows := self._bracket(box, base, column)) is not None:
+                column = self._bracketed(rows, base, column, out)
+            else:
+                out.append(self._take(base, column))
+                column += 1
+        self.depth -= 1
+        return "".join(out).strip()
+
+    def _base_line(self, box: _Box) -> int:
+        """The line of what stands leftmost: of several signs there a line of dashes, the longest."""
+        if box.bottom - box.top == 1:
+            return box.top
+        for column in range(box.left, box.right):
+            rows = [row for row in range(box.top, box.bottom) if self._at(row, column) != " "]
+            if not rows:
+                continue
+            bars = [row for row in rows if self._is_fraction(box, row, column)]
+            if bars:
+                return max(bars, key=lambda row: self._bar_end(box, row, column))
+            if len(rows) == 1:
+                return rows[0]
+            inside = self._bracket(box, rows[0], column)
+            if inside is None:
+                raise _NoFormulaError
+            if self._at(rows[0], column) in "⎡[|":
+                return rows[len(rows) // 2]
+            return self._base_line(_Box(inside.top, inside.bottom, inside.left + 1, inside.right))
+        raise _NoFormulaError
+
+    def _bar_end(self, box: _Box, row: int, column: int) -> int:
+        end = column
+        while end < box.right and self._at(row, end) == self._at(row, column):
+            end += 1
+        return end
+
+    def _is_fraction(self, box: _Box, row: int, column: int) -> bool:
+        """Whether a line of dashes begins there, with something above and below."""
+        sign = self._at(row, column)
+        begins = column == box.left or self._at(row, column - 1) != sign
+        if sign not in _BARS or not begins or not box.top < row < box.bottom - 1:
+            return False
+        end = self._bar_end(box, row, column)
+        above, below = _Box(row - 1, row, column, end), _Box(row + 1, row + 2, column, end)
+        return not self._is_blank(above) and not self._is_blank(below)
+
+    def _fraction(self, box: _Box, base: int, column: int, out: list[str]) -> int:
+        end = self._bar_end(box, base, column)
+        for place in range(column, end):
+            self._take(base, place)
+        above = self._formula(_Box(box.top, base, column, end))
+        below = self._formula(_Box(base + 1, box.bottom, column, end))
+        is_derivative = _DERIVATIVE.fullmatch(above) and below[:1] == above[:1]
+        out.append(f"{above}/{below}" if is_derivative else f"(({above})/({below}))")
+        return end
+
+    def _exponent(self, box: _Box, base: int, column: int, out: list[str]) -> int:
+        """What stands higher, where the base line is blank."""
+        end = column
+        while (
+            end < box.right
+            and self._at(base, end) == " "
+            and not self._is_blank(_Box(box.top, base, end, end + 1))
+        ):
+            end += 1
+        power = self._formula(_Box(box.top, base, column, end))
+        if out[-1] == " ":
+            raise _NoFormulaError
+        out.append(f"^{power}" if power.isdigit() else f"^({power})")
+        return end
+
+    def _bracket(self, box: _Box, row: int, column: int) -> _Box | None:
+        """The rows and columns between a bracket over several lines and the one that closes it."""
+        sign = self._at(row, column)
+        if sign in _OPENING:
+            signs: frozenset[str] = _OPENING
+        elif sign in _ASCII:
+            signs = frozenset("[") if sign == "[" else frozenset("/\\|")
+        else:
+            return None
+        top, bottom = row, row + 1
+        while top > box.top and self._at(top - 1, column) in signs:
+            top -= 1
+        while bottom < box.bottom and self._at(bottom, column) in signs:
+            bottom += 1
+        if bottom - top < 2:
+            return None
+        closing = {"[": frozenset("]")}.get(sign, _CLOSING if sign in _OPENING else frozenset("/\\|"))
+        is_matrix = self._at(top, column) in "⎡[|"
+        level = 0
+        for end in range(column, box.right):
+            heights = [self._at(r, end) for r in range(top, bottom)]
+            opens = all(s in signs for s in heights) and (sign not in "/\\|" or self._opens(heights))
+            closes = all(s in closing for s in heights) and (sign not in "/\\|" or not self._opens(heights))
+            if set(heights) == {"|"} and sign in "/\\|":
+                opens, closes = level == 0, level > 0
+            level += opens - closes
+            if closes and level == 0 and (not is_matrix or end > column):
+                return _Box(top, bottom, column, end)
+        return None
+
+    @staticmethod
+    def _opens(signs: list[str]) -> bool:
+        return signs[0] == "/" and signs[-1] == "\\"
+
+    def _bracketed(self, rows: _Box, base: int, column: int, out: list[str]) -> int:
+        for row in range(rows.top, rows.bottom):
+            self.read |= {(row, rows.left), (row, rows.right)}
+        inside = _Box(rows.top, rows.bottom, rows.left + 1, rows.right)
+        if self._at(rows.top, column) in "⎡[|":
+            out.append(self._matrix(inside))
+        else:
+            out.append(f"({self._formula(inside, base)})")
+        return rows.right + 1
+
+    def _matrix(self, box: _Box) -> str:
+        rows = [[self._formula(cell) for cell in row] for row in self._cells(box)]
+        if len({len(row) for row in rows}) != 1:
+            raise _NoFormulaError
+        return "[" + ", ".join(f"[{', '.join(row)}]" for row in rows) + "]"
+
+    def _cells(self, box: _Box) -> list[list[_Box]]:
+        """The entries: bands of lines between blank ones, cut where no line has a sign."""
+        bands: list[list[int]] = [[]]
+        for row in range(box.top, box.bottom):
+            if self._is_blank(_Box(row, row + 1, box.left, box.right)):
+                bands.append([])
+            else:
+                bands[-1].append(row)
+        bands = [band for band in bands if band]
+        if len(bands) == 1:
+            bands = self._lines(box, bands[0])
+        spans = [self._spans(_Box(band[0], band[-1] + 1, box.left, box.right)) for band in bands]
+        if len({len(row) for row in spans}) > 1:
+            spans = [self._spans(box)] * len(bands)
+        return [
+            [_Box(band[0], band[-1] + 1, *span) for span in row]
+            for band, row in zip(bands, spans, strict=True)
+        ]
+
+    def _lines(self, box: _Box, band: list[int]) -> list[list[int]]:
+        """The lines of a matrix without blank ones between its rows: one of exponents belongs to the next."""
+        found: list[list[int]] = [[]]
+        for row in band:
+            found[-1].append(row)
+            text = "".join(self._at(row, column) for column in range(box.left, box.right))
+            if not re.fullmatch(r"[0-9 ]*[ ]{2}[0-9 ]*", text) or row == band[-1]:
+                found.append([])
+        return [rows for rows in found if rows]
+
+    def _spans(self, box: _Box) -> list[tuple[int, int]]:
+        """The stretches of columns between two or more blank ones."""
+        spans: list[tuple[int, int]] = []
+        blanks = 2
+        for column in range(box.left, box.right):
+            if self._is_blank(_Box(box.top, box.bottom, column, column + 1)):
+                blanks += 1
+                continue
+            if blanks > 1:
+                spans.append((column, column + 1))
+            spans[-1] = (spans[-1][0], column + 1)
+            blanks = 0
+        return spans
