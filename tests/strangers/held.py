@@ -25,7 +25,7 @@ from dynsolve.explain.signs import shorthands
 from dynsolve.explain.step import Detail
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Letter, Node, Number, Symbol
+from dynsolve.notation.tree import Derivative, Letter, Node, Number, Slashed, Symbol
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.notation.walk import children, walk
 from dynsolve.problem import read_problem
@@ -131,6 +131,8 @@ def _misread(
         starred = [Symbol(q.name, star=True) for q in solution.robot.coordinates]
         single = [node for node in (*known, *starred, *shorthands(solution.robot, style)) if node in printed]
         signs = {printer.text(node): point.value(node).value for node in single}
+        slashed = [node for node in single if isinstance(node, Derivative)]
+        signs |= {printer.text(Slashed(node)): point.value(node).value for node in slashed}
         for where, relation in relations(document.blocks):
             for part in relation.parts:
                 try:

@@ -14,8 +14,12 @@ from fractions import Fraction
 
 SUPERSCRIPTS = {c: str(i) for i, c in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}
 VULGAR = {c: unicodedata.numeric(c) for c in "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"}
-FUNCTIONS = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt, "√": math.sqrt,
+FUNCTIONS = {"atan2": math.atan2, "acos": math.acos, "asin": math.asin, "atan": math.atan,
+             "arccos": math.acos, "arcsin": math.asin, "arctan": math.atan,
+             "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt, "√": math.sqrt,
              "sgn": lambda x: math.copysign(1.0, x)}  # fmt: skip
+"""What each function is called; a name that begins another comes behind it."""
+
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
 
@@ -160,8 +164,17 @@ class _Reader:
         for name, of in FUNCTIONS.items():
             if self.take(f"\\{name}", f"\\operatorname{{{name}}}", name):
                 power = self.exponent()
-                argument = self.factor()
-                if argument is None:
+                arguments = self.pair() if name == "atan2" else [self.factor()]
+                if None in arguments:
                     raise Unreadable(f"{name} of nothing in {self.text!r}")
-                return float(of(argument)) ** power
+                return float(of(*arguments)) ** power
         return None
+
+    def pair(self) -> list[float | None]:
+        """(y, x)"""
+        self.need("(")
+        first = self.sum()
+        self.need(",")
+        second = self.sum()
+        self.need(")")
+        return [first, second]

@@ -87,7 +87,7 @@ class InertiaEntry:
         many = len(bodies) > 1
         return (
             f"Joint {self.shares[0].last.index} moves {'bodies' if many else 'body'} ",
-            *listed([letters.index_of(body) for body in bodies]),
+            *listed(bodies),
             " alone, so ",
             name,
             f" has the terms of {'these' if many else 'this body'}. Products of vectors, and of a tensor "
