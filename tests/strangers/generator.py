@@ -279,7 +279,7 @@ class _Stranger:
             "center": {
                 "near": {"near": [f"lc{place}", 0, 0]},
                 "along": {"along": self.one(["1/3", "2/3"])},
-                "vector": [f"x{place}", 0, f"z{place}"],
+                "vector": [f"u{place}", 0, f"z{place}"],
                 "drop": [0, f"-y{place}", 0],
             }.get(center, center),
         }
@@ -398,7 +398,11 @@ class _Stranger:
     def draw_questions(self) -> None:
         """Some of the questions that apply, each with the keys that it needs."""
         dynamic = "masses" in self.file
-        find = self.some(COURSE if dynamic else COURSE[:5], 5) if self.chance(0.5) else []
+        turned = any(
+            "inertia" in body or body.get("shape", "point") != "point" for body in self.file.get("masses", [])
+        )
+        course = [name for name in COURSE if turned or name not in ("I", "Kw")]
+        find = self.some(course if dynamic else COURSE[:5], 5) if self.chance(0.5) else []
         kinds: list[Callable[[], list[str]]] = [
             self.points,
             self.task,
@@ -418,15 +422,16 @@ class _Stranger:
             ]
         for ask in self.random.sample(kinds, self.one([1, 1, 2, 3])):
             find += ask()
-        names = list(dict.fromkeys(find))
+        names = [name for name in dict.fromkeys(find) if not ("v" in find and name == "vP")]
+        whole = [name for name in names if name not in FAMILIES]
         if self.chance(0.15):
-            names = [name for name in names if name not in FAMILIES] or ["J"]
+            names = whole or ["J"]
             self.file["marks"] = {name: self.random.randint(1, 6) for name in names}
         else:
             self.file["find"] = names
-        if names and self.chance(0.1):
+        if whole and self.chance(0.1):
             self.file["remarks"] = {
-                names[0]: self.one(["Mind the sign.", ["One line,", "and another: 50 % & more."]])
+                whole[0]: self.one(["Mind the sign.", ["One line,", "and another: 50 % & more."]])
             }
 
     def points(self) -> list[str]:
@@ -513,8 +518,14 @@ class _Stranger:
 
     def parameters(self) -> list[str]:
         if self.chance(0.5):
-            self.file["parameters"] = {"known": self.letters()[:2]} if self.letters() else {"known": ["g"]}
+            known = self.letters()[:2] or (["g"] if self.weighs() else [])
+            self.file["parameters"] = {"known": known} if known else {}
         return self.one([["Y", "a"], ["YM", "aM"], ["Yg", "ag"], ["Y", "a", "Yr"]])
+
+    def weighs(self) -> bool:
+        """Whether g is a letter of the file."""
+        gravity = self.file.get("gravity", "none" if "model" in self.file else [0, 0, "-g"])
+        return gravity != "none" and "g" in str(gravity)
 
     def letters(self) -> list[str]:
         """Letters of the table."""
@@ -551,7 +562,9 @@ class _Stranger:
         return self.some(["Ac", "Ac_dot", "lambda", "reduced"], 3)
 
     def recursions(self) -> list[str]:
-        return [f"{name}{len(self.rows)}" for name in self.some(["wl", "wdl", "acl", "fl", "nl"], 3)]
+        links = [f"{name}{len(self.rows)}" for name in ("wl", "wdl", "fl", "nl")]
+        bodies = [f"acl{body.get('name', place)}" for place, body in enumerate(self.file["masses"], 1)]
+        return self.some(links + bodies, 3)
 
     # -- numbers, units, names -----------------------------------------------------------------------
 
@@ -560,9 +573,9 @@ class _Stranger:
             letters = self.letters()
             if self.chance(0.4):
                 letters = letters[:1]
-            self.file["values"] = {name: self.one(["0.4", "1/4", "2", "0.35"]) for name in letters} | {
-                "g": "9.81"
-            }
+            self.file["values"] = {name: self.one(["0.4", "1/4", "2", "0.35"]) for name in letters}
+            if "masses" in self.file and self.weighs():
+                self.file["values"]["g"] = "9.81"
             if self.chance(0.3):
                 self.file["units"] = {letters[0]: "m"}
 

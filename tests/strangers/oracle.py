@@ -181,7 +181,7 @@ class Point:
 
 
 def random_point(solution: Any, seed: int) -> Point:
-    """The symbols at random, and the letters of all results by what the JSON says of them."""
+    """The symbols at random or as the file gives them, and the letters of all results by the JSON."""
     from dynsolve.notation.python import PythonPrinter
     from dynsolve.quantities import letters
     from dynsolve.quantities.index import quantities
@@ -191,7 +191,7 @@ def random_point(solution: Any, seed: int) -> Point:
     for g in robot.ring.generators:
         if g.kind == "symbol":
             text = g.name + ("", "_dot", "_ddot")[g.dots]
-            names[text] = random.uniform(0.3, 2.7)
+            names[text] = float(solution.problem.values.get(g.name, random.uniform(0.3, 2.7)))
             if g.name in robot.ring.names:
                 names[text] = random.uniform(-3, 3)
             point.known[tree.Symbol(g.name, g.dots)] = Value(names[text], abs(names[text]))
