@@ -68,7 +68,8 @@ class _Undecided:
 class AnswerList:
     """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
 
-    `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`.
+    `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`; `own_scalars`
+    are definitions where what they are kept under is used, else answers of another shape.
     """
 
     vocabulary: Vocabulary
@@ -79,6 +80,7 @@ class AnswerList:
     general: list[Answer] = field(default_factory=list)
     configurations: list[ConfigurationAnswer] = field(default_factory=list)
     verdicts: list[VerdictAnswer] = field(default_factory=list)
+    own_scalars: list[tuple[str, list[Answer], NotRecognized]] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
@@ -186,6 +188,11 @@ class AnswerList:
 
     def settle(self) -> None:
         """Decide what needs the whole file: indices that do not exist, and a model without torques."""
+        for own, answers, refused in self.own_scalars:
+            if own in self.vocabulary.used:
+                self.left_alone.append(refused)
+            else:
+                self.answers += answers
         given = {answer.name for answer in self.answers}
         shift = 0
         for undecided in self._undecided:

@@ -85,5 +85,7 @@ def _define(reader: EquationReader, side: LeftSide, own: str, value: RightSide, 
     if isinstance(side, NamedAnswers):
         if own in OWN_LETTERS:
             reader.define(own, value)
+        else:
+            reader.define_scalar(equation.members[0], side, value)
         return
     reader.defines_in_passing(equation.members[0], value)

@@ -46,7 +46,9 @@ _LAYOUT = re.compile(
 )
 _GOES_ON = re.compile(r"\s*&?\s*[-+=]")
 _ROW = re.compile(r"\\\\(?:\[[^\[\]]{0,20}\])?")
-_ALIGN = re.compile(r"&\s*=|=\s*&")
+_SIGN = re.compile(r":\s*=|=\s*:|\\coloneqq\b|\\eqqcolon\b")
+_OWN = re.compile(r"\s*\\?[A-Za-z]{1,7}(?:_\{?\w{1,3}\}?)?\s*")
+_ALIGN = re.compile(r"&\s*(?=:?\s*=)|(?<==)\s*&")
 _ARROW = re.compile(rf"{FOLLOWS.pattern}|\\to\b|→")
 _IS_STATEMENT = re.compile(r"=|\\in\b|∈")
 _ZERO = re.compile(r"=\s*0(?:\s|\\[,;:! ]|\\q?quad|[.,;])*\Z")
@@ -69,7 +71,7 @@ class DisplayedSets:
         """Read a display without the equations of a set, which are kept."""
         if (space := self._space(display)) is not None:
             display = space
-        rows = _rows(display.text)
+        rows = [self._without_own(display, row) for row in _rows(display.text)]
         words = self.text[max(offset - _BEFORE, 0) : offset] + _plain(display.text.partition("=")[0])
         if not any(self._may_be_one(words, _plain(row)) for row in rows):
             self.reader.read_display(display)
@@ -83,6 +85,22 @@ class DisplayedSets:
             left = row if name is None else _determinant(row)
             if left:
                 self.reader.read_display(replace(display, text=left))
+
+    def _without_own(self, display: Display, row: str) -> str:
+        r"""A row without the letter that it defines beside a coordinate: `\cos q_2 = ... =: D`."""
+        members = _plain(row).split("=")
+        if len(members) < 3:
+            return row
+        unknown = [member for member in members if self._is_unknown(member)]
+        own = [m for m in members if _OWN.fullmatch(m) and m not in unknown and not self._is_symbol(m)]
+        if not unknown or len(own) != 1 or len(own) + len(unknown) == len(members):
+            return row
+        value = next(member for member in reversed(members) if member not in (*own, *unknown))
+        self.reader.read_display(replace(display, text=f"{own[0]} = {value}"))
+        return "=".join(member for member in members if member not in own)
+
+    def _is_symbol(self, text: str) -> bool:
+        return key(text.strip().lstrip("\\")) in self.reader.vocabulary.symbols
 
     def _space(self, display: Display) -> Display | None:
         r"""`\mathcal{N}(J) = span{...}` as the vectors of an answer; None for any other display."""
@@ -173,7 +191,7 @@ def _rows(text: str) -> list[str]:
 
 def _plain(row: str) -> str:
     """A row without what only sets it."""
-    return _ALIGN.sub("=", _LAYOUT.sub(" ", row)).strip().rstrip(".,;").strip()
+    return _SIGN.sub("=", _ALIGN.sub("", _LAYOUT.sub(" ", row))).strip().rstrip(".,;").strip()
 
 
 def _determinant(row: str) -> str:

@@ -21,6 +21,7 @@ from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
     UnknownSide,
+    called_name,
     is_read,
     name_alone,
     read_left_side,
@@ -94,10 +95,11 @@ class EquationReader:
         False where there is nothing of that kind that was not known already.  The report is
         then to be read once more; a definition holds for what stands before the first one too.
         """
-        missed, entries = self.vocabulary.missed, self.vocabulary.own_entries
-        late = {name: self._first[name] for name in self._first if name in missed}
+        entries = self.vocabulary.own_entries
+        late = {name: self._first[name] for name in self._first if name in self.vocabulary.missed}
+        is_known = late.keys() <= self._ahead.keys() and entries.isdisjoint(self.vocabulary.missed_entries)
         orders = self.vocabulary.orders
-        if late.keys() <= self._ahead.keys() and orders == self._orders and entries.isdisjoint(missed):
+        if is_known and orders == self._orders:
             return False
         self._ahead |= late
         self._orders = orders
@@ -200,6 +202,8 @@ class EquationReader:
         elif own := self._own_letter(members, sides, names, read):
             self.define(own, _values(read)[0])
             self.found.left_alone.append(origin.of(members, _DEFINITION))
+        elif self._defines_scalar(members, sides[0], read, origin):
+            return
         elif read and states_constant(self.vocabulary, members, names, _values(read)):
             self.found.not_recognized.append(origin.of(members, "this says what a symbol of the problem is"))
         else:
@@ -243,6 +247,31 @@ class EquationReader:
         refused = origin.not_recognized(first[0].start, end, "not all rows of this vector are given")
         self.found.entry(entry, values[-1], origin, refused)
         return entry.is_sure and entry.letter != "V"
+
+    def define_scalar(self, first: list[Token], side: NamedAnswers, value: RightSide) -> str:
+        """Keep a letter that names a matrix or a vector in books and stands for a scalar here: v_2, J(d_3).
+
+        Gives what it is kept under; nothing where the value may be that of the answer.
+        """
+        own = called_name(self.vocabulary, first)
+        is_scalar = isinstance(value.value, Node) and not self.any_fits(side.candidates, [value])
+        if not own or not is_scalar or own in self.vocabulary.symbols:
+            return ""
+        self.define(own, value, has_arguments=True)
+        return own
+
+    def _defines_scalar(
+        self, members: list[list[Token]], side: LeftSide, read: list[Member], origin: Origin
+    ) -> bool:
+        """Keep a scalar under a letter that names a matrix: a definition, where something else uses it."""
+        values = _values(read)
+        if not isinstance(side, NamedAnswers) or len(members) != 2 or not values:
+            return False
+        own = self.define_scalar(members[0], side, values[-1])
+        if own:
+            answers = [self.found.answer(side.candidates, member, origin) for member in read]
+            self.found.own_scalars.append((own, answers, origin.of(members, _DEFINITION)))
+        return bool(own)
 
     def defines_in_passing(self, first: list[Token], found: RightSide) -> bool:
         """Keep another meaning of what would be read as a coordinate; whether there was one."""

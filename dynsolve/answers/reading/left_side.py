@@ -88,6 +88,8 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
         return NamedAnswers(("det",))
     if _is_friction(vocabulary, member):
         return NamedAnswers(("friction",))
+    if marked := _marked_name(vocabulary, member):
+        return UnknownSide(marked, (), True, "")
     tokens = split_names(member, vocabulary, naming=True)
     reader = FormulaReader(tokens, vocabulary, naming=True)
     try:
@@ -170,6 +172,13 @@ def _is_friction(vocabulary: Vocabulary, member: list[Token]) -> bool:
     return is_product and vocabulary.is_answer("friction") and key(texts[0]) not in vocabulary.symbols
 
 
+def called_name(vocabulary: Vocabulary, tokens: list[Token]) -> str:
+    """The key of the name that tokens are, which coordinates in parentheses may follow; else empty."""
+    end = next((place for place, token in enumerate(tokens) if token.kind == "("), len(tokens))
+    is_called = end < len(tokens) and not only_coordinates(FormulaReader(tokens, vocabulary), end)
+    return "" if is_called else name_alone(vocabulary, tokens[:end])
+
+
 def name_alone(vocabulary: Vocabulary, tokens: list[Token]) -> str:
     """The key of the name that tokens are, without powers; empty where they are more."""
     reader = FormulaReader(tokens, vocabulary, naming=True)
@@ -182,6 +191,24 @@ def name_alone(vocabulary: Vocabulary, tokens: list[Token]) -> str:
     except ReadError:
         return ""
     return _defined_key(form) if reader.token.kind == "end" and not form.scripts.any else ""
+
+
+def _marked_name(vocabulary: Vocabulary, tokens: list[Token]) -> str:
+    r"""The key of a name of the student's own that its mark, prime or square makes one: I^*, I', v_1^2."""
+    reader = FormulaReader(tokens, vocabulary, naming=True)
+    try:
+        if len(tokens) > 12 or not reader.begins_with_name():
+            return ""
+        form = reader.form()
+    except ReadError:
+        return ""
+    known = vocabulary.symbol(form.key)
+    if form.scripts.powers:
+        is_own = known is None
+    else:
+        is_own = known is not None and vocabulary.coordinate(known.value) is None
+    is_marked = is_own and not form.scripts.transposed and form.marked_key != form.key
+    return form.marked_key if reader.token.kind == "end" and is_marked and not form.dots else ""
 
 
 def _is_simple(tokens: list[Token], form: Form) -> bool:

@@ -35,6 +35,8 @@ def keep_symbol(vocabulary: Vocabulary, name: str, dots: int, value: Value, in_p
 
 def gives_new_meaning(vocabulary: Vocabulary, name: str, value: Value) -> bool:
     r"""Whether `\theta_2 = q_1 + q_2` gives another meaning to what would be read as a coordinate."""
+    if vocabulary.is_vector(name) and name not in vocabulary.symbols:  # θ is q₂ alone, and no column
+        return isinstance(value, Node) and rate(value, vocabulary, 1) is not None
     usual = vocabulary.others.get(name)
     if usual is None or usual.dots or vocabulary.coordinate(usual) is None or value == usual:
         return False

@@ -60,7 +60,9 @@ class Vocabulary:
     `derived` are derivatives that were defined on their own, `broken` definitions that
     could not be read, `angles` the student's own by subscript.
     `missed` are names that were looked for before anything defined them;
-    `own_entries` are the entries of matrices that an equation of their own gives;
+    `used` are the names of the student's own that were used,
+    `own_entries` are the entries of matrices that an equation of their own gives, `missed_entries` those that
+    were named before that was known;
     `orders` says for letters of Christoffel symbols which index counts the row (`index_order`).
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
@@ -84,7 +86,9 @@ class Vocabulary:
     angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
     missed: set[str] = field(default_factory=set)
+    used: set[str] = field(default_factory=set)
     own_entries: set[str] = field(default_factory=set)
+    missed_entries: set[str] = field(default_factory=set)
     orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
     from_zero: frozenset[str] = frozenset()
 
@@ -121,6 +125,7 @@ class Vocabulary:
     def symbol(self, name: str) -> Meaning | None:
         """The symbol of the problem, or what the student defined, of that key."""
         if name in self.defined:
+            self.used.add(name)
             return self.defined[name]
         if name in self.symbols:
             return Meaning(self.symbols[name])
@@ -216,7 +221,7 @@ class Vocabulary:
         """Whether a bare name is the vector of coordinates."""
         return name in _VECTORS
 
-    def coordinate(self, node: Node) -> Coordinate | None:
+    def coordinate(self, node: Value) -> Coordinate | None:
         """The coordinate that a symbol is, with any number of dots."""
         if isinstance(node, Symbol):
             return next((q for q in self.coordinates if q.name == node.name), None)
@@ -235,7 +240,7 @@ class Vocabulary:
         """Whether a name in a value of `whole` is an entry of it with an equation of its own: c_12 in C."""
         found = self.named(name) if self.shape(whole) is not None and name not in self.symbols else ()
         entries = {entry for entry in found if self.quantities.entry_of(entry)[0] == whole}
-        self.missed |= entries - self.own_entries
+        self.missed_entries |= entries - self.own_entries
         return not entries.isdisjoint(self.own_entries)
 
     def family(self, name: str) -> tuple[str, ...]:

@@ -52,6 +52,13 @@ class Form:
         return key(self.base + self.index)
 
     @property
+    def marked_key(self) -> str:
+        """The key with the mark, the primes and dots, or the square behind it: of I^*, I', v_1^2."""
+        scripts = self.scripts
+        squared = "^2" if scripts.powers == [2] else ""
+        return f"{self.key}{'*' * scripts.mark}{chr(39) * (self.dots + scripts.primes)}{squared}"
+
+    @property
     def base_index(self) -> str:
         """The index of a name that is written in one piece: the i of P_i."""
         return self.base.partition("_")[2]

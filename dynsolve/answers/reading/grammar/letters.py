@@ -148,7 +148,7 @@ def _without_index(reader: Reader, form: Form, name: str) -> Value | None:
     """J_v of no body in particular."""
     if reader.naming or name not in _NEED_AN_INDEX:
         return None
-    return _abstract(reader, f"{form.text} has no index")
+    return _missed(reader, name, f"{form.text} has no index")
 
 
 def _abstract(reader: Reader, why: str) -> Abstract:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from difflib import get_close_matches
 
-from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.letters import letter, only_coordinate, zero_level
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
@@ -45,10 +45,13 @@ def value_of(reader: Reader, form: Form) -> Value:
         found = quantity(reader, form, name)
         if found is not None:
             return found
-    meaning = vocabulary.defined.get(name + "'" * form.dots) if form.dots else None
+    marked = form.marked_key if form.key == name else name
+    meaning = vocabulary.defined.get(marked) if marked != name else None
     if meaning is not None:
-        form.dots = 0
+        form.dots, form.scripts = 0, Scripts(transposed=form.scripts.transposed)
     else:
+        if marked != name:
+            vocabulary.missed.add(marked)
         meaning = vocabulary.symbol(name)
     if meaning is None and (name, form.dots) in vocabulary.derived:
         meaning, form.dots = Meaning(vocabulary.derived[name, form.dots]), 0
@@ -57,6 +60,7 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning is None:
         meaning = _meaning(reader, form, name)
     if meaning is None:
+        vocabulary.missed.add(name)
         other = None if reader.naming else zero_level(reader, form, name) or quantity(reader, form, name)
         if other is None:
             other = letter(reader, form, name)

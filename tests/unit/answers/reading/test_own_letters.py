@@ -1,0 +1,110 @@
+"""Letters of the student's own that books use for something else: J, v_2, θ, I with a mark, D of cos q_2."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from dynsolve.answers.judge import Checker
+from dynsolve.answers.reading.files import read_submission
+from dynsolve.problem import load, read_problem
+from dynsolve.problem.library import find
+
+PENDULUM = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  D: [[J + (I + m*l^2)*sin(q2)^2, 0], [0, I + m*l^2]]
+  P: m*g*l*cos(q2)
+find: [D, P]
+"""
+REACH = "{gravity: none, dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}], reach: [x, y], find: [inverse]}"
+
+
+@cache
+def checker(name: str) -> Checker:
+    texts = {"pendulum": PENDULUM, "reach": REACH}
+    return Checker(read_problem(texts[name]) if name in texts else load(find(name)))
+
+
+def verdict(problem: str, text: str, name: str) -> str:
+    judge = checker(problem)
+    report = judge(read_submission(judge.problem, text, "report.md"))
+    return next((answer.verdict.value for answer in report.answers if answer.name == name), "")
+
+
+D = r"$$D=\begin{{pmatrix}}J+{0}\sin^2q_2&0\\0&{0}\end{{pmatrix}}$$"
+MARKED = [r"\hat I", r"\bar I", r"\tilde I", "I^*", "I'"]
+
+
+@pytest.mark.parametrize("letter", MARKED)
+@pytest.mark.parametrize(
+    "form", ["$${0}:={1}$$\n\n{2}", "{2}\nwhere ${0}={1}$.", "{2}\nmit ${0}={1}$", "Sei ${0}={1}$.\n\n{2}"]
+)
+def test_another_letter_by_its_mark(letter: str, form: str) -> None:
+    for value, expected in (("I+ml^2", "correct"), ("I+ml", "wrong")):
+        assert verdict("pendulum", form.format(letter, value, D.format(letter)), "D") == expected
+
+
+@pytest.mark.parametrize("form", [
+    "Let ${0}={1}$. Then\n{2}", "$${0}={1}$$\n\n{2}", "{2}\nder ${0}={1}$", "$${0}:={1}$$\n{2}",
+])  # fmt: skip
+@pytest.mark.parametrize(("left", "used"), [("B(q_2)", "B(q_2)"), ("B(q_2)", "B"), ("B", "B")])
+def test_a_scalar_under_the_letter_of_a_matrix(form: str, left: str, used: str) -> None:
+    for value, expected in (("I+ml^2", "correct"), ("2I+ml^2", "wrong")):
+        assert verdict("pendulum", form.format(left, value, D.format(used)), "D") == expected
+
+
+def test_a_scalar_that_nothing_uses_is_an_answer_of_another_shape() -> None:
+    assert verdict("pendulum", "$$D = I + m l^2$$", "D") == "unreadable"
+
+
+@pytest.mark.parametrize(
+    "said", [r"Let $\theta=q_2$.", r"Sei $\alpha=q_1$ und $\theta=q_2$.", r"$$\theta=q_2$$"]
+)
+def test_a_coordinate_under_the_letter_of_the_vector(said: str) -> None:
+    assert verdict("pendulum", f"{said}\n\n$$P=mgl\\cos\\theta$$", "P") == "correct"
+    assert verdict("pendulum", f"{said}\n\n$$P=mgl\\sin\\theta$$", "P") == "wrong"
+
+
+FORCE = [
+    (r"m_2\dot v_2-m_2L_2\omega_1^2", r"$v_2=\dot L_2$, $\omega_1=\dot\theta_1$"),
+    (r"m_2\ddot L_2-m_2L_2\omega^2", r"$\omega=\dot\theta_1$"),
+    (r"m_2\ddot r-m_2r\omega^2", r"$r=L_2$, $\omega=\dot\theta_1$"),
+]
+
+
+@pytest.mark.parametrize("word", ["with", "where", "mit", "wobei", "der", "hvor"])
+@pytest.mark.parametrize(("formula", "said"), FORCE)
+def test_rates_by_other_letters(word: str, formula: str, said: str) -> None:
+    assert verdict("in3140-rp", f"$$f_2={formula}$$ {word} {said}", "f2") == "correct"
+    assert verdict("in3140-rp", f"$$f_2=2{formula}$$ {word} {said}", "f2") == "wrong"
+
+
+def test_heights_and_squares_of_speeds() -> None:
+    heights = r"mit $h_1=l_{c1}\sin q_1$ und $h_2=l_1\sin q_1+l_{c2}\sin(q_1+q_2)$"
+    assert verdict("planar-2r", f"$$P=m_1gh_1+m_2gh_2$$ {heights}", "P") == "correct"
+    square = r"l_1^2\dot q_1^2+l_{c2}^2(\dot q_1+\dot q_2)^2+2l_1l_{c2}\cos q_2\dot q_1(\dot q_1+\dot q_2)"
+    turning = r"\tfrac12I_1\dot q_1^2+\tfrac12I_2(\dot q_1+\dot q_2)^2"
+    K = rf"$$K=\tfrac12m_1l_{{c1}}^2\dot q_1^2+\tfrac12m_2v_2^2+{turning}$$"
+    assert verdict("planar-2r", f"$$v_2^2={square}$$\n\n{K}", "K") == "correct"
+    assert verdict("planar-2r", f"{K} where $v_2^2={square.replace('2l_1', 'l_1')}$", "K") == "wrong"
+
+
+COSINE = r"\frac{x^2+y^2-l_1^2-l_2^2}{2l_1l_2}"
+BRANCHES = (
+    r"q_2{1}=\operatorname{{atan2}}(\pm\sqrt{{1-D^2}},D){0}"
+    r"q_1{1}=\operatorname{{atan2}}(y,x)-\operatorname{{atan2}}(l_2\sin q_2,l_1+l_2\cos q_2)"
+)
+
+
+@pytest.mark.parametrize("text", [
+    rf"$$\cos q_2={COSINE}=:D$$" + f"$${BRANCHES.format(', ', '')}$$",
+    rf"$$D:={COSINE}$$" + f"\n\n$${BRANCHES.format(', ', '')}$$",
+    rf"$$\begin{{aligned}}D&:=\cos q_2={COSINE}\\{BRANCHES.format(chr(92) * 2, '&')}\end{{aligned}}$$",
+    f"Sei $D={COSINE}$. Dann\n$${BRANCHES.format(', ', '')}$$",
+])  # fmt: skip
+def test_the_cosine_that_gives_the_branches(text: str) -> None:
+    assert verdict("reach", text, "inverse") == "correct"
+    assert verdict("reach", text.replace("{2l_1l_2}", "{l_1l_2}"), "inverse") == "wrong"
