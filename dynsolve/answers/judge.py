@@ -189,7 +189,7 @@ class Judge:
         assembled = self.hand_in.assembled_coriolis
         if assembled is not None:
             answers |= dict(coriolis_entries(judge, assembled, answers))
-        for name in self._asked:
+        for name in dict.fromkeys((*self._asked, *self._wholes)):
             if name not in answers and (name == TABLE or self._has_key(name)):
                 answers[name] = self._unwritten(name, answers)
         for name in self.hand_in.definitions.keys() - answers.keys():
@@ -214,6 +214,11 @@ class Judge:
                 text, label, place = f"{name} = {value.answer.text}", value.answer.label, value.answer.place
                 refused.append(NotRecognized(text, label, place, value.fault, (name,)))
         return Ledger(named, answers, refused, explained)
+
+    @property
+    def _wholes(self) -> list[str]:
+        """The matrices that were written, of which not every entry could be read."""
+        return [answer.whole for answer in self.submission.answers if answer.whole]
 
     @property
     def _asked(self) -> Collection[str]:

@@ -44,6 +44,7 @@ class Answer:
     `Reference("K1")`, a matrix one entry by entry as `Reference("I1", 1, 3)`.  `free` are
     the names of symbols that are no symbol of the problem (h0, a zero level of height).
     `turned` are the coordinates that it counts the other way than the problem does.
+    `whole` is the matrix that it was written in, where another entry of this could not be read.
     `is_equation` says that it is one side of `... = 0`, which may be multiplied by a factor.
     `occurrence` is (chain, member): which equation of the file, and which member of
     `a = b = c` from 0; answers stand in the order of the file.
@@ -63,6 +64,7 @@ class Answer:
     free: tuple[str, ...] = ()
     turned: tuple[str, ...] = ()
     is_equation: bool = False
+    whole: str = ""
     occurrence: tuple[int, int] = (0, 0)
 
 

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.matrix_parts import written_entries
 from dynsolve.answers.reading.motion_equations import MotionEquation
 from dynsolve.answers.reading.occurrences import readable
-from dynsolve.answers.reading.right_side import EXPECTED, RightSide
+from dynsolve.answers.reading.right_side import EXPECTED, RightSide, is_abstract, read_right_side
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
@@ -142,6 +143,34 @@ class AnswerList:
             free=found.free,
             occurrence=(origin.equation, member.index),
         )
+
+    def unread(self, candidates: tuple[str, ...], member: Member, origin: Origin) -> list[Answer]:
+        """The records of a value that cannot be read: of a matrix those of its entries, where some can."""
+        return self.by_entries(candidates, member, origin) or [self.answer(candidates, member, origin)]
+
+    def by_entries(self, candidates: tuple[str, ...], member: Member, origin: Origin) -> list[Answer]:
+        """The entries of a matrix that is written out, each as an answer; none where no entry can be read.
+
+        The matrix is judged by them; C is not, of which only the rows of C q̇ are determined.
+        """
+        whole, quantities = candidates[0], self.vocabulary.quantities
+        rows = written_entries(member.tokens)
+        named = {quantities.entry_of(part)[1]: part for part in quantities.parts(whole)}
+        is_row = len(rows) == 1 and (0, 1) not in named
+        written = {
+            (j, i) if is_row else (i, j): tokens for i, row in enumerate(rows) for j, tokens in enumerate(row)
+        }
+        if whole == "C" or written.keys() != named.keys():
+            return []
+        read = [
+            Member(member.index, tokens, read_right_side(self.vocabulary, tokens, (named[at],)))
+            for at, tokens in written.items()
+        ]
+        if any(is_abstract(one.found) for one in read):
+            return []
+        answers = [self.answer((named[at],), one, origin) for at, one in zip(written, read, strict=True)]
+        is_some = any(answer.node is not None for answer in answers)
+        return [replace(answer, whole=whole) for answer in answers] if is_some else []
 
     def motion(self, equation: MotionEquation, tokens: list[Token], origin: Origin) -> None:
         """Keep an equation of motion: of several that it may be, the first that is absent, in their order."""

@@ -340,10 +340,14 @@ class EquationReader:
                 given += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):
                 said = said or why_no_value(found)
+                if is_abstract(found):
+                    given += [
+                        a for candidates in names for a in self.found.by_entries(candidates, member, origin)
+                    ]
             elif _CONTROL.match(found.message) or origin.display.among_prose:
                 refused = refused or found.message
             elif not values or member.index > values[-1]:
-                given += [self.found.answer(candidates, member, origin) for candidates in names]
+                given += [a for candidates in names for a in self.found.unread(candidates, member, origin)]
         self.found.answers += given
         if refused and not given:
             self.found.not_recognized.append(origin.of(members, refused))

@@ -65,7 +65,7 @@ def _given(reader: EquationReader, candidates: tuple[str, ...], origin: Origin) 
     for index, tokens in enumerate(members):
         member = Member(index, tokens, _value(reader, candidates, tokens))
         if isinstance(member.found, ReadError):
-            made.append(found.answer(candidates, member, origin))
+            made += found.unread(candidates, member, origin)
         else:
             made += found.value([candidates], member, origin)
     return made

@@ -1,9 +1,10 @@
-"""One row or one column of a matrix, as programs name it: `D(1,:) = [...]`, `C_{:,2} = ...`."""
+"""One row or one column of a matrix, as programs name it: `D(1,:) = [...]`, and the entries as written."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.grids import Grid
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.tokens.lexer import Token
@@ -40,6 +41,33 @@ def part_of(vocabulary: Vocabulary, member: list[Token]) -> MatrixPart | None:
     places = {part: vocabulary.quantities.entry_of(part)[1] for part in parts}
     found = [part for part, place in places.items() if len(place) == 2 and str(place[axis] + 1) == number]
     return MatrixPart(tuple(found)) if found else None
+
+
+def written_entries(tokens: list[Token]) -> list[list[list[Token]]]:
+    """The tokens of each entry of a matrix that is written out, row by row; none of anything else."""
+    if len(tokens) > 4 and tokens[0].kind in ("[", "(") and tokens[1].kind == "begin":
+        tokens = tokens[1:-1]
+    if len(tokens) < 3 or (tokens[0].kind, tokens[-1].kind) not in (("begin", "close"), ("[", "]")):
+        return []
+    inside = tokens[1:-1]
+    if tokens[0].kind == "begin":
+        return [_cut(row, "&") for row in _cut(inside, "\\\\")]
+    if inside[0].kind == "[":
+        return [_cut(row[1:-1], ",") for row in _cut(inside, ",")]
+    return [_cut(row, ",") for row in _cut(inside, ";")]
+
+
+def _cut(tokens: list[Token], kind: str) -> list[list[Token]]:
+    """The pieces between signs of a kind that stand in no bracket; no empty ones."""
+    pieces: list[list[Token]] = [[]]
+    level = 0
+    for token in tokens:
+        level += OPENS.get(token.kind, 0)
+        if token.kind == kind and level == 0:
+            pieces.append([])
+        else:
+            pieces[-1].append(token)
+    return [piece for piece in pieces if piece]
 
 
 def entries_of(part: MatrixPart, value: object) -> list[tuple[str, Node]]:
