@@ -4,7 +4,9 @@ A slip is a record in a file of `slips`: its code, its kind in a few words, a me
 person that says what happened, and what to look at.  A diagnosis is true or silent: every slip
 brings its mend (`mends`), and is told only where the mend, put into the student's own value,
 gives exactly the value that the student's own nearest answers lead to; where no slip does, what
-differs is said (`differences`), and no more.  `diagnoser` decides that, and tries the
+differs is said (`differences`), and no more.  What is true of that value and not of the key says so; a
+slip of a step is told of an entry only where it spoils none that is right; of C an entry is spoken of
+where it alone is not Christoffel's, else a row of C q̇.  `diagnoser` decides that, and tries the
 explanations one after the other, the nearest first, in the order of the list at its end:
 
     steps            this step done otherwise, from the student's own inputs (`kinematic_steps`: of what
@@ -12,6 +14,7 @@ explanations one after the other, the nearest first, in the order of the list at
     action_steps     the same of springs, rotors and friction
     one_place        one factor where another belongs (`factors` has the pairs), a sign, a number,
                      a missing term; `exchanges` names these and makes their words of the mend
+    numbers          a number for a letter, put right before anything else is said
     substitution     one symbol, angle or function for another throughout
     changed_rules    an earlier step done otherwise, and all that follows from it
     terms            several such slips, each in a term of its own

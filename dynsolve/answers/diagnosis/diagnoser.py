@@ -9,10 +9,11 @@ does, what differs is said, and no more.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import zip_longest
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
@@ -47,6 +48,12 @@ from dynsolve.quantities import families
 
 MOST_NAMED = 4
 """More slips than this in one answer are told as the terms that differ."""
+
+OF_OWN = "By your own answers before it: "
+"""What is said first where something is true of what these lead to, and not of the key."""
+
+_OF_A_CONSTANT = ("missing_term", "extra_term", "another_model")
+"""What says no more than that a constant stands there."""
 
 MOST_OF_IT = Fraction(1, 2)
 """An answer with at least this share of the key's terms is compared with the key."""
@@ -161,23 +168,35 @@ class Diagnoser:
         return mine, told
 
     def _named(self, wrong: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
-        """What is told of an answer: the first explanation that holds, else what differs."""
-        if mine == self.expected(wrong):
+        """What is told of an answer: the first explanation that holds, else what differs.
+
+        It holds of the nearest value, or of the key; what is true of the first only says so.
+        """
+        nearest, key = self.expected(wrong), wrong.expected[-1]
+        if mine in (nearest, key):
             return
         constant = self._is_constant(wrong, mine)
         if constant:
             yield slip("constant_term")
-        case = Case(wrong, *self._with_numbers(mine, self.expected(wrong)))
-        for explain in _IN_ORDER:
-            found = next((one for one in explain(self, case) if one.holds(case)), None)
-            if found is not None:
-                told = found.told()
-                yield from (
-                    one for one in told if not (constant and one.code in ("missing_term", "extra_term"))
-                )
-                return
-        if is_small(case.expected) and not constant:
-            yield from what_differs(self.words, wrong.called, case.mine, case.expected)
+        values = [nearest] if nearest == key else [nearest, key]
+        cases = [[Case(wrong, *pair) for pair in self._with_numbers(mine, value)] for value in values]
+        explained = (
+            (case, one)
+            for alike in zip_longest(*cases)
+            for stage in (_IN_ORDER[:-1], _IN_ORDER[-1:])
+            for case in filter(None, alike)
+            for explain in stage
+            for one in explain(self, case)
+        )
+        case, found = next((pair for pair in explained if pair[1].holds(pair[0])), (cases[0][0], None))
+        told: Iterable[Diagnosis] = ()
+        if found is not None:
+            told = (one for one in found.told() if not constant or one.code not in _OF_A_CONSTANT)
+        elif is_small(case.expected) and not constant:
+            told = what_differs(self.words, wrong.called, case.mine, case.expected)
+        of_step = found is not None and any(isinstance(mend, Redoing) for mend in found.mends)
+        first = "" if of_step or case in cases[-1] else OF_OWN
+        yield from (replace(one, message=f"{first}{one.message}") for one in told)
 
     def _of_fractions(self, wrong: WrongEntry) -> Iterator[Diagnosis]:
         """What differs above the denominator of the nearest value, where the answer's may be that one."""
@@ -192,7 +211,7 @@ class Diagnoser:
             if any(equal(-fraction_of(value), written) for value in wrong.expected):
                 yield slip("sign_all", yours=wrong.called)
             return
-        case = Case(wrong, *self._with_numbers(above, value))
+        case = Case(wrong, *self._with_numbers(above, value)[0])
         if is_zero(case.mine + case.expected):
             whole = as_expr(cancelled(RationalExpr(value, below)))
             is_term = whole is not None and len(parts(whole)) == 1
@@ -218,18 +237,22 @@ class Diagnoser:
         given = self.problem.values.items()
         return {indices[name, 0]: value for name, value in given if (name, 0) in indices}
 
-    def _with_numbers(self, mine: Expr, expected: Expr) -> tuple[Expr, Expr]:
-        """Both with the numbers of the problem file, as far as the answer has numbers for symbols."""
+    def _with_numbers(self, mine: Expr, expected: Expr) -> list[tuple[Expr, Expr]]:
+        """Both as they are, and with the numbers of the problem file, where the answer lacks symbols.
+
+        Those that are most alike come first.
+        """
         put, here = self._numbers, set(used(mine))
         unused = {i: value for i, value in put.items() if i not in here}
         if not unused.keys() & set(used(expected)):
-            return mine, expected
+            return [(mine, expected)]
         choices = [
             (mine, substituted(expected, unused)),
             (mine, expected),
             (substituted(mine, put), substituted(expected, put)),
         ]
-        return max((pair for pair in choices if pair[0] != pair[1]), key=lambda pair: likeness(*pair))
+        different = [pair for pair in choices if pair[0] != pair[1]]
+        return sorted(different, key=lambda pair: likeness(*pair), reverse=True) or [(mine, expected)]
 
     # -- one explanation after the other, see _IN_ORDER --------------------------------------------
 
@@ -333,6 +356,7 @@ class Diagnoser:
         """A wrong sign of a potential energy, or of g, is the wrong sign of gravity."""
         quantity = self.dimension_check.quantity(wrong)
         is_gravity = quantity is not None and quantity.family in (families.P_BODY, families.P, families.G)
+        is_gravity = is_gravity and not self.graph.robot.actions.springs
         if is_gravity and one.code in ("sign", "sign_all"):
             return slip("gravity_sign")
         return one

@@ -79,6 +79,8 @@ class DimensionCheck:
         wanted = self.dimension(question)
         if wanted is None or not self.dimensions.known or self.has_numbers:
             return
+        if not self.dimensions.fits(question.expected[-1], wanted):
+            return
         terms = [monomial_expr(self.ring, m) for m in monomials(mine)] if is_small(mine) else []
         known = [(term, found) for term in terms if (found := self.dimensions.of(term)) is not None]
         for term, found in known:

@@ -147,3 +147,53 @@ def test_a_slip_beside_the_right_answers_before_it_is_told_as_it_is(factor: int,
 def test_a_hand_in_of_the_key_has_no_diagnosis() -> None:
     report = judge(ELBOW, {"d22": "m2*lc2^2 + I2", "g2": "m2*g*lc2*cos(q1+q2)"})
     assert all(not a.diagnosis for a in report.answers)
+
+
+def test_what_is_true_of_the_own_answers_alone_says_so() -> None:
+    P = "m1*g*lc1*sin(q1) + m2*g*(l1*sin(q1) + lc1*sin(q1 + q2))"
+    own = judged(
+        ELBOW, "g", [["(m1*lc1 + m2*l1)*g*cos(q1) + m2*g*lc1*cos(q1 + q2)"], ["m2*lc1*cos(q1 + q2)"]], P=P
+    )
+    told = own.diagnosis[0]
+    assert told.message.startswith("By your own answers before it: ") and "g is left out" in told.message
+    key = judged(
+        ELBOW, "g", [["(m1*lc1 + m2*l1)*g*cos(q1) + m2*g*lc2*cos(q1 + q2)"], ["m2*g*lc2*cos(q1)"]], P=P
+    )
+    (told,) = key.diagnosis
+    assert told.message == "In m₂ g l_c2 c₁ stands c₁ where c₁₂ belongs."
+
+
+SPRING = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}]
+masses: [{mass: m1, link: 1, shape: point, center: tip}]
+springs: [{stiffness: k, of: q1}]
+"""
+
+
+def test_gravity_alone_is_not_blamed_where_springs_are_turned_too() -> None:
+    assert codes(judged(SPRING, "g", [["-m1*g*l1*cos(q1) - k*q1"]])) == ["sign_all"]
+    assert codes(judged(SPRING, "g", [["-m1*g*l1*cos(q1) + k*q1"]])) == ["gravity_sign"]
+
+
+@pytest.mark.parametrize(
+    ("C", "told"),
+    [
+        ([["0", "-2*h*(q1_dot + q2_dot)"], ["h*q1_dot", "0"]], "Row 1 of C q̇"),
+        ([["-2*h*q2_dot", "-h*(q1_dot + q2_dot)"], ["h*q1_dot", "0"]], "Entry (1, 1) of C is 2 times"),
+        ([["-h*q2_dot", "-h*(q1_dot + q2_dot)"], ["h*q1_dot", "h"]], "Entry (2, 2) of C"),
+        ([["-2*h*q2_dot", "-2*h*(q1_dot + q2_dot)"], ["2*h*q1_dot", "0"]], "The ½ of Christoffel's formula"),
+    ],
+)
+def test_of_C_that_is_spoken_of_which_is_to_be_mended(C: list[list[str]], told: str) -> None:
+    h = "m2*l1*lc2*sin(q2)"
+    rows = [[entry.replace("h", h) for entry in row] for row in C]
+    found = judged(ELBOW, "C", rows)
+    assert [d.message.startswith(told) for d in found.diagnosis] == [True], found.diagnosis
+
+
+def test_one_entry_that_is_doubled_is_not_the_whole_matrix() -> None:
+    D = [["2*(I1zz + m2*L2^2)", "0"], ["0", "m2"]]
+    assert [d.message for d in judged(RP, "D", D).diagnosis] == ["Entry (1, 1) is 2 times what it should be."]
+    D[1][1] = "2*m2"
+    assert [d.message for d in judged(RP, "D", D).diagnosis] == ["Your answer is 2 times what it should be."]
