@@ -93,7 +93,7 @@ class Intake:
 
     `students` are the rows, with the platform's id of each, `groups` those of the students whose group
     handed in, `files` all that can be opened, those that wait for a human too; `names` are what people
-    call the students, where the names of the files say it.
+    call the students, where the names of the files say it; `late` are the days that what waits is late.
     """
 
     students: dict[str, str]
@@ -102,6 +102,7 @@ class Intake:
     groups: dict[str, str] = field(default_factory=dict)
     files: tuple[Upload, ...] = ()
     names: dict[str, str] = field(default_factory=dict)
+    late: dict[tuple[str, str], int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,6 +139,7 @@ def take_in(
     students: dict[str, str] = {}
     in_groups: dict[str, str] = {}
     names: dict[str, str] = {}
+    delays: dict[tuple[str, str], int] = {}
     files: dict[Upload, None] = {}
     waiting: set[Waiting] = set()
     pieces: dict[tuple[str, str], list[_Piece]] = {}
@@ -158,6 +160,9 @@ def take_in(
                 pieces.setdefault((student, piece.problem), []).append(piece)
             else:
                 waiting.add(Waiting(student, piece.problem, piece.file, piece.reason))
+                for stem in (piece.problem,) if piece.problem else problems.stems:
+                    days = days_late(problems.extensions, student, students[student], stem, piece.owner.late)
+                    delays[student, stem] = max(days, delays.get((student, stem), 0))
     for refused in uploads.refused:
         for student, id in _owners_of_refused(owners, PurePosixPath(refused.name)):
             if student:
@@ -166,7 +171,7 @@ def take_in(
     counting = (_counting(student, problem, found) for (student, problem), found in sorted(pieces.items()))
     hand_ins = tuple(_extended(problems, hand_in, students[hand_in.student]) for hand_in in counting)
     rows = dict(sorted(students.items()))
-    return Intake(rows, hand_ins, tuple(sorted(waiting)), in_groups, tuple(files), names)
+    return Intake(rows, hand_ins, tuple(sorted(waiting)), in_groups, tuple(files), names, delays)
 
 
 def _extended(problems: ProblemSet, hand_in: HandIn, id: str) -> HandIn:

@@ -9,9 +9,9 @@ from __future__ import annotations
 import base64
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
@@ -48,6 +48,7 @@ class _Course:
     """What an entry is written from."""
 
     folder: Path
+    lines: Callable[[str], list[str]]
     names: Mapping[str, str]
     uploads: Mapping[Key, tuple[str, ...]]
     files: Mapping[Key, tuple[str, ...]]
@@ -61,10 +62,11 @@ def queue_page(
     """The page; `waits` is what waits, `names` are what students are called."""
     stems = [stem for stem in problems.stems if any(entry.problem in (stem, "") for entry in waits)]
     keys = {(stem, answer): key for stem in stems for answer, key in kept_keys(record, stem).items()}
-    waiting = {(entry.student, entry.problem) for entry in waits}
-    answers = {key: [a for a in record.answers(key[0]) if a.problem == key[1]] for key in waiting}
+    beside = {(entry.student, entry.problem) for entry in waits if not entry.answer}
+    answers = {key: [a for a in record.answers(key[0]) if a.problem == key[1]] for key in beside}
     handed_in = {(row.student, row.problem): row.files for row in record.rows()}
-    course = _Course(folder, names, record.uploads(), handed_in, answers, keys)
+    lines = lru_cache(maxsize=16)(partial(_lines, folder))
+    course = _Course(folder, lines, names, record.uploads(), handed_in, answers, keys)
     groups = groupby(waits, key=lambda e: (e.student, e.problem, e.what, e.why))
     body = "".join(_entry(course, list(entries)) for _, entries in groups)
     templates = "".join(
@@ -147,13 +149,13 @@ def _cells(cells: Iterable[str]) -> str:
 
 def _answer(course: _Course, a: RecordedAnswer, reason: str, extra: str) -> str:
     """The key, what the student wrote as it was read, and the fields for marks and a comment."""
-    of, now = decimal(points(a.of)), decimal(points(a.marks))
+    of = decimal(points(a.of))
     row = _cells((a.student, a.problem, a.answer, of, reason))
     name = _text(f"{a.answer} {a.label}".strip())
     key = _key_id(a.problem, a.answer)
     known = (a.problem, a.answer) in course.keys
     path, line = _place(course, Entry(a.student, a.problem, "", "", a))
-    written = "".join(_lines(course.folder, path)[line - 1 : line]) if line else ""
+    written = "".join(course.lines(path)[line - 1 : line]) if line else ""
     told = [] if a.verdict == "unreadable" else [a.why, *a.message]
     parts = (
         ("Key", f'<div class="key" data-key="{key}"></div>' if known else "see the solution of the problem"),
@@ -164,7 +166,7 @@ def _answer(course: _Course, a: RecordedAnswer, reason: str, extra: str) -> str:
     listed = "".join(f"<dt>{term}</dt><dd>{said}</dd>\n" for term, said in parts if said)
     buttons = "".join(
         f'<button type="button" data-marks="{n}" aria-label="{n} marks for {name}">{n}</button>\n'
-        for n in dict.fromkeys(("0", now, of))
+        for n in dict.fromkeys(("0", *(shown(points(marks)) for marks in (a.marks, a.of))))
     )
     return (
         f'<fieldset id="a{_digest(row, a.read_as, written)}" data-row="{row}" data-of="{of}" '
@@ -196,7 +198,7 @@ def _hand_in(course: _Course, entry: Entry) -> str:
     if (course.folder / page).is_file():
         links += f' · <a href="{quote(page)}" target="_blank">what the student reads</a>'
     path, line = _place(course, entry)
-    lines = "".join(_window(_lines(course.folder, path), line))
+    lines = "".join(_window(course.lines(path), line))
     text = f'<pre tabindex="0" aria-label="What was handed in" dir="auto">{lines}</pre>' if lines else ""
     pictures = [path for path in every if PurePosixPath(path).suffix.lower() in PICTURES]
     copies = filter(None, (_copy(course.folder, path) for path in pictures))
@@ -212,7 +214,7 @@ def _place(course: _Course, entry: Entry) -> tuple[str, int]:
     line = a.line if a else int(found[1]) if found else 0
     named = dict(zip(course.files.get(key, ()), paths, strict=False))
     meant = named.get((found[2] or "") if found else "", entry.what)
-    return meant if _lines(course.folder, meant) else next(iter(paths), ""), line
+    return meant if course.lines(meant) else next(iter(paths), ""), line
 
 
 def _copy(folder: Path, path: str) -> str:
@@ -226,7 +228,6 @@ def _linked(folder: Path, path: str) -> str:
     return f'<a href="{where}" target="_blank" rel="noopener noreferrer">{name}</a>' if where else ""
 
 
-@lru_cache(maxsize=16)
 def _lines(folder: Path, path: str) -> list[str]:
     """The lines of a file that was handed in; nothing where it has none."""
     ending = PurePosixPath(path).suffix.lower()

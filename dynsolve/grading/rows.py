@@ -85,25 +85,26 @@ def rows_of_absent(problems: ProblemSet, intake: Intake, known: Mapping[Key, str
     for entry in intake.waiting:
         for stem in (entry.problem,) if entry.problem else problems.stems:
             reasons.setdefault((entry.student, stem), []).append(f"{entry.file}: {entry.reason}")
-    missing = {item.stem: _not_judged(problems, item, []) for item in problems.items}
+    missing = {item.stem: _not_judged(problems, item, [], 0) for item in problems.items}
     for student in intake.students:
         for item in problems.items:
             key = (student, item.stem)
             if key in handed_in:
                 continue
             said = _some_of(reasons.get(key, []))
-            word, causes, row = _not_judged(problems, item, said) if said else missing[item.stem]
+            late = intake.late.get(key, 0)
+            word, causes, row = _not_judged(problems, item, said, late) if said else missing[item.stem]
             if known.get(key) != word:
                 yield key, word, causes, row
 
 
-def _not_judged(problems: ProblemSet, item: Item, said: list[str]) -> tuple[str, str, Data]:
+def _not_judged(problems: ProblemSet, item: Item, said: list[str], late: int) -> tuple[str, str, Data]:
     """The row of what was not handed in, or waits for a human: its fingerprint, its causes, what it holds."""
-    found = {"hand-in": short(said), "marks": of_marks(item), "program": program()}
+    found = {"hand-in": short([said, late]), "marks": of_marks(item), "program": program()}
     found["policy"] = of_policy(problems.policy)
     reason = "; ".join(said)
     row = _unread(problems, item.stem, reason)
-    rest = {"files": [], "left": [], "late": 0, "reason": reason, "notes": []}
+    rest = {"files": [], "left": [], "late": late, "reason": reason, "notes": []}
     return short(found), json.dumps(found, sort_keys=True), {**row, **rest}
 
 
