@@ -28,7 +28,7 @@ from dynsolve.document import (
     Verbatim,
 )
 from dynsolve.errors import Finding
-from dynsolve.notation.tree import Letter, Node, Number, Power, Relation, Row, Symbol
+from dynsolve.notation.tree import Letter, Matrix, Node, Number, Power, Relation, Row, Symbol
 
 _SAID = {
     Verdict.CORRECT: "correct",
@@ -59,6 +59,9 @@ _WRITTEN = re.compile(
 
 _MOST = 2000
 """So many characters of what a student wrote are shown."""
+
+_MOST_SET = 8000
+"""Up to so many characters it is set as a formula."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -299,8 +302,9 @@ def readings(report: Report, view: FeedbackView) -> Iterator[Block]:
 
 
 def _reading(said: str, answer: JudgedAnswer) -> Iterator[Block]:
-    """What was read: as a formula, or, where it is too long, as text."""
-    if answer.written is not None and len(answer.read_as) <= _MOST:
+    """What was read: a matrix, and what is to be looked at, as a formula; else, or if too long, as text."""
+    is_set = answer.verdict is not Verdict.CORRECT or isinstance(answer.written, Matrix)
+    if is_set and answer.written is not None and len(answer.read_as) <= _MOST_SET:
         yield Text((f"{said}:",))
         yield Formula(_equation(answer.name, answer.written))
     elif answer.read_as:

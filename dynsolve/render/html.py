@@ -279,7 +279,7 @@ class _Page(MarkupPage):
             return
         label = formula.label
         kind = "result" if label else "law" if formula.source else "work"
-        is_wide = max(piece.width for piece in self.splitter.pieces(formula.node)) > PHONE
+        is_wide = self.ruler.width(formula.node) > PHONE and self.widest(formula.node) > PHONE
         kind += " wide" * is_wide
         anchor = f' id="eq-{label}"' if label else ""
         beside = self.number(label) if label else ""
@@ -304,7 +304,7 @@ class _Page(MarkupPage):
             yield f'<div class="line">{math(self.printer.text(node), display=True)}</div>'
             return
         matrix = _lone_matrix(node)
-        widest = max(piece.width for piece in self.splitter.pieces(node))
+        widest = self.widest(node)
         beside = list(listed(node)) if isinstance(node, Row) else []
         if widest > PAGE and len(beside) > 1 and not formula.optional:
             for part in beside:
@@ -316,7 +316,11 @@ class _Page(MarkupPage):
 
     def is_too_wide(self, node: Node) -> bool:
         """Whether a part that cannot be broken is wider than the widest page."""
-        return max(piece.width for piece in self.splitter.pieces(node)) > PAGE
+        return self.widest(node) > PAGE
+
+    def widest(self, node: Node) -> float:
+        """The width of the widest part that cannot be broken."""
+        return max(piece.width for piece in self.splitter.pieces(node))
 
     def broken(self, node: Node, room: float = PHONE) -> str:
         """A formula in pieces; of several side by side each is broken only where a line cannot hold it."""
