@@ -5,8 +5,8 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 1. `files` knows the format by the file's ending; `reports`, `answer_file`, `notebooks` or `web`
    finds the displayed equations, each a `displays.Display` (`report_text` leaves comments and
    struck-out text away, `plain_lines`, `pretty_print` and `tables` find equations that are no
-   displays, `documents` lets pandoc read Word and its like).  `sources` keeps where every character stands in the file,
-   `limits` says how much is read.
+   displays, `documents` lets pandoc read Word and its like).  `sources` keeps where every character
+   stands in the file, `limits` says how much is read.
 2. `tokens` cuts the text of a display into letters, numbers, commands and signs, and
 3. leaves out fonts, sizes and environments that only align, with the student's macros written out,
    so that one thing has one spelling from here on.

@@ -106,7 +106,7 @@ def _operand(reader: Reader, written: list[Token]) -> Value:
     try:
         return reader.inner(written) if written else _next_factor(reader, naming=False)
     except ReadError:
-        if named is None:
+        if not isinstance(named, Abstract | Grid):
             raise
         _go_back(reader, after, its_references)
         return named
@@ -119,17 +119,33 @@ def _go_back(reader: Reader, position: int, references: dict[str, None]) -> None
 
 
 def _next_factor(reader: Reader, naming: bool) -> Value:
-    """The factor that follows an operator; behind a constant the rest of its term: d/dt m r² φ̇."""
+    """What follows an operator: a bracket, the q(t) of a program, or the whole rest of the term."""
     before, reader.naming = reader.naming, naming
     reader.enter()
     try:
+        start, is_bracket = reader.position, reader.token.kind in ("(", "[", "{", "begin")
         found = reader.factor()
-        if isinstance(found, Node) and not naming and derivative(found, by_time(reader.vocabulary)) == ZERO:
-            found = times(found, reader.term()) if reader.follows() else found
+        taken = reader.tokens[start : reader.position]
+        is_closed = naming or is_bracket or any(token.text == "t" for token in taken)
+        if isinstance(found, Node) and not is_closed and reader.follows():
+            found = _rest_of_term(reader, found)
     finally:
         reader.naming = before
         reader.nesting -= 1
     return found
+
+
+def _rest_of_term(reader: Reader, first: Node) -> Value:
+    """A product behind an operator: d/dt m r² φ̇; not clear is whether the sine belongs to d/dt q sin q."""
+    rule, position, start = by_time(reader.vocabulary), reader.position, reader.token.start
+    rest = reader.term()
+    if any(token.text in ("dt", "partial") for token in reader.tokens[position : reader.position]):
+        reader.position, reader.token = position, reader.tokens[position]
+        return first
+    is_moving = isinstance(rest, Node) and derivative(rest, rule) != ZERO
+    if is_moving and isinstance(first, Symbol) and derivative(first, rule) != ZERO:
+        raise ReadError("it is not clear what this derivative is of", start, 1, "put that in brackets")
+    return times(first, rest)
 
 
 def _carried_out(of: Value, rule: Rule) -> Value | None:

@@ -43,10 +43,12 @@ def magnitude(x: Node) -> Node:
 
 
 def raise_to(base: Node, power: Fraction) -> Node:
-    """base^power; a half is a root, and |x|² is x²."""
+    """base^power; a half is a root, |x|² is x² and √x² is x."""
     match base:
         case Product((x, Function("sgn"))) if power % 2 == 0 and base == magnitude(x):
             base = x
+        case Function("sqrt", x) if power % 2 == 0 and power:
+            return x if power == 2 else raise_to(x, power / 2)
     if power.denominator == 2:
         root = Function("sqrt", base)
         return root if power > 0 else Quotient(Number(1), root)

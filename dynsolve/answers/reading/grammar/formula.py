@@ -325,6 +325,13 @@ class FormulaReader(Reader):
         name = token.text
         if name == "hat" and (vector := self.unit_vector()) is not None:
             return vector
+        if (
+            name in ACCENTS
+            and "(" in (self.peek().kind, self.peek(2).kind)
+            and self.peek().kind in ("(", "{")
+        ):
+            self.take()
+            return self.scripted(derivatives.total_rate(self, self.atom(), ACCENTS[name]))
         if name in ACCENTS or name in MARKS or name == "script":
             return names.value_of(self, self.form())
         if (function := functions.name_of(token, self.vocabulary)) is not None:

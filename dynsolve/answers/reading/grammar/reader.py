@@ -12,6 +12,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+from dynsolve.answers.reading.grammar.differentiation import by_time, derivative
 from dynsolve.answers.reading.grammar.exponents import raise_to
 from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.rates import rate
@@ -21,7 +22,7 @@ from dynsolve.answers.reading.limits import MAX_INVERSE
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import ZERO, Node
 
 
 class Reader(ScriptCursor):
@@ -112,7 +113,9 @@ class Reader(ScriptCursor):
         if scripts.transposed or scripts.primes:
             if isinstance(value, Node) and scripts.primes:
                 dotted = rate(value, self.vocabulary, scripts.primes)
-                if dotted is None:
+                if dotted is None and scripts.primes == 1:
+                    dotted = derivative(value, by_time(self.vocabulary))
+                if dotted is None or dotted == ZERO:
                     raise ReadError(
                         "a prime stands here after what has no derivative", start, 1, "theta1' is a velocity"
                     )

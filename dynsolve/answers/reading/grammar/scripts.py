@@ -238,7 +238,9 @@ class ScriptCursor(Cursor):
             tokens = tokens[:-1]
         if not tokens:
             return
-        if all(t.kind in ("'", "''") for t in tokens):
+        if all(t.kind == "cdot" for t in tokens):  # (m r² φ̇)^·
+            scripts.primes += len(tokens)
+        elif all(t.kind in ("'", "''") for t in tokens):
             scripts.primes += sum(len(t.kind) for t in tokens)
         elif len(tokens) == 1 and tokens[0].text in _TRANSPOSES:
             scripts.transposed = True

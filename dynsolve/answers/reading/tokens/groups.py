@@ -36,7 +36,9 @@ def close_group(closing: Token, group: Group, out: list[Token], following: str) 
         out.append(closing)
     elif (bar := _bar(out, start)) > 0:
         _written_as_fraction(out, start, bar, closing)
-    elif following not in ("^", "_", "raised", "'") and _only_sets_type(out, start):
+    elif following not in ("^", "_", "raised", "'") and (
+        _only_sets_type(out, start) or _is_fraction_alone(out, start)
+    ):
         del out[start]
     else:
         out.append(closing)
@@ -76,6 +78,16 @@ def _only_sets_type(out: list[Token], start: int) -> bool:
         if level == 0 and token.kind == ",":
             return False  # a list, as Mathematica writes it
     return holds and not _is_argument(out, start)
+
+
+def _is_fraction_alone(out: list[Token], start: int) -> bool:
+    r"""Whether the group that opens there holds one fraction, as Maple writes it: `{\frac {d}{dt}}r`."""
+    if out[start + 1].text != "frac" or _is_argument(out, start):
+        return False
+    inside, position = [*out[start + 2 :], out[-1]._replace(kind="end")], 0
+    for _ in range(2):
+        _, position = taken_group(inside, position)
+    return position == len(inside) - 1
 
 
 def _is_argument(out: list[Token], start: int) -> bool:

@@ -24,6 +24,10 @@ OPERATORS = [
     ("t", r"\frac{d}{dt}\left(%s\right)"),
     ("t", r"\dfrac{\mathrm d}{\mathrm dt}\left[%s\right]"),
     ("t", r"\frac{d\left(%s\right)}{dt}"),
+    ("t", r"{\frac {\rm d}{{\rm d}t}}\left(%s\right)"),
+    ("t", r"\left(%s\right)^{\cdot}"),
+    ("t", r"\left(%s\right)'"),
+    ("t", r"\dot{\left(%s\right)}"),
     ("q1", r"\frac{\partial}{\partial q_1}\left(%s\right)"),
     ("q2", r"\frac{\partial\left(%s\right)}{\partial q_2}"),
     ("q1_dot", r"\frac{\partial}{\partial\dot q_1}\left[%s\right]"),
@@ -58,6 +62,10 @@ def test_behind_a_constant_the_whole_term_is_meant() -> None:
     )
     assert bare is not None and closed is not None
     assert evaluate(bare, at) == pytest.approx(evaluate(closed, at))
+
+
+def test_what_may_be_meant_otherwise_is_not_read() -> None:
+    assert "not clear" in answer("planar-2r", "tau1", r"m_1g\frac{d}{dt}q_1\sin q_2").fault
 
 
 @pytest.mark.parametrize("text", ["diff(m1*q1(t)^2*diff(q2(t), t), t)", "d/dt(m1*q1^2*q2_dot)"])

@@ -63,6 +63,7 @@ ELBOW = [
     ("I1*q̈1 + I2*q̇₂²", "I1*q1_ddot + I2*q2_dot**2"),
     ("I1*theta1 + I2*θ̇2", "I1*q1 + I2*q2_dot"),
     ("½ m₁ lc1² q̇₁²", "m1*lc1**2*q1_dot**2/2"),
+    (r"I_1(\sqrt{\dot q_1^2 + \dot q_2^2})^2 + I_2\sqrt{m_1}^4", "I1*(q1_dot**2 + q2_dot**2) + I2*m1**2"),
     # what is crossed out, put in boxes or braces
     (r"m_1g - \cancel{m_2g} + \cancelto{0}{m_2}", "m1*g"),
     (r"\frac{\cancel{2}m_1g}{\bcancel{2}}\xcancel{+ m_2}", "m1*g"),
