@@ -6,7 +6,7 @@ mark is lost to what was not read; else it is set aside, with its reason.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from dynsolve.answers.submission import NotRecognized
@@ -29,7 +29,7 @@ class Ledger:
     ) -> None:
         self.quantities = quantities
         given = {name for name, answer in answers.items() if answer.verdict is not Verdict.MISSING}
-        asked = {name: {quantities.entry_of(name)[0], *_with_parts(quantities, name)} for name in answers}
+        asked = {name: {quantities.entry_of(name)[0], *quantities.within(name)} for name in answers}
         absent = {name: names - given for name, names in asked.items() if name not in given}
         known = frozenset[str]().union(*asked.values())
         self.not_recognized = list[NotRecognized]()
@@ -45,7 +45,7 @@ class Ledger:
         """The answers, the missing ones with the last equation, or part, that a human has to look at."""
         found = dict(answers)
         for name, answer in answers.items():
-            parts = [answers[p] for p in _with_parts(self.quantities, name) if p in answers]
+            parts = [answers[p] for p in self.quantities.within(name) if p in answers]
             unread = [part for part in parts if part.verdict is Verdict.UNREADABLE]
             if answer.verdict is Verdict.MISSING and unread:
                 fault = f"{unread[0].name}: {unread[0].fault}"
@@ -56,9 +56,3 @@ class Ledger:
                     found[name], label=one.label, place=one.place, notes=(one.why,), fault=one.why
                 )
         return found
-
-
-def _with_parts(quantities: Quantities, name: str) -> Iterator[str]:
-    yield name
-    for part in quantities.parts(name):
-        yield from _with_parts(quantities, part)

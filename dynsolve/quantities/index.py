@@ -196,6 +196,12 @@ class Quantities(Mapping[str, Quantity]):
         """The answers that a whole can be given by: its entries, or what it is added up from."""
         return tuple(self._parts.get(name, ()))
 
+    def within(self, name: str) -> Iterator[str]:
+        """An answer and all that it can be given by, part by part."""
+        yield name
+        for part in self.parts(name):
+            yield from self.within(part)
+
     @cached_property
     def _parts(self) -> dict[str, list[str]]:
         found: dict[str, list[str]] = {}

@@ -18,8 +18,10 @@ from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.given_values import announce, read_value
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.placed_text import PlacedText
+from dynsolve.answers.reading.plain_lines import hidden
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.span_text import span_text
+from dynsolve.answers.reading.unread_text import list_unread_keys
 from dynsolve.answers.reading.verdicts import read_verdicts
 from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
 from dynsolve.errors import Finding
@@ -68,9 +70,10 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
     if not file.answers:
         message = "there are no answers in this file"
         faults.append(Finding(message, "write them under `answers:`, one a line: K: m1*L1", source.file))
-    for entry in file.answers[:MAX_ANSWERS]:
+    entries = file.answers[:MAX_ANSWERS]
+    for entry in entries:
         announce(reader, entry.key)
-    for entry in file.answers[:MAX_ANSWERS]:
+    for entry in entries:
         if entry.value is not None:
             place = source.place(entry.at, len(entry.key))
             if (verdicts := reader.vocabulary.verdicts_named(entry.key)) is not None:
@@ -85,6 +88,8 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
                 )
                 continue
             read_value(reader, entry.key, place, _as_rows(reader, entry, entry.value).display(source))
+    read = [(e.at, e.value.origin(len(e.value.text)) if e.value else e.at + len(e.key)) for e in entries]
+    list_unread_keys(reader, source, hidden(source.text, read))
     return (file.problem, file.student), faults
 
 

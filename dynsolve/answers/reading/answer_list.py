@@ -205,9 +205,9 @@ class AnswerList:
         )
 
     def said_aside(self, refused: NotRecognized, answers: Sequence[Answer] = ()) -> None:
-        """Keep what is said of an answer in passing: it is listed where nothing else gives that.
+        """Keep what is said of an answer in passing: its `answers` count where nothing else gives that.
 
-        Its `answers` count where another names them: C = [[c_11, c_12], [c_21, 0]] with c_11 = ...
+        They have to be asked for, or named by another: C = [[c_11, c_12], [c_21, 0]] with c_11 = ...
         """
         self._asides.append((refused, answers))
 
@@ -257,7 +257,9 @@ class AnswerList:
         given = {answer.name for answer in self.answers}
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
         for refused, answers in self._asides:
-            if given.isdisjoint(refused.answers) and not named.isdisjoint(refused.answers):
+            can_be_read = all(answer.node is not None for answer in answers)
+            wanted = named | self.vocabulary.asked if can_be_read else named
+            if answers and given.isdisjoint(refused.answers) and not wanted.isdisjoint(refused.answers):
                 self.answers += answers
             else:
                 (self.left_alone if given & set(refused.answers) else self.not_recognized).append(refused)

@@ -1,4 +1,4 @@
-"""What a formula in the midst of a sentence says: it defines letters, and answers nothing."""
+"""What a formula in the midst of a sentence says: it defines letters, and answers what nothing else does."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ from dynsolve.errors import ReadError
 _NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
 """Letters of sentences that are no abbreviation: the time, running indices, the number of joints."""
 
-WHY = "it stands in a sentence"
+IN_SENTENCE = "it stands in a sentence"
+SUPPOSED = "a sentence supposes it"
 
 
 def read_aside(reader: EquationReader, display: Display) -> None:
@@ -46,7 +47,7 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
     members = equation.members
     if (order := defined_order(members)) is not None:
         reader.vocabulary.orders |= [order]
-        reader.found.left_alone.append(origin.of(members, WHY))
+        reader.found.left_alone.append(origin.of(members, origin.display.aside))
         return
     side = read_left_side(reader.vocabulary, members[0])
     origin = replace(origin, names=spoken_of(reader.vocabulary, members[0], side))
@@ -60,14 +61,18 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
     if isinstance(side, NamedAnswers) and (
         isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
     ):
-        why = value.message if isinstance(value, ReadError) else WHY
         sides = read_left_sides(reader.vocabulary, members)
         names = [one.candidates for one in sides if isinstance(one, NamedAnswers)]
         member = Member(len(members) - 1, members[-1], value)
         answers = [reader.found.answer(candidates, member, origin) for candidates in names]
-        reader.found.said_aside(origin.of(members, why), answers)
+        refused = origin.of(members, value.message if isinstance(value, ReadError) else origin.display.aside)
+        if isinstance(value, RightSide) and value.is_definition:
+            reader.found.left_alone.append(replace(refused, needs=value.references))
+            reader.found.general += answers
+        else:
+            reader.found.said_aside(refused, answers if origin.display.aside != SUPPOSED else ())
         return
-    reader.found.left_alone.append(origin.of(members, WHY))
+    reader.found.left_alone.append(origin.of(members, origin.display.aside))
     if isinstance(value, ReadError):
         if isinstance(side, UnknownSide):
             reader.vocabulary.broken[side.key] = value.message

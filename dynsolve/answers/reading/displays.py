@@ -19,15 +19,15 @@ class Display:
     """The text of one displayed equation, or of several below one another.
 
     `plain` is one in plain text; `among_prose` one in a line that may be a sentence, which is
-    listed, never unreadable, where it cannot be read; `aside` a formula in the midst of a sentence,
-    which answers nothing but may say what a letter means.
+    listed, never unreadable, where it cannot be read; `aside` says why a formula in the midst of a
+    sentence is no equation of its own: it may say what a letter means, and answers what nothing else does.
     """
 
     text: str
     label: str
     locate: Locate
     plain: bool = False
-    aside: bool = False
+    aside: str = ""
     among_prose: bool = False
 
 

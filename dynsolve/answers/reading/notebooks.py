@@ -1,4 +1,7 @@
-"""Jupyter notebooks: the Markdown cells as one report, its places those of the .ipynb file."""
+"""Jupyter notebooks: the Markdown cells as one report, its places those of the .ipynb file.
+
+Code is not read; what it says of an answer is listed.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ from typing import Any
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source
+from dynsolve.answers.reading.unread_text import list_unread
 from dynsolve.errors import Finding
 
 MAX_CELLS = 2_000
@@ -23,11 +27,19 @@ def read_notebook(reader: EquationReader, source: Source) -> list[Finding]:
         return [
             Finding("this is no notebook: its JSON cannot be read", "save the notebook anew", source.file)
         ]
+    read_report(reader, _cells(source, content, "markdown"))
+    code = _cells(source, content, "code")
+    list_unread(reader, code, code.text, "it stands in code, which is not read")
+    return []
+
+
+def _cells(source: Source, content: Any, kind: str) -> Source:
+    """The lines of all cells of a kind, each at its place in the file."""
     lines: list[str] = []
     origins: list[tuple[int, int, int]] = []
     offset, position, line = 0, 0, 1
     lost = 0
-    for text in _lines(content):
+    for text in _lines(content, kind):
         if text.strip() and lost < MAX_LOST:
             found = source.text.find(json.dumps(text.rstrip("\n"), ensure_ascii=False)[1:-1], position)
             if found < 0:
@@ -40,24 +52,23 @@ def read_notebook(reader: EquationReader, source: Source) -> list[Finding]:
         origins.append((offset, line, column))
         lines.append(text)
         offset += len(text)
-    read_report(reader, Source("".join(lines), source.file, tuple(origins)))
-    return []
+    return Source("".join(lines), source.file, tuple(origins) or ((0, 1, 1),))
 
 
 def markdown(text: str) -> str:
     """The Markdown cells of a notebook as one text; nothing of what is no notebook."""
     try:
-        return "".join(_lines(json.loads(text)))
+        return "".join(_lines(json.loads(text), "markdown"))
     except (ValueError, RecursionError):
         return ""
 
 
-def _lines(content: Any) -> list[str]:
-    """The lines of all Markdown cells, a blank one between cells."""
+def _lines(content: Any, kind: str) -> list[str]:
+    """The lines of all cells of a kind, a blank one between cells."""
     cells = content.get("cells") if isinstance(content, dict) else None
     lines: list[str] = []
     for cell in cells[:MAX_CELLS] if isinstance(cells, list) else ():
-        if not isinstance(cell, dict) or cell.get("cell_type") != "markdown":
+        if not isinstance(cell, dict) or cell.get("cell_type") != kind:
             continue
         text = cell.get("source", "")
         if isinstance(text, list):

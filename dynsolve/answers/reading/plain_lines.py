@@ -36,6 +36,7 @@ _SIGN_BELOW = re.compile(r"\n[ \t]*=(?!=)")
 _AND = re.compile(r"[ \t](?:and|og|und|et|y)[ \t](?=[ \t]{0,9}[^\s:=]{1,40}[ \t]*=)")
 _REMARK = re.compile(r"(?:(?<=\s)|(?<=[;)\]]))(?:#|//|%(?!pi\b))[^\n]*")
 _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
+_NOT_LINE_END = re.compile(r"[^\n]")
 FORMULA = "\0"
 """What stands for each character of a formula that is read as such."""
 
@@ -52,6 +53,18 @@ _POWERS = re.compile(r"[ \t]{2,}[0-9][0-9 \t]*")
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _TRAILING = frozenset("=+-*/,([{&\\")
 _LEADING = frozenset("=+-*/)][")
+
+
+def hidden(text: str, spans: list[tuple[int, int]]) -> str:
+    """The text with a sign for what is read elsewhere: no line with one is an equation in plain text."""
+    pieces: list[str] = []
+    done = 0
+    for start, end in sorted(spans):
+        if end > done:
+            start = max(start, done)
+            pieces += [text[done:start], _NOT_LINE_END.sub(FORMULA, text[start:end])]
+            done = end
+    return "".join([*pieces, text[done:]])
 
 
 def plain_lines(

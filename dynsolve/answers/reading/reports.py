@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from operator import itemgetter
 
-from dynsolve.answers.reading.asides import read_aside
+from dynsolve.answers.reading.asides import IN_SENTENCE, SUPPOSED, read_aside
 from dynsolve.answers.reading.dh_tables import NAME, tables_of, without
 from dynsolve.answers.reading.displayed_sets import DisplayedSets
 from dynsolve.answers.reading.displays import Display, continued, is_label
@@ -18,7 +18,7 @@ from dynsolve.answers.reading.headed_sets import headed_sets, read_headed
 from dynsolve.answers.reading.headed_sets import without as without_sets
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
-from dynsolve.answers.reading.plain_lines import FORMULA, plain_lines
+from dynsolve.answers.reading.plain_lines import hidden, plain_lines
 from dynsolve.answers.reading.report_text import visible
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
@@ -27,6 +27,7 @@ from dynsolve.answers.reading.tables import with_equations
 from dynsolve.answers.reading.tokens.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.tokens.macros import Macro
 from dynsolve.answers.reading.tokens.prepare import prepared
+from dynsolve.answers.reading.unread_text import list_unread
 from dynsolve.answers.submission import NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
 
@@ -46,16 +47,23 @@ _MACRO = re.compile(
     r"|\\(?P<bare>[A-Za-z]{1,60}))\s{0,20}(?:\[(?P<count>[0-9])\])?\s{0,20}(?=\{)"
     r"|\\def\s{0,20}\\(?P<defined>[A-Za-z]{1,60})(?P<hash>#1)?\s{0,20}(?=\{)"
 )
-_NOT_LINE_END = re.compile(r"[^\n]")
 _MOST_HEADS = 2_000
 """So many different beginnings of lines in plain text are looked at."""
 
 _MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _SAYS = re.compile(
-    r"(?<![\w$\\])(\$[^$\n=]{1,30}\$|(?!and |is |it |as )[^\W\d_]\w{0,9})[ \t\n]{1,3}"
-    r"(?:is|are|being|denotes|equals|means|stands for|er|ist)[ \t\n]{1,3}\Z"
+    r"(?<![\w$\\])(\$[^$\n=]{1,30}\$|(?!and |is |it |as )[^\W\d_]\w{0,9}(?:\{\w{1,6}\})?)[ \t\n}\]*]{0,4}"
+    r"(?:[ \t\n](?:is|are|being|denotes|equals|means|stands for|er|ist)[ \t\n]{1,3}"
+    r"|(?P<sign>:|:?=)[ \t}\]*]{0,5})\Z"
 )
+_SUPPOSES = re.compile(
+    r"\b(?:if|when\w*|for|assum\w+|suppos\w+|set\w*|let|unless|wenn|falls|für|sei|setze\w*|hvis|når|anta\w*)"
+    r"[ \t\n]{1,3}\Z",
+    re.IGNORECASE,
+)
+"""The words of a sentence that only supposes what follows."""
+
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
 _AND = "(?:and|og|und|y)"
 _BESIDE = re.compile(rf"\$[^$\n]*=[^$\n]*\$[ \t]*[,;.]?[ \t]*(?:{_AND}[ \t])?|(?:^|[ \t,]){_AND}[ \t]*$")
@@ -94,9 +102,10 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     displays = _labelled([(start, display) for start, _, display in spans if display is not None])
     is_plain = all(display.aside for _, display in displays)
     if is_plain or not latex:
-        rest = _without(text, [(start, end) for start, end, _ in spans])
+        rest = hidden(text, [(start, end) for start, end, _ in spans])
         lines = islice(_plain(rest, source, 0, len(text), names_answer, not is_plain), MAX_EQUATIONS)
         displays = sorted([*displays, *lines], key=itemgetter(0))
+    read = [(start, start + len(display.text)) for start, display in displays]
     displays, unread = continued(displays[:MAX_EQUATIONS]), displays[MAX_EQUATIONS:]
     while True:
         waiting = list(reversed(macros))
@@ -120,6 +129,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         place = display.locate(0, 1)
         why = f"only the first {MAX_EQUATIONS} equations of a file are read"
         reader.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place, why))
+    list_unread(reader, source, hidden(text, read))
 
 
 def _names(reader: EquationReader) -> list[str]:
@@ -189,11 +199,13 @@ def _displays(
                 position = start
                 continue
             if "=" not in text[start:end]:
-                said = _said_to_be(text, source, opening.start(), start, end)
-                yield opening.start(), position, said
+                said = _said_to_be(text, source, opening.start(), start, end, names_answer)
+                yield opening.start() if said is None else end - len(said.text), position, said
                 continue
             if not _stands_alone(text, opening.start(), position):
-                yield start, end, replace(_display(text, source, start, end, ""), aside=True)
+                supposes = _SUPPOSES.search(text, max(opening.start() - 30, 0), opening.start())
+                why = SUPPOSED if supposes else IN_SENTENCE
+                yield start, end, replace(_display(text, source, start, end, ""), aside=why)
                 continue
         label = _LABEL.match(text, position)
         yield start, end, _display(text, source, start, end, f"({label[1]})" if label else "")
@@ -205,15 +217,19 @@ def _end_of_paragraph(text: str, start: int) -> int:
     return blank.start() if blank else len(text)
 
 
-def _said_to_be(text: str, source: Source, opening: int, start: int, end: int) -> Display | None:
-    """What a formula in a sentence is said to be: `where h is $-m_2 l_1$` is h = -m_2 l_1."""
+def _said_to_be(
+    text: str, source: Source, opening: int, start: int, end: int, names_answer: NamesAnswer
+) -> Display | None:
+    """What a formula is said to be: `where h is $-m_2 l_1$` is h = -m_2 l_1, `P: $m g l$` is P = m g l."""
     said = _SAYS.search(text, max(opening - 60, 0), opening)
     if said is None:
         return None
     name = said[1].replace("$", " ")
+    if said["sign"] and not names_answer(name.strip()):
+        return None
     formula = text[start:end].rjust(end - said.end(1) - 1)
     display = _display(text, source, said.start(1), end, "")
-    return replace(display, text=f"{name}={formula}", aside=True)
+    return replace(display, text=f"{name}={formula}", aside=IN_SENTENCE)
 
 
 def _stands_alone(text: str, start: int, end: int) -> bool:
@@ -254,18 +270,6 @@ def _fenced(
         yield start, _display(text, source, start, end, "")
     else:
         yield from _plain(text, source, start, end, names_answer, False)
-
-
-def _without(text: str, spans: list[tuple[int, int]]) -> str:
-    """The text with a sign for its formulas: no line with one is an equation in plain text."""
-    pieces: list[str] = []
-    done = 0
-    for start, end in sorted(spans):
-        if end > done:
-            start = max(start, done)
-            pieces += [text[done:start], _NOT_LINE_END.sub(FORMULA, text[start:end])]
-            done = end
-    return "".join([*pieces, text[done:]])
 
 
 def _plain(

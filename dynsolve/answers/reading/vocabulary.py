@@ -67,7 +67,7 @@ class Vocabulary:
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
-    `candidates` are the matrices that are to be judged;
+    `candidates` are the matrices that are to be judged; `asked` is what has to be answered, with its parts;
     `defined` is what the student defined; `from_zero` are the names whose indices count from 0.
     """
 
@@ -80,6 +80,7 @@ class Vocabulary:
     passive: tuple[str, ...] = ()
     reached: frozenset[str] = frozenset()
     candidates: tuple[str, ...] = ()
+    asked: frozenset[str] = frozenset()
     defined: dict[str, Meaning] = field(default_factory=dict)
     derived: dict[tuple[str, int], Value] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
@@ -97,7 +98,7 @@ class Vocabulary:
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
-            subscripts=self.subscripts, from_zero=self.from_zero,
+            self.asked, subscripts=self.subscripts, from_zero=self.from_zero,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -338,6 +339,7 @@ def vocabulary(problem: Problem) -> Vocabulary:
         passive,
         frozenset(reached),
         tuple(candidate.name for candidate in robot.questions.candidates),
+        frozenset(part for name in problem.marks or problem.find for part in quantities(robot).within(name)),
         subscripts=spoken,
     )
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -62,3 +64,63 @@ def test_a_missing_answer_with_a_line_waits_in_a_course_and_one_without_does_not
     missing = {**blank, "verdict": "missing", "of": "4", "line": 3}
     assert "line 3" in for_a_human(RecordedAnswer(**{**missing, "fault": "unknown symbol `X`"}))
     assert not for_a_human(RecordedAnswer(**missing))
+
+
+VALUE = r"\frac{1}{2}(I_{1zz} + m_2 L_2^2)\dot\theta_1^2 + \frac{1}{2} m_2 \dot L_2^2"
+ASKED = Checker(replace(load("in3140-rp"), marks={"K": Fraction(2), "g": Fraction(1)}))
+
+
+@pytest.mark.parametrize(
+    ("ending", "text"),
+    [
+        ("md", "The kinetic energy is $K = {}$."),
+        ("md", "- K: $K = {}$"),
+        ("md", "* **K:** ${}$"),
+        ("md", "1. **K** = ${}$, as wanted"),
+        ("md", "- $K$: ${}$"),
+        ("md", "- The energy $K$ is ${}$."),
+        ("md", "| K | ${}$ |"),
+        ("md", "| energy | $K = {}$ | joules |"),
+        ("tex", r"so that \(K = {}\) follows"),
+        ("tex", r"\item[K:] ${}$"),
+        ("tex", r"\textbf{{K}}: ${}$"),
+        ("html", r"<p>The energy is \(K = {}\).</p>"),
+    ],
+)
+@pytest.mark.parametrize(("value", "verdict"), [(VALUE, "correct"), (VALUE.replace("L_2^2", "L_2"), "wrong")])
+def test_an_equation_in_a_sentence_is_judged_where_nothing_else_answers_that(
+    ending: str, text: str, value: str, verdict: str
+) -> None:
+    report = ASKED(ASKED.reader(text.format(value), f"a.{ending}"))
+    assert [a.verdict.value for a in report.answers if a.name == "K"] == [verdict]
+    assert not report.not_recognized and not report.set_aside
+    shown = "$$K = 0$$" if ending != "tex" else r"\[K = 0\]"
+    with_display = ASKED(ASKED.reader(f"{text.format(value)}\n\n{shown}\n", f"a.{ending}"))
+    (answer,) = (a for a in with_display.answers if a.name == "K")
+    assert answer.verdict == "wrong" and answer.place is not None
+    assert ending == "html" or answer.place.line == 3 or text.startswith("|")
+
+
+@pytest.mark.parametrize("text", ["If $K = 0$, it rests.", "For $K = 0$ it rests.", "Wenn $K = 0$ ist"])
+def test_what_a_sentence_supposes_waits(text: str) -> None:
+    report = ASKED(ASKED.reader(f"Text.\n\n{text} And so on.\n", "a.md"))
+    (answer,) = (a for a in report.answers if a.name == "K")
+    assert answer.verdict == "missing"
+    assert answer.fault and answer.place and answer.place.line == 3
+
+
+@pytest.mark.parametrize(
+    ("ending", "text", "line"),
+    [
+        ("md", "so K = see below, with $m_1$", 1),
+        ("md", "text\n\n$m_1$ and K(q, qd) = as above", 3),
+        ("tex", "text\n\\begin{verbatim}\nK = 3\n\\end{verbatim}\n\\[ x_1 = 3 \\]", 3),
+        ("yaml", "let: {K: 3}\nanswers:\n  D: 1\n", 1),
+        ("ipynb", '{"cells": [\n{"cell_type": "code", "source": [\n"x = 3\\n",\n"K = m*v**2\\n"]}]}', 4),
+    ],
+)
+def test_what_names_an_answer_where_nothing_is_read_waits(ending: str, text: str, line: int) -> None:
+    report = ASKED(ASKED.reader(text, f"a.{ending}"))
+    (answer,) = (a for a in report.answers if a.name == "K")
+    assert answer.verdict == "missing" and answer.fault
+    assert answer.place is not None and answer.place.line == line
