@@ -210,7 +210,9 @@ class Judge:
             elif lacking or not one.needs or self._general.isdisjoint(one.answers):
                 explained.append(one)
         for name, chains in self.hand_in.definitions.items():
-            for value in (value for chain in chains for value in chain):
+            judged = {chain[0].answer.occurrence[0] for chain in given.get(name, ())}
+            unjudged = (chain for chain in chains if chain[0].answer.occurrence[0] not in judged)
+            for value in (value for chain in unjudged for value in chain):
                 text, label, place = f"{name} = {value.answer.text}", value.answer.label, value.answer.place
                 refused.append(NotRecognized(text, label, place, value.fault, (name,)))
         return Ledger(named, answers, refused, explained)

@@ -16,6 +16,7 @@ import pytest
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.problem import read_problem
+from tests.unit.answers.finder import lost
 
 CASES = {
     case["name"]: case for case in json.loads((Path(__file__).parent / "handed_in.json").read_text("utf-8"))
@@ -35,5 +36,8 @@ def test_the_published_results_are_correct(name: str, ending: str) -> None:
     case, read, judge = exercise(name)
     answers = "".join(f"  {answer}: {text}\n" for answer, text in case["answers"].items())
     text = f"answers:\n{answers}" if ending == ".yaml" else "\n\n".join(case["report"]) + "\n"
-    found = {answer.name: answer.verdict for answer in judge(read(text, f"answer{ending}")).answers}
+    submission = read(text, f"answer{ending}")
+    report = judge(submission)
+    assert not lost(judge, text, ending[1:], submission, report)
+    found = {answer.name: answer.verdict for answer in report.answers}
     assert {answer: found[answer] for answer in case["answers"]} == dict.fromkeys(case["answers"], "correct")

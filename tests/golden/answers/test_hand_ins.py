@@ -20,6 +20,7 @@ from dynsolve.answers.reading.files import FileReader
 from dynsolve.derivation.rules import derive
 from dynsolve.problem import read_problem
 from dynsolve.solution.solution import load
+from tests.unit.answers.finder import lost as unaccounted_for
 from tests.unit.answers.reading.test_nothing_lost import lost
 
 HERE = Path(__file__).parent
@@ -58,7 +59,9 @@ def tools(stem: str) -> tuple[FileReader, Checker]:
 
 def verdicts(hand_in: HandIn, text: str) -> dict[str, str]:
     reader, check = tools(hand_in.problem)
-    report = check(reader(text, f"a.{hand_in.ending}"))
+    read = reader(text, f"a.{hand_in.ending}")
+    report = check(read)
+    assert not unaccounted_for(check, text, hand_in.ending, read, report)
     return {answer.name: str(answer.verdict.value) for answer in report.answers}
 
 

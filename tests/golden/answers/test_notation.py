@@ -16,6 +16,7 @@ from dynsolve.answers.verdict import Report
 from dynsolve.derivation.rules import derive
 from dynsolve.problem import read_problem
 from dynsolve.solution.solution import load
+from tests.unit.answers.finder import lost
 
 R, RP = "planar-2r", "in3140-rp"
 PENDULUM = """
@@ -227,7 +228,10 @@ def _tools(stem: str) -> tuple[FileReader, Checker]:
 
 def judged(stem: str, ending: str, text: str) -> Report:
     reader, check = _tools(stem)
-    return check(reader(text, f"a.{ending}"))
+    read = reader(text, f"a.{ending}")
+    report = check(read)
+    assert not lost(check, text, ending, read, report), text
+    return report
 
 
 def verdicts(report: Report) -> dict[str, str]:
