@@ -249,12 +249,13 @@ class AnswerList:
                 self.not_recognized.append(NotRecognized(one.text, one.label, one.place, why, names))
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
+        self._settle_asides()
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)
         self.not_recognized += lost
-        self._settle_asides()
 
     def _settle_asides(self) -> None:
-        given = {answer.name for answer in self.answers}
+        """The asides that answer what is given nowhere so that it can be read, and those that do not."""
+        given = {answer.name for answer in self.answers if answer.node is not None}
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
         for refused, answers in self._asides:
             can_be_read = all(answer.node is not None for answer in answers)

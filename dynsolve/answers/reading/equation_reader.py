@@ -126,6 +126,7 @@ class EquationReader:
         origin = Origin(display, display.label, self.equations)
         if not found and not is_label(tokens):
             why = "no name stands here for what this is" if "=" not in display.text else "no equation"
+            origin = replace(origin, names=spoken_of(self.vocabulary, tokens, None))
             self.found.not_recognized.append(origin.not_recognized(0, len(display.text), why))
         for equation in found:
             if len(self.found.answers) < MAX_ANSWERS:

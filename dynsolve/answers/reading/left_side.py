@@ -24,7 +24,7 @@ SETS = ("singular", "equilibria", "inverse")
 """The answers that are sets of equations for coordinates."""
 
 _LONGEST_NAME = 9
-_AFTER = frozenset("[(_")
+_AFTER = frozenset("[(_:")
 _WHOLE = 6
 """With so many joints J itself is square."""
 

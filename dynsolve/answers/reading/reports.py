@@ -55,8 +55,9 @@ _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _SAYS = re.compile(
     r"(?<![\w$\\])(\$[^$\n=]{1,30}\$|(?!and |is |it |as )[^\W\d_]\w{0,9}(?:\{\w{1,6}\})?)[ \t\n}\]*]{0,4}"
     r"(?:[ \t\n](?:is|are|being|denotes|equals|means|stands for|er|ist)[ \t\n]{1,3}"
-    r"|(?P<sign>:|:?=)[ \t}\]*]{0,5})\Z"
+    r"|(?P<sign>:|:?=|&|\])[ \t\n}\]*]{0,5})\Z"
 )
+_EQUALS = re.compile(r"=|[≡≜≈]|\\(?:triangleq|equiv|coloneqq|doteq|approx)(?![A-Za-z])")
 _SUPPOSES = re.compile(
     r"\b(?:if|when\w*|for|assum\w+|suppos\w+|set\w*|let|unless|wenn|falls|für|sei|setze\w*|hvis|når|anta\w*)"
     r"[ \t\n]{1,3}\Z",
@@ -198,7 +199,7 @@ def _displays(
             if end - start > 5_000 or "\n\n" in text[start:end]:
                 position = start
                 continue
-            if "=" not in text[start:end]:
+            if not _EQUALS.search(text, start, end):
                 said = _said_to_be(text, source, opening.start(), start, end, names_answer)
                 yield opening.start() if said is None else end - len(said.text), position, said
                 continue
@@ -208,6 +209,14 @@ def _displays(
                 yield start, end, replace(_display(text, source, start, end, ""), aside=why)
                 continue
         label = _LABEL.match(text, position)
+        said = (
+            None
+            if _EQUALS.search(text, start, end)
+            else _said_to_be(text, source, opening.start(), start, end, names_answer)
+        )
+        if said is not None:
+            yield end - len(said.text), end, said
+            continue
         yield start, end, _display(text, source, start, end, f"({label[1]})" if label else "")
 
 

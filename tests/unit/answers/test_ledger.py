@@ -31,7 +31,7 @@ def judged(text: str, ending: str = "md") -> dict[str, Any]:
         ("Text.\n\n$$D = \\sum_i m_i J_{v_i}^T J_{v_i}$$", 3, "a sum over an index"),
         ("$$D = M$$", 1, "given nowhere"),
         ("Let the matrix be $D = X_7$, as before.", 1, "X_7"),
-        ("$$D[0,0] = m_2$$", 1, "matrix"),
+        ("$$D[7,7] = m_2$$", 1, "matrix"),
         ("$$(7)\\quad d_{12} = \\frac{d}{dt}(x_9)$$", 1, "x_9"),
     ],
 )
@@ -84,6 +84,10 @@ ASKED = Checker(replace(load("in3140-rp"), marks={"K": Fraction(2), "g": Fractio
         ("tex", r"so that \(K = {}\) follows"),
         ("tex", r"\item[K:] ${}$"),
         ("tex", r"\textbf{{K}}: ${}$"),
+        ("tex", r"\begin{{tabular}}{{ll}} $K$ & ${}$ \end{{tabular}}"),
+        ("tex", r"\item[$K$] ${}$"),
+        ("md", "so $K \\equiv {}$ holds"),
+        ("md", "**K:** $${}$$"),
         ("html", r"<p>The energy is \(K = {}\).</p>"),
     ],
 )
