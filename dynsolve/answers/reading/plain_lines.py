@@ -121,6 +121,7 @@ def _with_powers(text: str, first: int, stop: int) -> str:
     signs = list(line.ljust(len(above) - (first - begin)))
     for found in re.finditer("[0-9]", above):
         at = found.start() - (first - begin)
+        at -= at > 1 and signs[at - 1] == " " != signs[at - 2]  # one blank too far to the right
         if at < 1 or signs[at] != " " or signs[at - 1] == " ":
             return line
         signs[at] = _RAISED[int(found[0])]

@@ -21,13 +21,15 @@ from dynsolve.answers.reading.limits import MAX_NESTING
 
 _OPENING = frozenset("⎛⎜⎝⎡⎢⎣")
 _CLOSING = frozenset("⎞⎟⎠⎤⎥⎦")
-_ASCII = frozenset("/\\|[]")
+_ASCII = frozenset("/\\|[(")
+_OF_MATRIX = frozenset("⎡[(|")
 _BARS = frozenset("─-")
 _CELL = re.compile("[^\u0307\u0308][\u0307\u0308]*")
 _BESIDE = re.compile(r"[ \t0-9/\\|]+")
 """A line with exponents alone, or with brackets beside them."""
 
 _HEAD = re.compile(r"[ \t]*([^\s=:][^=:\n]{0,40}?)[ \t]*(?::=|[=:])[ \t]*$", re.MULTILINE)
+_PROMPT = re.compile(r"\(%[io][0-9]{1,4}\)")
 _DERIVATIVE = re.compile(r"[d∂](?:\^\d)?")
 _LONGEST, _MOST_LINES = 20_000, 100
 
@@ -50,6 +52,7 @@ def one_line(paragraph: str, names_answer: Callable[[str], bool]) -> str:
     """The equation that a paragraph draws over several lines, in one line; empty where it draws none."""
     if "\n" not in paragraph or len(paragraph) > _LONGEST or not _is_drawn(paragraph):
         return ""
+    paragraph = _PROMPT.sub(lambda found: " " * len(found[0]), paragraph)
     head = _HEAD.match(paragraph)
     drawn = paragraph[head.end() :].strip("\n") if head else paragraph
     if drawn.count("\n") > _MOST_LINES:
@@ -68,7 +71,7 @@ def _is_drawn(paragraph: str) -> bool:
     """Whether brackets over lines, a line of dashes or one of exponents stand in a paragraph."""
     lines = paragraph.split("\n")
     ends = [line.rstrip()[-1:] for line in lines]
-    is_matrix = any(end and end in "|]" and end == below for end, below in itertools.pairwise(ends))
+    is_matrix = any(end and end in "|])" and end == below for end, below in itertools.pairwise(ends))
     has_signs = any(sign in paragraph for sign in ("⎛", "⎡", "─", "--"))
     return has_signs or is_matrix or any(line.strip() and _BESIDE.fullmatch(line) for line in lines)
 
@@ -143,7 +146,7 @@ class _Picture:
             inside = self._bracket(box, rows[0], column)
             if inside is None:
                 raise _NoFormulaError
-            if self._at(rows[0], column) in "⎡[|":
+            if self._at(rows[0], column) in _OF_MATRIX:
                 return rows[len(rows) // 2]
             return self._base_line(_Box(inside.top, inside.bottom, inside.left + 1, inside.right))
         raise _NoFormulaError
@@ -195,7 +198,7 @@ class _Picture:
         if sign in _OPENING:
             signs: frozenset[str] = _OPENING
         elif sign in _ASCII:
-            signs = frozenset("[") if sign == "[" else frozenset("/\\|")
+            signs = frozenset(sign) if sign in "[(" else frozenset("/\\|")
         else:
             return None
         top, bottom = row, row + 1
@@ -205,8 +208,10 @@ class _Picture:
             bottom += 1
         if bottom - top < 2:
             return None
-        closing = {"[": frozenset("]")}.get(sign, _CLOSING if sign in _OPENING else frozenset("/\\|"))
-        is_matrix = self._at(top, column) in "⎡[|"
+        closing = {"[": frozenset("]"), "(": frozenset(")")}.get(
+            sign, _CLOSING if sign in _OPENING else frozenset("/\\|")
+        )
+        is_matrix = self._at(top, column) in _OF_MATRIX
         level = 0
         for end in range(column, box.right):
             heights = [self._at(r, end) for r in range(top, bottom)]
@@ -227,7 +232,7 @@ class _Picture:
         for row in range(rows.top, rows.bottom):
             self.read |= {(row, rows.left), (row, rows.right)}
         inside = _Box(rows.top, rows.bottom, rows.left + 1, rows.right)
-        if self._at(rows.top, column) in "⎡[|":
+        if self._at(rows.top, column) in _OF_MATRIX:
             out.append(self._matrix(inside))
         else:
             out.append(f"({self._formula(inside, base)})")

@@ -73,6 +73,22 @@ def test_what_is_drawn_is_read(drawn: str, file: str, fence: str) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    "drawn",
+    [
+        "D = [ I1zz + m2*L2^2   0  ]\n    [       0          m2 ]",
+        "D =\n( I1zz + m2*L2^2   0  )\n(       0          m2 )",
+        "                [      2            ]\n                [ m2 L2  + I1zz  0  ]\n"
+        "(%o3)       D = [                   ]\n                [       0        m2 ]",
+        "           2\nd11 = m2*L2  + I1zz\nd12 = 0\nd21 = 0\nd22 = m2",
+        "            2\nd11 = m2*L2  + I1zz\nd12 = 0\nd21 = 0\nd22 = m2",
+    ],
+)
+def test_a_matrix_in_brackets_over_its_lines(drawn: str) -> None:
+    right, wrong = judged(f"{drawn}\n"), judged(f"{drawn}\n".replace("I1zz", "2*m2"))
+    assert (right["D"], wrong["D"]) == ("correct", "wrong")
+
+
 @pytest.mark.parametrize("drawn", [UNICODE, ASCII])
 def test_a_slip_in_it_is_seen(drawn: str) -> None:
     found = judged(drawn.replace("I1zz +", "I1zz -"))
