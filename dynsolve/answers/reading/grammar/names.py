@@ -18,7 +18,11 @@ from dynsolve.notation.tree import (
     Node,
     Symbol,
 )
+from dynsolve.quantities import families
+from dynsolve.quantities.spelling import key
 
+_BEFORE_TERM = frozenset({"+", "-", "(", "[", "begin", "&", "\\\\", ",", ";"})
+_BEHIND_ENTRY = frozenset({"&", "\\\\", "close", ",", ";", "]"})
 _OWNER_BODY = re.compile(r"[0-9]+$")
 _SEVERAL = re.compile(r"(?:q|theta|phi)([0-9]{2,})")
 _MOMENT = re.compile(r"[IJ][xyz]{1,2}")
@@ -40,7 +44,8 @@ def value_of(reader: Reader, form: Form) -> Value:
     name = form.key + _called_index(reader, form)
     if form.scripts.mark and not form.index and (lone := only_coordinate(reader, form, name)) is not None:
         return lone
-    is_entry = name not in vocabulary.defined and vocabulary.is_own_entry(name, reader.owner)
+    whole = "C" if _multiplies_rate(reader, form) else reader.owner
+    is_entry = name not in vocabulary.defined and vocabulary.is_own_entry(name, whole)
     if reader.naming or form.script or is_entry or _is_function_of_q(reader, name):
         found = quantity(reader, form, name)
         if found is not None:
@@ -72,6 +77,23 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning.has_arguments:
         skip_arguments(reader)
     return _scripted(reader, form, meaning)
+
+
+def _multiplies_rate(reader: Reader, form: Form) -> bool:
+    """Whether a name in a torque stands alone before a velocity, or as the entry of a matrix: c_12 q̇₂."""
+    quantity = reader.vocabulary.quantities.get(reader.owner)
+    is_torque = quantity is not None and quantity.family in (families.TAU, families.FORCE)
+    if not is_torque or form.key[:1] not in ("c", "C"):
+        return False
+    before = next((t for t in reversed(reader.tokens[: reader.position]) if t.end <= form.start), None)
+    after = reader.peek() if reader.token.kind in ("*", "cdot") else reader.token
+    meaning = reader.vocabulary.symbol(key(after.text)) if after.kind == "name" else None
+    is_rate = after.text == "dot" or after.dots == 1 or _is_rate(meaning)
+    return (before is None or before.kind in _BEFORE_TERM) and (is_rate or after.kind in _BEHIND_ENTRY)
+
+
+def _is_rate(meaning: Meaning | None) -> bool:
+    return meaning is not None and isinstance(meaning.value, Symbol) and meaning.value.dots == 1
 
 
 def _is_function_of_q(reader: Reader, name: str) -> bool:

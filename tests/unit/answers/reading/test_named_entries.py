@@ -70,6 +70,24 @@ def test_answer_file() -> None:
         assert verdicts(f"answers:\n{text}", "yaml")["C"] == "correct"
 
 
+INERTIA = {
+    "md": "\n\n$$d_{21} = m_2(l_{c2}^2 + l_1l_{c2}\\cos q_2) + I_2$$\n\n$$d_{22} = m_2l_{c2}^2 + I_2$$",
+    "txt": "\nd21 = m2*(lc2^2 + l1*lc2*cos(q2)) + I2\nd22 = m2*lc2^2 + I2",
+}
+TORQUE = {
+    "md": r"$$\tau_2 = d_{21}\ddot q_1 + d_{22}\ddot q_2 + c_{21}\dot q_1 + m_2l_{c2}g c_{12}$$",
+    "txt": "tau2 = d21*ddq1 + d22*ddq2 + c21*dq1 + m2*lc2*g*c12",
+}
+
+
+@pytest.mark.parametrize("suffix", ["md", "txt"])
+def test_an_entry_before_its_rate_and_a_cosine_beside_a_length(suffix: str) -> None:
+    entries = (displays(ENTRIES) if suffix == "md" else plain(LINES)) + INERTIA[suffix]
+    for text in (f"{entries}\n\n{TORQUE[suffix]}", f"{TORQUE[suffix]}\n\n{entries}"):
+        assert verdicts(text, suffix)["tau2"] == "correct"
+        assert verdicts(text.replace("= d", "= 2 d"), suffix)["tau2"] == "wrong"
+
+
 def test_a_cosine_elsewhere_stays_one() -> None:
     vector = (
         r"g = \begin{bmatrix}(m_1l_{c1} + m_2l_1)gc_1 + m_2l_{c2}gc_{12} \\ m_2l_{c2}gc_{12}\end{bmatrix}"
