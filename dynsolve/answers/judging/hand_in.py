@@ -27,7 +27,13 @@ from dynsolve.answers.judging.own_parameters import as_matrix, own_parameters
 from dynsolve.answers.judging.zero_height import potential_at_zero_height
 from dynsolve.answers.submission import Answer
 from dynsolve.notation import tree
+from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE, REGRESSORS
+
+IN_NUMBERS = "it repeats the answer with numbers, which the problem does not give"
+
+LARGEST = 4
+"""The largest numerator and denominator of the numbers that the formulas of mechanics have."""
 
 Chain = list[AnswerValue]
 """The members of one equation."""
@@ -49,9 +55,9 @@ class ComparedHandIn:
         self.answer_ring = values.answer_ring
         self.compare_entry = compare_entry
         at_keys_height = KeyComparer(values.graph, self.compare_entry, values.changed)
-        given = [value for value in values.all if not value.is_definition]
-        self.chains = _by_quantity(given, at_keys_height)
-        self.definitions = _by_quantity([v for v in values.all if v.is_definition], at_keys_height)
+        found = self._without_repetitions(values.all)
+        self.chains = _by_quantity([v for v in found if not v.is_definition], at_keys_height)
+        self.definitions = _by_quantity([v for v in found if v.is_definition], at_keys_height)
         energies = dict(self._energies())
         potential = potential_at_zero_height(self.answer_ring, energies, self.answer_ring.dimensions)
         self.graph = AnswerGraph(self.answer_ring, potential, self._own_parameters())
@@ -61,6 +67,22 @@ class ComparedHandIn:
             self._on_constraint(compared) if self.graph.robot.questions.constraints else compared
         )
         self.assembled_coriolis = self._assembled_coriolis()
+
+    def _without_repetitions(self, values: Sequence[AnswerValue]) -> list[AnswerValue]:
+        """The values, those set aside that repeat an answer with numbers which the problem does not give."""
+        parameters = set(self.answer_ring.robot.parameters)
+        held = [names_in(*(node for row in value.nodes for node in row)) & parameters for value in values]
+        unknown = {
+            value.answer.name
+            for value, names in zip(values, held, strict=True)
+            if not names <= self.compare_entry.values.keys()
+        }
+        return [
+            replace(value, is_definition=True, fault=IN_NUMBERS)
+            if value.answer.name in unknown and not names and _has_measured_number(value)
+            else value
+            for value, names in zip(values, held, strict=True)
+        ]
 
     def _on_constraint(self, compared: Mapping[str, KeyComparison]) -> dict[str, KeyComparison]:
         """The comparisons where the student may choose the matrix of the constraint, and where λ stands."""
@@ -110,6 +132,12 @@ class ComparedHandIn:
         answer = replace(rows[0][0].answer, name="C", node=node)
         values = tuple(tuple(value.entries[0] for value in row) for row in rows)
         return self.compare("C", AnswerValue(answer, values, node.rows))
+
+
+def _has_measured_number(value: AnswerValue) -> bool:
+    """Whether a number stands in a value that no formula of mechanics has of itself, as 9.81 and 3.5."""
+    parts = (part for row in value.nodes for node in row for part in walk(node))
+    return any(isinstance(p, tree.Number) and (abs(p.p) > LARGEST or p.q > LARGEST) for p in parts)
 
 
 def last(chains: Sequence[Chain]) -> AnswerValue:
