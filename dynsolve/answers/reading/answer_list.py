@@ -9,7 +9,7 @@ from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.matrix_parts import written_entries
 from dynsolve.answers.reading.motion_equations import MotionEquation
 from dynsolve.answers.reading.occurrences import readable
-from dynsolve.answers.reading.right_side import EXPECTED, RightSide, is_abstract, read_right_side
+from dynsolve.answers.reading.right_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
@@ -168,9 +168,16 @@ class AnswerList:
         ]
         if any(is_abstract(one.found) for one in read):
             return []
-        answers = [self.answer((named[at],), one, origin) for at, one in zip(written, read, strict=True)]
-        is_some = any(answer.node is not None for answer in answers)
-        return [replace(answer, whole=whole) for answer in answers] if is_some else []
+        answers, by_name = list[Answer](), list[str]()
+        for part, one in zip((named[at] for at in written), read, strict=True):
+            own = [name for name in (part, quantities.mirrored(part)) if is_name(one.found, name)]
+            by_name += own
+            answers += [] if own else [self.answer((part,), one, origin)]
+        if not by_name and all(answer.node is None for answer in answers):
+            return []
+        return [
+            replace(answer, whole=whole, references=answer.references or tuple(by_name)) for answer in answers
+        ]
 
     def motion(self, equation: MotionEquation, tokens: list[Token], origin: Origin) -> None:
         """Keep an equation of motion: of several that it may be, the first that is absent, in their order."""

@@ -20,6 +20,7 @@ from dynsolve.answers.reading.left_side import (
 )
 from dynsolve.answers.reading.limits import MAX_MEMBERS
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.errors import ReadError
 
@@ -78,6 +79,15 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
             reader.vocabulary.broken[side.key] = value.message
     elif gives:
         _define(reader, side, own, value, equation)
+        _define_by_the_end(reader, members)
+
+
+def _define_by_the_end(reader: EquationReader, members: list[list[Token]]) -> None:
+    r"""Keep the letter at the end of `\cos q_2 = ... =: D`."""
+    last = read_left_side(reader.vocabulary, members[-1])
+    value = read_right_side(reader.vocabulary, members[-2]) if len(members) > 2 else None
+    if isinstance(value, RightSide) and isinstance(last, NamedAnswers):
+        reader.define_scalar(members[-1], last, value)
 
 
 def _define(reader: EquationReader, side: LeftSide, own: str, value: RightSide, equation: Equation) -> None:

@@ -234,6 +234,8 @@ def _pieces(row: list[Token]) -> list[list[Token]]:
     r"""The equations that stand beside one another in a row: `P_1 = 0, \quad P_2 = 0`."""
     merged: list[list[Token]] = []
     for boundary, piece in _cut(row):
+        if merged and _is_equation(piece[1:-1]) and (piece[0].kind, piece[-1].kind) == ("(", ")"):
+            piece = piece[1:-1]  # (ω = q̇) beside an equation
         if _is_words(piece) or (merged and _is_remark(piece)):
             continue
         if not merged:

@@ -33,7 +33,9 @@ _WORDS = re.compile(
 _SIGN_BELOW = re.compile(r"\n[ \t]*=(?!=)")
 """The next line begins with the sign of the equation: `K1` stands alone on this one."""
 
-_AND = re.compile(r"[ \t](?:and|og|und|et|y)[ \t](?=[ \t]{0,9}[^\s:=]{1,40}[ \t]*=)")
+_AND = re.compile(
+    r"[ \t](?:and|og|und|et|y|with|where|mit|wobei|med|hvor|der)[ \t](?=[ \t]{0,9}[^\s:=]{1,40}[ \t]*=)"
+)
 _REMARK = re.compile(r"(?:(?<=\s)|(?<=[;)\]]))(?:#|//|%(?!pi\b))[^\n]*")
 _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
 _NOT_LINE_END = re.compile(r"[^\n]")

@@ -142,6 +142,11 @@ def is_abstract(found: RightSide | ReadError) -> bool:
     return isinstance(found, RightSide) and isinstance(found.value, Abstract)
 
 
+def is_name(found: RightSide | ReadError, name: str) -> bool:
+    """Whether a member is nothing but the name of an answer."""
+    return isinstance(found, RightSide) and found.value == Reference(name)
+
+
 def why_no_value(found: RightSide) -> str:
     """Why a side that was read gives its name no value."""
     return found.value.why if isinstance(found.value, Abstract) else "it holds names of the derivation alone"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from difflib import get_close_matches
 
+from dynsolve.answers.reading.grammar.differentiation import by_time, derivative
 from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.letters import letter, only_coordinate, zero_level
 from dynsolve.answers.reading.grammar.rates import rate
@@ -163,6 +164,8 @@ def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:
         dotted = reader.vocabulary.derived.get((form.key, dots)) or rate(value, reader.vocabulary, dots)
         if dotted is None and reader.naming:
             raise unknown(reader, form, form.key)
+        if dotted is None and form.key in reader.vocabulary.defined and isinstance(value, Node) and dots == 1:
+            dotted = derivative(value, by_time(reader.vocabulary))
         if dotted is None and form.key in reader.vocabulary.defined:
             reader.names_used += 1
             return Abstract(f"the derivative of {form.text} is not written out")

@@ -1,4 +1,4 @@
-"""An answer that a box repeats with numbers put in: the formula counts, where the problem gives no numbers."""
+"""An answer that a box repeats with numbers put in: the formula counts where the problem gives none."""
 
 from __future__ import annotations
 
@@ -28,10 +28,14 @@ def test_the_formula_counts(text: str, verdict: str) -> None:
 
 @pytest.mark.parametrize(("factor", "verdict"), [("0.98", "correct"), ("0.49", "wrong")])
 def test_numbers_of_the_problem_are_put_in(factor: str, verdict: str) -> None:
-    values = "{m: 0.5, l: 0.2, g: 9.8}"
-    checker = Checker(read_problem(
-        f"gravity: [0, -g, 0]\ndh: [{{theta: q*, a: l}}]\nmasses: [{{mass: m, link: 1, center: tip}}]\nvalues: {values}\n"
-    ))  # fmt: skip
+    checker = Checker(
+        read_problem("""
+gravity: [0, -g, 0]
+dh: [{theta: q*, a: l}]
+masses: [{mass: m, link: 1, center: tip}]
+values: {m: 0.5, l: 0.2, g: 9.8}
+""")
+    )
     text = rf"$$g_1=m g l\cos q$$ $$\boxed{{g_1={factor}\cos q}}$$"
     report = checker(read_submission(checker.problem, text, "report.md"))
     assert next(answer.verdict for answer in report.answers if answer.name == "g1") == verdict

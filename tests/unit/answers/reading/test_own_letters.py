@@ -103,8 +103,26 @@ BRANCHES = (
     rf"$$\cos q_2={COSINE}=:D$$" + f"$${BRANCHES.format(', ', '')}$$",
     rf"$$D:={COSINE}$$" + f"\n\n$${BRANCHES.format(', ', '')}$$",
     rf"$$\begin{{aligned}}D&:=\cos q_2={COSINE}\\{BRANCHES.format(chr(92) * 2, '&')}\end{{aligned}}$$",
+    rf"$\cos q_2={COSINE}=:D$, so" + f"\n$${BRANCHES.format(', ', '')}$$",
     f"Sei $D={COSINE}$. Dann\n$${BRANCHES.format(', ', '')}$$",
 ])  # fmt: skip
 def test_the_cosine_that_gives_the_branches(text: str) -> None:
     assert verdict("reach", text, "inverse") == "correct"
     assert verdict("reach", text.replace("{2l_1l_2}", "{l_1l_2}"), "inverse") == "wrong"
+
+
+@pytest.mark.parametrize("text", [
+    r"$$K_1=\tfrac12(m_1l_{c1}^2+I_1)\omega^2,\quad\text{der }\omega=\dot q_1$$",
+    r"$$K_1=\tfrac12(m_1l_{c1}^2+I_1)\omega_1^2\qquad(\omega_1=\dot q_1)$$",
+    "K1 = 1/2*(m1*lc1^2+I1)*w1^2 mit w1 = dq1",
+    "K1 = 1/2*(m1*lc1^2+I1)*w1^2 where w1 = dq1",
+])  # fmt: skip
+def test_a_definition_on_the_same_line(text: str) -> None:
+    assert verdict("planar-2r", text, "K1") == "correct"
+    assert verdict("planar-2r", text.replace("m_1", "m_2").replace("m1", "m2"), "K1") == "wrong"
+
+
+def test_the_rate_of_a_formula_of_ones_own() -> None:
+    text = r"$$p_2=m_2\dot L_2$$ $$f_2=\dot p_2-m_2L_2\dot\theta_1^2$$"
+    assert verdict("in3140-rp", text, "f2") == "correct"
+    assert verdict("in3140-rp", text.replace("p_2=m", "p_2=2m"), "f2") == "wrong"

@@ -49,3 +49,15 @@ def test_a_matrix_of_an_answer_file() -> None:
 def test_where_no_entry_can_be_read(value: str) -> None:
     found = verdicts(f"$$g = {value}$$")
     assert found["g"] == "unreadable" and "g1" not in found
+
+
+def test_names_beside_an_entry_that_cannot_be_read() -> None:
+    matrix = r"$$D = \begin{bmatrix} d_{11} & d_{12} \\ d_{12} & \delta \end{bmatrix}$$"
+    entries = r"$d_{11} = m_1 l_{c1}^2$ und $d_{12} = m_2 (l_{c2}^2 + l_1 l_{c2} \cos q_2) + I_2$"
+    found = verdicts(f"{matrix} mit {entries}")
+    assert (found["D"], found["d11"], found["d12"], found["d22"]) == (
+        "wrong",
+        "wrong",
+        "correct",
+        "unreadable",
+    )
