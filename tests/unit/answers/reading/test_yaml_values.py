@@ -85,7 +85,7 @@ def test_every_character_knows_its_place(text: str) -> None:
 
 
 def test_the_place_of_a_fault_in_a_list_is_exact() -> None:
-    place = last(hand_in("answers:\n  g:\n  - m1*g\n  - 'm2*gx'\n"), "g").place
+    place = last(hand_in("answers:\n  g:\n  - m1*g\n  - 'm2*gx'\n"), "g2").place
     assert (place.line, place.column, place.length) == (4, 9, 2)
 
 
