@@ -117,3 +117,15 @@ def test_nothing_that_a_student_wrote_runs_when_a_teacher_opens_it(course: Path)
     _grade(course)
     names = [path.name for path in (course / "out" / "hand-ins").iterdir()]
     assert {name.rpartition(".")[2] for name in names} == {"txt", "pdf"}
+
+
+def test_an_answer_that_only_a_line_names_waits_with_that_line(tmp_path: Path) -> None:
+    with_files(tmp_path / "set", {"in3140-rp.yaml": find("in3140-rp").read_bytes()})
+    (tmp_path / "set" / "set.yaml").write_text("marks: {in3140-rp: {D: 4, C: 2, g: 1}}\n")
+    text = "$$g = [0, 0]^T$$\n\nIf $D = X_7$, as said before, we get the rest.\n"
+    with_files(tmp_path / "in", {"ann/in3140-rp.md": text.encode()})
+    grades = _grade(tmp_path)
+    (row,) = _queue(tmp_path)
+    assert (row["answer"], _number(tmp_path)) == ("D", len(grades.queue))
+    assert "line 3" in row["reason"] and "X_7" in row["reason"]
+    assert "X_7" in (tmp_path / "out" / "feedback" / "ann" / "in3140-rp.html").read_text()
