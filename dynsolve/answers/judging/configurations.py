@@ -108,7 +108,9 @@ class ConfigurationKey:
         theirs = [part.node for one in given for part in one]
         gravity = self.forms("g")
         points = list(balanced_points(self.robot, theirs))
-        if not points or not all(is_balanced(self.robot, gravity, at) for at in points):
+        if not points:
+            return SetVerdict(False, "balance_never_holds")
+        if not all(is_balanced(self.robot, gravity, at) for at in points):
             return SetVerdict(False, "not_balanced")
         for number, node in enumerate(theirs, 1):
             condition = held_equations([node], (), ())

@@ -55,6 +55,7 @@ def test_by_hand(problem: str, conditions: set[str]) -> None:
         (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0"]', ""),
         (ARM, '["m2*d2 = 0 and d1 = -m2*l1/m1"]', ""),
         (ARM, "[d2 = 0]", "not_balanced"),
+        (ARM, "[d2^2 + 1 = 0]", "balance_never_holds"),
         (ARM, "[d2 = 0, d1 = 0]", "not_balanced"),
         (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0", "l2 = 1"]', "condition_too_much"),
     ],
