@@ -30,7 +30,7 @@ from dynsolve.answers.diagnosis.one_place import ratio_of
 from dynsolve.answers.diagnosis.own_steps import OwnSteps
 from dynsolve.answers.diagnosis.parts import is_small, parts, used
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
-from dynsolve.answers.diagnosis.substitution import substitutions
+from dynsolve.answers.diagnosis.substitution import substitutions, throughout
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.diagnosis.terms import TermDiagnoser
 from dynsolve.answers.diagnosis.whole_matrix import MatrixDiagnoser
@@ -328,6 +328,11 @@ class Diagnoser:
                     if found.holds(case) and self.steps.fits_the_rest(node, changed):
                         yield found
 
+    def _throughout(self, case: Case) -> Iterator[Explanation]:
+        """One symbol for another everywhere."""
+        for diagnosis, mend in throughout(self.words, case.mine, case.expected):
+            yield self._told((mend,), diagnosis)
+
     def _several_terms(self, case: Case) -> Iterator[Explanation]:
         """One term too many; several slips in several terms, each named, where they are few.
 
@@ -387,6 +392,7 @@ _IN_ORDER: tuple[Callable[[Diagnoser, Case], Iterator[Explanation]], ...] = (
     Diagnoser._something_left_out,
     Diagnoser._one_bracket,
     Diagnoser._earlier_step_otherwise,
+    Diagnoser._throughout,
     Diagnoser._several_terms,
 )
 """The explanations in the order in which they are tried: the first that holds is told."""

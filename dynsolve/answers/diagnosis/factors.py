@@ -25,7 +25,7 @@ from dynsolve.errors import AlgebraError
 MOST_SYMBOLS = 16
 """Of more symbols in a difference none is looked for in the place of another."""
 
-MOST_ANGLES = 12
+MOST_ANGLES = 14
 """So many angles are held against each other."""
 
 Pair = tuple[Expr, Expr]
@@ -186,6 +186,7 @@ class FactorPairs:
         found = list(basic)
         found += [Angle.of(name) for name in self.ring.names]
         found += [a - b for a, b in combinations(basic, 2)] + [a + b for a, b in combinations(basic, 2)]
+        found += [angle * 2 for angle in (*basic, *map(Angle.of, self.ring.names))]
         kept: list[Angle] = []
         for angle in found:
             if self._held(angle) is not None and angle not in kept and -angle not in kept:

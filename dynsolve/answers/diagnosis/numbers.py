@@ -47,6 +47,11 @@ def letters_in_numbers(mine: Expr, expected: Expr) -> list[Generator]:
     return sorted(missing, key=lambda g: g.index)
 
 
+def has_a_plain_number(expr: Expr) -> bool:
+    """Whether a term of it has no number that may stand for a letter."""
+    return any(fraction(value) in PLAIN for value in expr.poly.to_dict().values())
+
+
 def _absent(mine: Expr, expected: Expr) -> list[Generator]:
     """The parameters that are expected and not there."""
     ring, here = mine.ring, set(used(mine))
@@ -75,9 +80,16 @@ def _of(g: Generator, absent: list[Generator], mine: Expr, expected: Expr) -> Fo
     there = {bare for bare in moved if bare in ours and ours[bare] == put.get(bare)}
     if not there:
         return None
-    have = _kept(mine, ours, there)
     want = _kept(mine, right, {e for e in right if _without(e, [g]) in there})
-    return g, number, Exchange(ring.one, have, want)
+    others = {bare for bare, value in ours.items() if bare not in (*right, *there) and _has(value, number)}
+    more = _kept(mine, ours, others)
+    want = want + more * ring.generator(g.index) * (1 / number)
+    return g, number, Exchange(ring.one, _kept(mine, ours, there) + more, want)
+
+
+def _has(value: Any, number: Fraction) -> bool:
+    """Whether a number is a factor of another, which is no usual one itself."""
+    return fraction(value) not in PLAIN and fraction(value) / number in PLAIN
 
 
 def _root(value: Fraction, power: int) -> Fraction:

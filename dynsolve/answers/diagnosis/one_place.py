@@ -18,7 +18,7 @@ from dynsolve.answers.diagnosis.exchanges import Exchanges, TermSlip
 from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.diagnosis.mends import Exchange
 from dynsolve.answers.diagnosis.parts import stands_in, used
-from dynsolve.notation.tree import Negative, Node, Number, Sum
+from dynsolve.notation.tree import Negative, Node, Number, Product, Sum
 from dynsolve.notation.walk import walk
 
 MOST_TERMS = 60
@@ -97,4 +97,6 @@ def _at_terms_of(off: Expr, value: Expr) -> Expr:
 def _holds(node: Node, part: Node) -> bool:
     """Whether a formula has another in it, with whatever sign; a number need not be seen."""
     bare = part.argument if isinstance(part, Negative) else part
+    if isinstance(bare, Product):  # 2s₁ c₁ stands in 2m g s₁ c₁
+        return all(_holds(node, factor) for factor in bare.factors)
     return isinstance(bare, Number) or bare in walk(node)

@@ -58,12 +58,6 @@ def parts(expr: Expr) -> dict[Monomial, Expr]:
     return {m: Expr(expr.ring, expr.ring.ctx.from_dict(terms)) for m, terms in groups.items()}
 
 
-def monomials(expr: Expr) -> list[Monomial]:
-    """The monomials in the symbols that occur, each once."""
-    turning = _turning(expr.ring)
-    return list(dict.fromkeys(_monomial(e, turning) for e in (expr.poly.monoms() if expr.poly else ())))
-
-
 def _monomial(exponents: tuple[int, ...], turning: frozenset[int]) -> Monomial:
     return tuple((i, int(e)) for i, e in enumerate(exponents) if e and i not in turning)
 

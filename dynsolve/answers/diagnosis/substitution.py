@@ -83,7 +83,6 @@ def substitutions(graph: AnswerGraph, words: TermWriter, mine: Expr, expected: E
         return
     yield from _angles(words, pair)
     yield from _symbols(words, pair)
-    yield from _throughout(words, _Pair(mine, expected, whole=True))
 
 
 def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Found]:
@@ -156,14 +155,16 @@ def _symbols(words: TermWriter, values: _Pair) -> Iterator[Found]:
             yield from _symbol(words, a, b, values)
 
 
-def _throughout(words: TermWriter, values: _Pair) -> Iterator[Found]:
+def throughout(words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Found]:
     """One parameter for another everywhere, also where the other stands rightly."""
-    have, wanted = {*used(values.mine)}, {*used(values.expected)}
+    if max(len(mine), len(expected)) > MOST_TERMS:
+        return
+    values, have, wanted = _Pair(mine, expected, whole=True), {*used(mine)}, {*used(expected)}
     for a, b in permutations(_parameters(values.ring), 2):
         is_gone = a.index in wanted - have and b.index in have & wanted
         if is_gone and values.becomes({a.index: values.ring.generator(b.index).poly}):
             told = slip("symbol_throughout", part=words.generator(b), other=words.generator(a))
-            yield told, Redoing(values.mine, values.expected)
+            yield told, Redoing(mine, expected)
 
 
 def _parameters(ring: Ring) -> list[Generator]:

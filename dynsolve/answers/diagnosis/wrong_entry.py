@@ -10,7 +10,8 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.parts import is_small, monomial_expr, monomials
+from dynsolve.answers.diagnosis.numbers import has_a_plain_number
+from dynsolve.answers.diagnosis.parts import is_small, monomial_expr, parts
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
@@ -55,7 +56,8 @@ class WrongEntry:
 class DimensionCheck:
     """Finds terms that cannot be added: masses, lengths and times have units by their role.
 
-    Where the problem gives numbers for symbols a term may lack its unit, and nothing is told.
+    Where the problem gives numbers for symbols a term may lack its unit, and nothing is told; nor of a
+    term with another number than ½ or 2, which may stand for a letter.
     """
 
     def __init__(self, graph: AnswerGraph, words: TermWriter, has_numbers: bool) -> None:
@@ -81,7 +83,8 @@ class DimensionCheck:
             return
         if not self.dimensions.fits(question.expected[-1], wanted):
             return
-        terms = [monomial_expr(self.ring, m) for m in monomials(mine)] if is_small(mine) else []
+        by_monomial = parts(mine) if is_small(mine) else {}
+        terms = [monomial_expr(self.ring, m) for m, term in by_monomial.items() if has_a_plain_number(term)]
         known = [(term, found) for term in terms if (found := self.dimensions.of(term)) is not None]
         for term, found in known:
             if found != wanted:

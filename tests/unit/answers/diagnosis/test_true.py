@@ -197,3 +197,22 @@ def test_one_entry_that_is_doubled_is_not_the_whole_matrix() -> None:
     assert [d.message for d in judged(RP, "D", D).diagnosis] == ["Entry (1, 1) is 2 times what it should be."]
     D[1][1] = "2*m2"
     assert [d.message for d in judged(RP, "D", D).diagnosis] == ["Your answer is 2 times what it should be."]
+
+
+@pytest.mark.parametrize(
+    ("written", "says"),
+    [
+        ("m2*lc2*g*cos(q1 + q1)", ["stands cos(2q₁) where c₁₂ belongs"]),
+        ("m2*lc2*g*cos(q2 + q2)", ["stands cos(2q₂) where c₁₂ belongs"]),
+        ("m1*lc2*g*cos(q1 + q2)", ["stands m₁ where m₂ belongs"]),
+    ],
+)
+def test_one_index_is_told_with_it(written: str, says: list[str]) -> None:
+    found = judged(ELBOW, "g2", written)
+    assert [text in d.message for text, d in zip(says, found.diagnosis, strict=True)] == [True]
+
+
+def test_a_number_for_a_letter_and_an_index_are_two_slips() -> None:
+    found = judged(ELBOW, "g1", "(m1*lc1 + m2*l1)*9.81*cos(q1) + m2*9.81*lc1*cos(q1 + q2)")
+    assert codes(found) == ["number_for_letter", "symbol"]
+    assert "stands l_c1 where l_c2 belongs" in found.diagnosis[1].message
