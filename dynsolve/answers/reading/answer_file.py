@@ -88,7 +88,8 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
                 )
                 continue
             read_value(reader, entry.key, place, _as_rows(reader, entry, entry.value).display(source))
-    read = [(e.at, e.value.origin(len(e.value.text)) if e.value else e.at + len(e.key)) for e in entries]
+    known = [*entries, *(entry for is_symbol, entry in file.names if is_symbol)]
+    read = [(e.at, e.value.origin(len(e.value.text)) if e.value else e.at + len(e.key)) for e in known]
     list_unread_keys(reader, source, hidden(source.text, read))
     return (file.problem, file.student), faults
 

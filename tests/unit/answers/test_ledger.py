@@ -113,6 +113,11 @@ def test_what_a_sentence_supposes_waits(text: str) -> None:
     assert answer.fault and answer.place and answer.place.line == 3
 
 
+def test_a_name_that_is_declared_for_a_symbol_is_no_answer() -> None:
+    report = ASKED(ASKED.reader("symbols: {K: m2}\nanswers:\n  D: 1\n", "a.yaml"))
+    assert not report.not_recognized and not report.set_aside
+
+
 @pytest.mark.parametrize(
     ("ending", "text", "line"),
     [
