@@ -10,6 +10,7 @@ route, task_routes            one way to an answer; those by way of the task's J
 own_constraint                A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds
 moved_multipliers             equations of motion in which A_cᵀ λ stands
 recursion_routes              the ways from the recursions to a force
+differentiation_routes        the ways from a position to velocities and Jacobians
 graph                         which answers lead to which, by which routes
 entry_comparison              whether two scalars are equal
 key_comparison                an answer compared with the key, entry by entry

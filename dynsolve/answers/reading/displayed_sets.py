@@ -89,7 +89,7 @@ class DisplayedSets:
     def _without_own(self, display: Display, row: str) -> str:
         r"""A row without the letter that it defines beside a coordinate: `\cos q_2 = ... =: D`."""
         members = _plain(row).split("=")
-        if len(members) < 3:
+        if len(members) < 3 or len(joined(_plain(row))) > 1:
             return row
         unknown = [member for member in members if self._is_unknown(member)]
         own = [m for m in members if _OWN.fullmatch(m) and m not in unknown and not self._is_symbol(m)]

@@ -126,3 +126,10 @@ def test_the_rate_of_a_formula_of_ones_own() -> None:
     text = r"$$p_2=m_2\dot L_2$$ $$f_2=\dot p_2-m_2L_2\dot\theta_1^2$$"
     assert verdict("in3140-rp", text, "f2") == "correct"
     assert verdict("in3140-rp", text.replace("p_2=m", "p_2=2m"), "f2") == "wrong"
+
+
+def test_two_alternatives_in_one_display_define_nothing() -> None:
+    judge = Checker(read_problem(REACH.replace("[inverse]", "[inverse, singular]")))
+    text = r"The arm is singular where $$q_2 = 0 \text{ or } q_2 = \pi$$"
+    report = judge(read_submission(judge.problem, text, "report.md"))
+    assert next(answer.verdict for answer in report.answers if answer.name == "singular") == "correct"
