@@ -58,7 +58,7 @@ def written_entries(tokens: list[Token]) -> list[list[list[Token]]]:
 
 
 def _cut(tokens: list[Token], kind: str) -> list[list[Token]]:
-    """The pieces between signs of a kind that stand in no bracket; no empty ones."""
+    """The pieces between signs of a kind that stand in no bracket; an empty one only in a row of cells."""
     pieces: list[list[Token]] = [[]]
     level = 0
     for token in tokens:
@@ -67,7 +67,7 @@ def _cut(tokens: list[Token], kind: str) -> list[list[Token]]:
             pieces.append([])
         else:
             pieces[-1].append(token)
-    return [piece for piece in pieces if piece]
+    return [piece for piece in pieces if piece or kind == "&"]
 
 
 def entries_of(part: MatrixPart, value: object) -> list[tuple[str, Node]]:

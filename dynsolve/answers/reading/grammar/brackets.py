@@ -18,12 +18,16 @@ _MATRICES = frozenset(
 
 _MARKS = frozenset({"*", "cdot"})
 _SYMMETRIC = frozenset("sym symm symmetric".split())
+_ROW_SIGNS = frozenset({"&", "\\\\", "close"})
 _ENTRY_ENDS = frozenset({"&", "\\\\", ",", ";", "]", "}", "close", "⟩", "|"})
 MIRRORED = Symbol("*")
 """What stands for an entry that a symmetric matrix has across its diagonal: `*`, `sym.`"""
 
 EMPTY = Symbol("")
 """What stands for an entry that was left blank."""
+
+_DOT = Symbol("\\cdot")
+"""What stands for an entry that is a dot: that across the diagonal of a symmetric matrix, or 0."""
 
 SYMMETRIC_NOTE = "a mark in a symmetric matrix is read as the entry across the diagonal"
 
@@ -218,25 +222,25 @@ def environment(reader: Reader) -> Value:
         )
     rows: list[list[Value]] = [[]]
     blanks: list[Token] = []
-    count = 0
     while reader.token.kind not in ("close", "end"):
-        kind = reader.token.kind
-        if kind == "\\\\":
+        if reader.token.kind == "\\\\":
             reader.take()
             rows.append([])
-        elif kind == "&":
-            blanks.append(reader.take())
+            continue
+        if reader.token.kind == "&":
+            blanks.append(reader.token)
             rows[-1].append(EMPTY)
         else:
             rows[-1].append(entry(reader))
-            count += 1
-            if reader.token.kind in ("&", ",") and count <= MAX_ENTRIES:
-                sign = reader.take()
-                if reader.token.kind in ("\\\\", "close"):
-                    blanks.append(sign)
-                    rows[-1].append(EMPTY)
-            elif reader.token.kind not in ("\\\\", "close"):
+            if reader.token.kind == "," and reader.peek().kind in _ROW_SIGNS:
+                reader.take()
+            if reader.token.kind not in (",", *_ROW_SIGNS):
                 raise reader.unexpected("`&` or `\\\\` is expected between the entries of a matrix")
+        if reader.token.kind in ("&", ","):
+            sign = reader.take()
+            if reader.token.kind in ("\\\\", "close"):
+                blanks.append(sign)
+                rows[-1].append(EMPTY)
     if reader.token.kind == "end":
         message = f"this `\\begin{{{name}}}` is never closed"
         raise ReadError(message, opening.start, opening.end - opening.start, f"add \\end{{{name}}}")
@@ -270,10 +274,31 @@ def entry(reader: Reader) -> Value:
     is_mark = reader.token.kind in _MARKS or reader.token.text.lower() in _SYMMETRIC
     if not is_mark or reader.peek(ahead).kind not in _ENTRY_ENDS:
         return reader.sum()
+    mark = _DOT if reader.token.kind == "cdot" else MIRRORED
     for _ in range(ahead):
         reader.take()
-    reader.notes.setdefault(SYMMETRIC_NOTE)
-    return MIRRORED
+    if mark is MIRRORED:
+        reader.notes.setdefault(SYMMETRIC_NOTE)
+    return mark
+
+
+def _without_dots(reader: Reader, rows: list[list[Value]]) -> list[list[Value]]:
+    """The rows with 0, or the mark of a symmetric matrix, for each dot: one across from a dot is 0.
+
+    Where one stands on the diagonal, or there is none, all are.
+    """
+    size = range(len(rows))
+    dots = [(i, j) for i in size for j, entry in enumerate(rows[i]) if entry is _DOT]
+    if not dots:
+        return rows
+    is_square = all(len(row) == len(rows) for row in rows)
+    are_zeros = not is_square or any(i == j for i, j in dots)
+    rows = [list(row) for row in rows]
+    for i, j in dots:
+        rows[i][j] = ZERO if are_zeros or (j, i) in dots else MIRRORED
+        if rows[i][j] is MIRRORED:
+            reader.notes.setdefault(SYMMETRIC_NOTE)
+    return rows
 
 
 def _mirrored(found: Value) -> Value:
@@ -291,7 +316,7 @@ def finished(reader: Reader, rows: list[list[Value]], opening: Token) -> Value:
     """The matrix of these rows; one of one entry is that entry."""
     if len(rows) == 1 and len(rows[0]) == 1:
         return rows[0][0]
-    found = reader.placed(opening.start, stacked, rows)
+    found = reader.placed(opening.start, stacked, _without_dots(reader, rows))
     if SYMMETRIC_NOTE in reader.notes:
         found = _mirrored(found)
     return found if isinstance(found, Abstract) else _as_rates(reader, found)
