@@ -29,6 +29,9 @@ _BESIDE = re.compile(r"[ \t0-9/\\|]+")
 """A line with exponents alone, or with brackets beside them."""
 
 _HEAD = re.compile(r"[ \t]*([^\s=:][^=:\n]{0,40}?)[ \t]*(?::=|[=:])[ \t]*$", re.MULTILINE)
+_ROW = re.compile(r"(?:\[\[|[|\[⎡⎢⎣])([^\]|⎤⎥⎦=]*)(?:\]\]|[|\]⎤⎥⎦]),?")
+_BETWEEN_CELLS = re.compile(r",[ \t]*(?![^()]*\))|[ \t]{2,}(?![^()]*\))")
+_BESIDE_MATRIX = re.compile(r"(?<=\])[ ]{2,}(?=[^\s=\[\]]{1,40}[ ]*=)")
 _PROMPT = re.compile(r"\(%[io][0-9]{1,4}\)")
 _DERIVATIVE = re.compile(r"[d∂](?:\^\d)?")
 _LONGEST, _MOST_LINES = 20_000, 100
@@ -59,12 +62,34 @@ def one_line(paragraph: str, names_answer: Callable[[str], bool]) -> str:
         return ""
     picture = _Picture([_CELL.findall(line.expandtabs()) for line in drawn.split("\n")])
     try:
-        text = picture.text()
+        text = _BESIDE_MATRIX.sub("; ", picture.text())
     except (_NoFormulaError, RecursionError):
-        return ""
-    text = f"{head[1]} = {text}" if head else text
+        text = ""
+    text = f"{head[1]} = {text}" if head and text else text or _row_by_row(paragraph)
     name, sign, _ = text.partition("=")
     return text if sign and names_answer(name.strip()) else ""
+
+
+def _row_by_row(paragraph: str) -> str:
+    """The matrices whose rows stand on one line each, side by side and not aligned; empty for others."""
+    heads: dict[int, str] = {}
+    matrices: dict[int, list[str]] = {}
+    for line in paragraph.split("\n"):
+        end = 0
+        for place, found in enumerate(_ROW.finditer(line)):
+            if name := line[end : found.start()].strip():
+                if place in heads:
+                    return ""
+                heads[place] = name
+            if row := found[1].strip():
+                matrices.setdefault(place, []).append(", ".join(_BETWEEN_CELLS.split(row)))
+            end = found.end()
+        if (rest := line[end:].strip(" \t,;")) and (end or heads):
+            return ""
+        heads |= {0: rest} if rest else {}
+    if heads.keys() != matrices.keys() or not all(map(_HEAD.fullmatch, heads.values())):
+        return ""
+    return "; ".join(f"{heads[place]} [[{'], ['.join(rows)}]]" for place, rows in sorted(matrices.items()))
 
 
 def _is_drawn(paragraph: str) -> bool:
@@ -239,7 +264,7 @@ class _Picture:
         return rows.right + 1
 
     def _matrix(self, box: _Box) -> str:
-        rows = [[self._formula(cell) for cell in row] for row in self._cells(box)]
+        rows = [[self._formula(cell).rstrip(",") for cell in row] for row in self._cells(box)]
         if len({len(row) for row in rows}) != 1:
             raise _NoFormulaError
         return "[" + ", ".join(f"[{', '.join(row)}]" for row in rows) + "]"

@@ -29,8 +29,9 @@ def _in_dollars(formula: re.Match[str]) -> str:
 
 def _lines(row: str, names_answer: Callable[[str], bool]) -> str:
     bars = [found.start() for found in _BAR.finditer(row) if found[0] == "|"]
-    if len(bars) == 2 and not {"=", "$"} & set(row):
-        return row  # one row of a matrix that is drawn
+    between = "".join(row[a + 1 : b] for a, b in zip(bars[1::2], bars[2::2], strict=False))
+    if len(bars) % 2 == 0 and not between.strip() and not {"=", "$"} & set(row):
+        return row  # one row of matrices that are drawn
     cells = [row[a + 1 : b] for a, b in zip(bars, [*bars[1:], len(row)], strict=True)]
     pieces = [row[: bars[0]]]
     at = 0

@@ -109,4 +109,4 @@ def test_blanks_beside_a_diagonal_are_zeros() -> None:
         )
     )
     missed = judged(r"$$D = \begin{bmatrix} I_2 & m_2l_{c2}^2 \\ & I_2 \end{bmatrix}$$")
-    assert (given["D"], missed["D"]) == ("correct", "unreadable")
+    assert (given["D"], missed["d21"], missed["d22"]) == ("correct", "unreadable", "wrong")
