@@ -17,7 +17,9 @@ from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.walk import names_in
 from dynsolve.quantities.model_families import QDD_FORWARD, REFERENCE
+from dynsolve.quantities.stages import Stage
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +87,7 @@ class AnswerList:
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
+    _motions: list[tuple[MotionEquation, list[Token], Origin, NotRecognized]] = field(default_factory=list)
     _accelerations: dict[int, Answer] = field(default_factory=dict)
     _entries: VectorEntries = field(init=False)
 
@@ -188,6 +191,12 @@ class AnswerList:
         others = tuple(force for force in forces if force != name)
         self.answers.append(replace(answer, alternatives=others, is_equation=equation.is_zero))
 
+    def motion_aside(
+        self, equation: MotionEquation, tokens: list[Token], origin: Origin, refused: NotRecognized
+    ) -> None:
+        """Keep an equation of motion of a sentence: it counts where nothing else gives its force."""
+        self._motions.append((equation, tokens, origin, refused))
+
     def acceleration(self, row: int, member: Member, origin: Origin) -> None:
         """Keep the acceleration of one coordinate until those of all are there; it has to be one formula."""
         answer = self.answer(("P",), member, origin)  # a scalar of any name
@@ -260,13 +269,32 @@ class AnswerList:
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)
         self.not_recognized += lost
 
+    def _is_beyond_energy(self, answer: Answer) -> bool:
+        """Whether a value is no abbreviation: a step behind the energies that holds a mass, or friction."""
+        stage = self.vocabulary.quantities[answer.name].family.stage
+        holds_mass = answer.node is not None and not self.vocabulary.masses.isdisjoint(names_in(answer.node))
+        is_behind = stage in (Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED)
+        return is_behind and (holds_mass or answer.name == "friction")
+
     def _settle_asides(self) -> None:
         """The asides that answer what is given nowhere so that it can be read, and those that do not."""
+        within = self.vocabulary.quantities.within
+        given = {part for answer in self.answers for part in within(answer.name)}
+        for equation, tokens, origin, refused in self._motions:
+            if given.issuperset(equation.forces):
+                self.left_alone.append(refused)
+            elif equation.is_zero:
+                self.not_recognized.append(refused)
+            else:
+                self.motion(equation, tokens, origin)
+                given.add(self.answers[-1].name)
         given = {answer.name for answer in self.answers if answer.node is not None}
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
         for refused, answers in self._asides:
             can_be_read = all(answer.node is not None for answer in answers)
             wanted = named | self.vocabulary.asked if can_be_read else named
+            if can_be_read and all(map(self._is_beyond_energy, answers)):
+                wanted |= {*refused.answers}
             if answers and given.isdisjoint(refused.answers) and not wanted.isdisjoint(refused.answers):
                 self.answers += answers
             else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import Member, Origin
+from dynsolve.answers.reading.by_content import meant
 from dynsolve.answers.reading.displays import Display, Equation, equations
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
@@ -19,6 +20,7 @@ from dynsolve.answers.reading.left_side import (
     spoken_of,
 )
 from dynsolve.answers.reading.limits import MAX_MEMBERS
+from dynsolve.answers.reading.motion_equations import motion_equation
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
@@ -51,18 +53,28 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         reader.found.left_alone.append(origin.of(members, origin.display.aside))
         return
     side = read_left_side(reader.vocabulary, members[0])
+    motion = None if isinstance(side, NamedAnswers) else motion_equation(reader.vocabulary, members)
+    if motion is not None:
+        tokens = [token for member in members for token in member]
+        origin = replace(origin, names=motion.forces)
+        reader.found.motion_aside(motion, tokens, origin, origin.of(members, origin.display.aside))
+        return
     origin = replace(origin, names=spoken_of(reader.vocabulary, members[0], side))
     value = (
         read_right_side(reader.vocabulary, members[-1])
         if len(members) <= MAX_MEMBERS
         else ReadError(f"more than {MAX_MEMBERS} members")
     )
+    if isinstance(side, UnknownSide) and isinstance(value, RightSide):
+        by_content = meant(reader.vocabulary, side.key, value.value)
+        side = NamedAnswers(by_content) if by_content else side
+        origin = replace(origin, names=by_content or origin.names)
     own = members[0][0].text if len(members[0]) == 1 else ""
     gives = isinstance(value, RightSide) and not isinstance(value.value, Abstract)
     if isinstance(side, NamedAnswers) and (
         isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
     ):
-        sides = read_left_sides(reader.vocabulary, members)
+        sides = [side, *read_left_sides(reader.vocabulary, members)[1:]]
         names = [one.candidates for one in sides if isinstance(one, NamedAnswers)]
         member = Member(len(members) - 1, members[-1], value)
         answers = [reader.found.answer(candidates, member, origin) for candidates in names]

@@ -18,10 +18,14 @@ from dynsolve.notation.walk import walk
 from dynsolve.quantities.stages import Stage
 
 _NAME = re.compile(r"(k|u)([0-9a-z]?)|(H)((?:[1-9][1-9])?)")
+_FRICTION = re.compile(r"(?:tau|[TMFQ])(?:f|fr|fric|friction|r|R|Reib|reib|fv|d|D|diss)")
+"""What the vector of friction is called beside the torques."""
 
 
 def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
     """The answers that a name of the student's own may be, by what its value is made of; none for others."""
+    if _FRICTION.fullmatch(name) and vocabulary.is_answer("friction"):
+        return ("friction",) if _is_friction(vocabulary, value) else ()
     found = _NAME.fullmatch(name)
     if found is None or isinstance(value, Abstract):
         return ()
@@ -45,8 +49,20 @@ def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
     return tuple(n for n in names if (vocabulary.shape(n) is None) == scalar)
 
 
+def _is_friction(vocabulary: Vocabulary, value: Value) -> bool:
+    """Whether a vector holds rates, beside no mass and no acceleration."""
+    symbols = (
+        [part for part in walk(value.node) if isinstance(part, Symbol)] if isinstance(value, Grid) else []
+    )
+    has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
+    return not has_mass and {symbol.dots for symbol in symbols} in ({1}, {0, 1})
+
+
 def force_meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
-    """The generalized force of the index of a name, where its value holds accelerations beside a mass."""
+    """The generalized force of the index of a name, where its value holds accelerations beside a mass.
+
+    Without an index it is one of those that are driven.
+    """
     if not isinstance(value, Node) or not name or name in vocabulary.symbols:
         return ()
     symbols = [part for part in walk(value) if isinstance(part, Symbol)]
@@ -54,13 +70,12 @@ def force_meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, .
     if not has_mass or all(symbol.dots < 2 for symbol in symbols):
         return ()
     forces = [q.force for q in vocabulary.coordinates]
-    index = "".join(split(name)[1])
-    if not index:
-        driven = [force for force in forces if force not in vocabulary.passive]
-        return tuple(driven) if len(driven) == 1 else ()
+    index = "".join(split(name)[1]) or name[1:]
     counted = "".join(character for character in index if character.isdigit())
     named = vocabulary.named(f"tau{index}") or vocabulary.named(f"tau{counted}")
-    return tuple(force for force in named if force in forces)
+    driven = [force for force in forces if force not in vocabulary.passive]
+    is_open = not split(name)[1] and (len(driven) == 1 or not index)
+    return tuple(force for force in named if force in forces) or (tuple(driven) if is_open else ())
 
 
 def called_force(

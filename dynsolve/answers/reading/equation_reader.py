@@ -59,6 +59,7 @@ _CONTROL = re.compile(r"unknown symbol `(?:[Kk]_?\{?[pPdDiI]\}?|[^`]*tilde\}?)`"
 """What a controller's gains and errors are told as: an equation that holds them is none of the answers."""
 
 _DEFINITION = "it defines an abbreviation"
+_MORE_THAN_NAME = "its left side is more than a name"
 _TOO_MANY_ANSWERS = f"more than {MAX_ANSWERS} values stand before it"
 
 
@@ -398,7 +399,9 @@ class EquationReader:
                 return
         leading = read[0].found if read and read[0].index == 0 else None
         if isinstance(leading, RightSide) and leading.is_definition:
-            self.found.left_alone.append(origin.of(members, why_no_value(leading)))
+            is_multiple = origin.names and _values(read) and not is_abstract(leading)
+            why = _MORE_THAN_NAME if is_multiple else why_no_value(leading)
+            self.found.left_alone.append(origin.of(members, why))
         else:
             why = (
                 leading.message
@@ -425,7 +428,9 @@ class EquationReader:
         elif isinstance(last, RightSide) and (forces := force_meant(self.vocabulary, side.key, last.value)):
             self.define(side.key, last, side.has_arguments)
             made = [self.found.answer(forces, values[-1], origin)]
-            self.found.put_off(forces, made, origin.of(members, _DEFINITION))
+            why = _DEFINITION if len(forces) == 1 else f"it may be any of {', '.join(forces)}"
+            refused = replace(origin, names=forces).of(members, why)
+            self.found.put_off(forces, made, refused)
         elif side.family:
             note = side.message.replace("unknown symbol ", "")
             made = [self.found.answer(side.family[:1], member, origin) for member in values[-1:]]

@@ -123,6 +123,8 @@ def spoken_of(vocabulary: Vocabulary, member: list[Token], side: LeftSide) -> tu
         return side.family
     if [token.kind for token in member[:3]] == ["(", "number", ")"]:
         member = member[3:]
+    elif member[:1] and member[0].kind == "number":
+        member = member[1:]
     for end in (at for at, token in enumerate([*member, None]) if at and (not token or token.kind in _AFTER)):
         named = read_left_side(vocabulary, member[:end]) if end < _LONGEST_NAME else None
         if isinstance(named, NamedAnswers):

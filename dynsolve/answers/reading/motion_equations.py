@@ -157,6 +157,7 @@ def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
     if name in vocabulary.symbols or name in vocabulary.defined:
         return ()
     known = [q.force for q in vocabulary.coordinates]
+    indexed: tuple[str, ...] = ()
     side = read_left_side(vocabulary, tokens)
     if isinstance(side, NamedAnswers):
         forces = tuple(force for force in side.candidates if force in known)
@@ -164,9 +165,10 @@ def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
             return forces
     else:  # `M_2` is no mass where the problem has only an m_2
         is_unknown = side.is_name_alone if isinstance(side, UnknownSide) else name[-1:].isdigit()
-        if not is_unknown or not DRIVING.fullmatch(name) or name in vocabulary.others:
+        indexed = vocabulary.named(f"tau{name[1:]}") if name[1:] and DRIVING.match(name) else ()
+        is_force = DRIVING.fullmatch(name) or indexed
+        if not is_unknown or not is_force or name in vocabulary.others:
             return ()
-    indexed = vocabulary.named(f"tau{name[1:]}") if name[1:].isdigit() else ()
     return indexed or tuple(force for force in known if force not in vocabulary.passive)
 
 

@@ -54,7 +54,7 @@ _MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _SAYS = re.compile(
     r"(?<![\w$\\])(\$[^$\n=]{1,30}\$|(?!and |is |it |as )[^\W\d_]\w{0,9}(?:\{\w{1,6}\})?)[ \t\n}\]*]{0,4}"
-    r"(?:[ \t\n](?:is|are|being|denotes|equals|means|stands for|er|ist)[ \t\n]{1,3}"
+    r"(?:[ \t\n](?:is|are|being|denotes|equals|means|stands for|(?:must|has to) be|er|ist)[ \t\n]{1,3}"
     r"|(?P<sign>:|:?=|&|\])[ \t\n}\]*]{0,5})\Z"
 )
 _EQUALS = re.compile(r"=|[≡≜≈]|\\(?:triangleq|equiv|coloneqq|doteq|approx)(?![A-Za-z])")
@@ -67,7 +67,10 @@ _SUPPOSES = re.compile(
 
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
 _AND = "(?:and|og|und|y)"
-_BESIDE = re.compile(rf"\$[^$\n]*=[^$\n]*\$[ \t]*[,;.]?[ \t]*(?:{_AND}[ \t])?|(?:^|[ \t,]){_AND}[ \t]*$")
+_BESIDE = re.compile(
+    rf"(?:(?:^|[ \t,]){_AND}[ \t]+)?\$[^$\n]*=[^$\n]*\$[ \t]*[,;.]?[ \t]*(?:{_AND}[ \t])?"
+    rf"|(?:^|[ \t,]){_AND}[ \t]*$"
+)
 """Another equation on the same line, with the word between the two."""
 
 _MARGIN = 400

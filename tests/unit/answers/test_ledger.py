@@ -33,6 +33,7 @@ def judged(text: str, ending: str = "md") -> dict[str, Any]:
         ("Let the matrix be $D = X_7$, as before.", 1, "X_7"),
         ("$$D[7,7] = m_2$$", 1, "matrix"),
         ("$$(7)\\quad d_{12} = \\frac{d}{dt}(x_9)$$", 1, "x_9"),
+        (r"$$2D = \begin{bmatrix} 2 m_2 & 0 \\ 0 & 2 m_2 \end{bmatrix}$$", 1, "more than a name"),
     ],
 )
 def test_an_equation_of_what_nothing_else_answers_waits(text: str, line: int, reason: str) -> None:
@@ -133,3 +134,18 @@ def test_what_names_an_answer_where_nothing_is_read_waits(ending: str, text: str
     (answer,) = (a for a in report.answers if a.name == "K")
     assert answer.verdict == "missing" and answer.fault
     assert answer.place is not None and answer.place.line == line
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        (r"The symbol is $c_{121} = m_2 L_2$, as it was.", "c121"),
+        (r"All that matters is $\mathcal L = \frac12 m_2 \dot L_2^2$, thus.", "L"),
+        (r"One has $\frac{\partial L}{\partial\dot L_2} = m_2\dot L_2$ here.", "dLdqd2"),
+    ],
+)
+def test_a_sentence_answers_what_is_not_asked_where_a_mass_stands_in_it(text: str, name: str) -> None:
+    report = judged(text)
+    assert [a["name"] for a in report["answers"] if a["verdict"] in ("correct", "wrong")] == [name]
+    without = judged(text.replace("m_2", "3"))
+    assert not [a["name"] for a in without["answers"] if a["verdict"] in ("correct", "wrong")]

@@ -71,3 +71,38 @@ def test_a_model_of_several_vectors_is_one_of_all_forces() -> None:
         r"+ \begin{bmatrix} 0 \\ m_p g_0 \end{bmatrix} = \begin{bmatrix} F \\ 0 \end{bmatrix}"
     )
     assert [answer.name for answer in report(f"$${model}$$", stem="crane").answers] == ["D", "g", "tau"]
+
+
+@pytest.mark.parametrize(
+    ("sentence", "expected"),
+    [
+        (r"For $q_1$ we find $m\ddot q_1 + m_p\ddot q_1=F$, as expected.", ["f1: m q̈₁ + m_p q̈₁"]),
+        (r"Newton's law: $m\ddot q_1=F_{q_1}-f_v\dot q_1$.", ["f1: m q̈₁ + f_v q̇₁"]),
+        (r"$m\ddot q_1=F$ and $m_p\ddot q_2=\tau_2$.", ["f1: m q̈₁", "tau2: m_p q̈₂"]),
+        (r"We get $m\ddot q_1=\tau_1$ first. $$\tau_1 = m_p\ddot q_1$$", ["tau1: m_p q̈₁"]),
+        (r"So $f_1$ must be $m\ddot q_1$.", ["f1: m q̈₁"]),
+    ],
+)
+def test_in_a_sentence_it_counts_where_nothing_else_gives_its_force(
+    sentence: str, expected: list[str]
+) -> None:
+    found = report(sentence, stem="crane").answers
+    assert [f"{one.name}: {shown(one)}".replace("tau1", "f1") for one in found] == [
+        one.replace("tau1", "f1") for one in expected
+    ]
+
+
+def test_one_of_no_force_in_a_sentence_waits() -> None:
+    found = report(r"For the hook alone $m_p\ddot q_1 + m_p d_p\ddot q_2 = 0$ holds.", stem="crane")
+    assert found.answers == () and [one.answers for one in found.not_recognized] == [("tau2",)]
+
+
+@pytest.mark.parametrize(("name", "force"), [("Q_theta", "tau2"), ("F_x", "f1"), ("T_theta", "tau2")])
+def test_a_force_has_the_index_of_its_coordinate(name: str, force: str) -> None:
+    (answer,) = report(f"{name} = m*l^2*theta'' + m*l*x''", "a.txt", stem="cart-pole").answers
+    assert answer.name == force
+
+
+def test_a_force_that_may_be_any_names_all() -> None:
+    found = report(r"$$F = \frac{d}{dt}(m_2\dot q_1) = m_2\ddot q_1$$")
+    assert found.answers == () and [one.answers for one in found.not_recognized] == [("tau1", "tau2")]
