@@ -289,7 +289,7 @@ _HOLD_ANGLES = frozenset({"inverse", "singular", "equilibria"})
 """Answers that give angles, and so may hold arccos and its like."""
 
 
-_BRACKETED = re.compile(r"([A-Za-z]\w*)\[(\d)(?:(?:,[ ]?|\]\[)(\d))?\]")
+_BRACKETED = re.compile(r"\b([A-Za-z]\w*)\[(\d)(?:(?:,[ ]?|\]\[)(\d))?\]")
 
 
 def counted_from_zero(text: str, n: int) -> frozenset[str]:
