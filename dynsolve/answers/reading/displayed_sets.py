@@ -40,6 +40,8 @@ _FORMULAS = re.compile(
 _MOST_FORMULAS = 500
 _MOST_ROWS = 100
 """A display of more rows is read as a whole."""
+_MOST_MEMBERS = 20
+"""A longer chain defines no letter on its way."""
 
 _LAYOUT = re.compile(
     r"\\(?:label|tag)\*?\{[^{}]*\}|\\(?:begin|end)\{(?:aligned|cases|split|array)\}(?:\{[lcr]*\})?"
@@ -89,7 +91,7 @@ class DisplayedSets:
     def _without_own(self, display: Display, row: str) -> str:
         r"""A row without the letter that it defines beside a coordinate: `\cos q_2 = ... =: D`."""
         members = _plain(row).split("=")
-        if len(members) < 3 or len(joined(_plain(row))) > 1:
+        if not 3 <= len(members) <= _MOST_MEMBERS or len(joined(_plain(row))) > 1:
             return row
         unknown = [member for member in members if self._is_unknown(member)]
         own = [m for m in members if _OWN.fullmatch(m) and m not in unknown and not self._is_symbol(m)]
