@@ -29,6 +29,7 @@ content                       what a wrong answer keeps of the key, so that inve
 direction                     which way between τ and D, C, g, so that nothing explains itself
 explanation                   which of those explains an answer
 configurations                sets: singular configurations, in numbers
+example_point                 a configuration in round numbers, as an example of what is said of a set
 branches, target_branches     branches of the inverse; configurations that are to reach numbers
 set_verdict                   what is found of a set
 held_equations                equations that hold together, in numbers; angles count modulo 2π
