@@ -12,7 +12,7 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
    so that one thing has one spelling from here on.
 4. `displays` cuts the tokens into equations, and these at `=` into members.
 5. `equation_reader` takes the equations in order, and keeps what the student defines;
-   `asides` are formulas in sentences, which define and answer nothing.  `left_side` finds which
+   `asides` are formulas in sentences, by the words of `sentences`.  `left_side` finds which
    answers a member names (d11), `right_side` which value it has.
 6. For both, `name_splitting` cuts runs of letters into the names of the problem (`m_2gL_1`), and
    `grammar` descends over the tokens; what a name means is looked up in the `vocabulary` of

@@ -10,6 +10,7 @@ from dynsolve.answers.reading.matrix_parts import written_entries
 from dynsolve.answers.reading.motion_equations import MotionEquation
 from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
+from dynsolve.answers.reading.sentences import IN_CASE
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
@@ -72,7 +73,8 @@ class AnswerList:
     """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
 
     `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`; `own_scalars`
-    are definitions where what they are kept under is used, else answers of another shape.
+    are definitions where what they are kept under is used, else answers of another shape; `in_case` are the
+    numbers of the equations that count where no other answers the same.
     """
 
     vocabulary: Vocabulary
@@ -84,6 +86,7 @@ class AnswerList:
     configurations: list[ConfigurationAnswer] = field(default_factory=list)
     verdicts: list[VerdictAnswer] = field(default_factory=list)
     own_scalars: list[tuple[str, list[Answer], NotRecognized]] = field(default_factory=list)
+    in_case: set[int] = field(default_factory=set)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
@@ -278,6 +281,25 @@ class AnswerList:
 
     def _settle_asides(self) -> None:
         """The asides that answer what is given nowhere so that it can be read, and those that do not."""
+        self._settle_motions()
+        self._settle_cases()
+        named = {name for answer in (*self.answers, *self.general) for name in answer.references}
+        for why in (True, False):
+            given = self._given()
+            for refused, answers in self._asides:
+                if (refused.why == IN_CASE) is why:
+                    continue
+                can_be_read = all(answer.node is not None for answer in answers)
+                wanted = named | self.vocabulary.asked if can_be_read else named
+                if can_be_read and all(map(self._is_beyond_energy, answers)):
+                    wanted |= {*refused.answers}
+                if answers and given.isdisjoint(refused.answers) and not wanted.isdisjoint(refused.answers):
+                    self.answers += answers
+                else:
+                    (self.left_alone if given & set(refused.answers) else self.not_recognized).append(refused)
+
+    def _settle_motions(self) -> None:
+        """The equations of motion in sentences, for what nothing else gives."""
         within = self.vocabulary.quantities.within
         given = {part for answer in self.answers for part in within(answer.name)}
         for equation, tokens, origin, refused in self._motions:
@@ -288,14 +310,17 @@ class AnswerList:
             else:
                 self.motion(equation, tokens, origin)
                 given.add(self.answers[-1].name)
-        given = {answer.name for answer in self.answers if answer.node is not None}
-        named = {name for answer in (*self.answers, *self.general) for name in answer.references}
-        for refused, answers in self._asides:
-            can_be_read = all(answer.node is not None for answer in answers)
-            wanted = named | self.vocabulary.asked if can_be_read else named
-            if can_be_read and all(map(self._is_beyond_energy, answers)):
-                wanted |= {*refused.answers}
-            if answers and given.isdisjoint(refused.answers) and not wanted.isdisjoint(refused.answers):
-                self.answers += answers
-            else:
-                (self.left_alone if given & set(refused.answers) else self.not_recognized).append(refused)
+
+    def _settle_cases(self) -> None:
+        """Set aside the displays of one case, where another answers the same, or the whole of an entry."""
+        given = self._given()
+        for answer in [a for a in self.answers if a.occurrence[0] in self.in_case]:
+            if not given.isdisjoint({answer.name, self.vocabulary.quantities.entry_of(answer.name)[0]}):
+                self.answers.remove(answer)
+                case = NotRecognized(answer.text, answer.label, answer.place, IN_CASE, (answer.name,))
+                self.left_alone.append(case)
+
+    def _given(self) -> set[str]:
+        """What is answered so that it can be read, and not for one case alone."""
+        read = [answer for answer in self.answers if answer.node is not None]
+        return {answer.name for answer in read if answer.occurrence[0] not in self.in_case}

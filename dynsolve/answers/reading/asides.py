@@ -21,16 +21,15 @@ from dynsolve.answers.reading.left_side import (
 )
 from dynsolve.answers.reading.limits import MAX_MEMBERS
 from dynsolve.answers.reading.motion_equations import motion_equation
-from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.answers.reading.no_answers import is_condition, states_zero
+from dynsolve.answers.reading.right_side import RightSide, is_value, read_right_side
+from dynsolve.answers.reading.sentences import HOLDING
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.errors import ReadError
 
 _NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
 """Letters of sentences that are no abbreviation: the time, running indices, the number of joints."""
-
-IN_SENTENCE = "it stands in a sentence"
-SUPPOSED = "a sentence supposes it"
 
 
 def read_aside(reader: EquationReader, display: Display) -> None:
@@ -69,8 +68,19 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         by_content = meant(reader.vocabulary, side.key, value.value)
         side = NamedAnswers(by_content) if by_content else side
         origin = replace(origin, names=by_content or origin.names)
+    names = [side.candidates] if isinstance(side, NamedAnswers) else []
+    before = read_right_side(reader.vocabulary, members[-2]) if len(members) > 2 else None
+    if (
+        isinstance(before, RightSide)
+        and is_value(before)
+        and is_condition(reader.vocabulary, names, value, [before])
+    ):
+        members, value = members[:-1], before
     own = members[0][0].text if len(members[0]) == 1 else ""
     gives = isinstance(value, RightSide) and not isinstance(value.value, Abstract)
+    if reader.defines_shorthand(members[0], [value] if isinstance(value, RightSide) else []):
+        reader.found.left_alone.append(origin.of(members, origin.display.aside))
+        return
     if isinstance(side, NamedAnswers) and (
         isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
     ):
@@ -83,7 +93,10 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
             reader.found.left_alone.append(replace(refused, needs=value.references))
             reader.found.general += answers
         else:
-            reader.found.said_aside(refused, answers if origin.display.aside != SUPPOSED else ())
+            is_claim = origin.display.aside in HOLDING and not states_zero(
+                reader.vocabulary, members[0], names, value
+            )
+            reader.found.said_aside(refused, answers if is_claim else ())
         return
     reader.found.left_alone.append(origin.of(members, origin.display.aside))
     if isinstance(value, ReadError):

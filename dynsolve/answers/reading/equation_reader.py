@@ -14,6 +14,7 @@ from dataclasses import replace
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
 from dynsolve.answers.reading.by_content import called_force, force_meant, meant
 from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
+from dynsolve.answers.reading.grammar.names import SEVERAL
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.index_order import defined_order, order_of_pair
@@ -49,7 +50,7 @@ from dynsolve.answers.reading.vector_entries import entry_of
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Function, Node
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import names_in
 from dynsolve.quantities.model_families import QDD_FORWARD
@@ -190,6 +191,9 @@ class EquationReader:
             if is_read(sides[index], bool(names))
         ]
         read = self._defined_by_the_end(read)
+        if self.defines_shorthand(members[0], _values(read)):
+            self.found.left_alone.append(origin.of(members, _DEFINITION))
+            return
         values = [found.value for found in _values(read)]
         names = [
             called_force(self.vocabulary, name_alone(self.vocabulary, called[name]), name, values) or name
@@ -283,6 +287,17 @@ class EquationReader:
         keep_symbol(self.vocabulary, name, 0, found.value, in_passing=True)
         return True
 
+    def defines_shorthand(self, first: list[Token], values: list[RightSide]) -> bool:
+        r"""Keep `c_{21} = \cos(\theta_2 - \theta_1)` or `\theta_{12} = \theta_1 - \theta_2`, if so."""
+        name = name_alone(self.vocabulary, first)
+        node = values[-1].value if values and name not in self.vocabulary.symbols else None
+        function = {"s": "sin", "c": "cos"}.get(name[:1].lower())
+        is_function = isinstance(node, Function) and node.name == function
+        is_angle = isinstance(node, Node) and SEVERAL.fullmatch(name) is not None
+        if is_function or is_angle:
+            self.define(name, values[-1])
+        return is_function or is_angle
+
     def _defined_by_the_end(self, read: list[Member]) -> list[Member]:
         """The members but for an unknown name at the end, `... = c_1 = h`, which stands for the value."""
         values = _values(read)
@@ -331,13 +346,13 @@ class EquationReader:
         values = [member.index for member in read if is_value(member.found)]
         said = refused = condition = ""
         given = list[Answer]()
-        for member in read:
-            found = member.found
+        for number, member in enumerate(read):
+            found, before = member.found, read[:number]
             if is_inertia_force(self.vocabulary, names, member.tokens):
                 self.found.left_alone.append(origin.of(members, "it is a vector of the recursions"))
                 return
-            if is_condition(self.vocabulary, names, found):
-                condition = "it says where the determinant is 0"
+            if is_condition(self.vocabulary, names, found, _values(before)):
+                condition = "it is a condition"
             elif is_value(found):
                 given += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):

@@ -64,7 +64,7 @@ def read_left_sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[
             side = read_left_side(vocabulary, member)
         elif not last or not any(isinstance(side, NamedAnswers) for side in found):
             side = read_left_side(vocabulary, member)
-            if isinstance(side, UnknownSide) or (last and _is_symbol(vocabulary, member)):
+            if isinstance(side, UnknownSide) or (last and is_symbol(vocabulary, member)):
                 side = None
         elif member[0].kind in ("begin", "[") and not any(t.kind in ("+", "-") for t in member):
             side = read_left_side(vocabulary, member)
@@ -73,7 +73,7 @@ def read_left_sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[
     return found
 
 
-def _is_symbol(vocabulary: Vocabulary, member: list[Token]) -> bool:
+def is_symbol(vocabulary: Vocabulary, member: list[Token]) -> bool:
     """Whether a member alone is a symbol of the problem, which wins on a right-hand side."""
     text = key("".join(t.text for t in member if t.kind in ("name", "letter", "number")))
     script = any(t.kind == "command" and t.text == "script" for t in member)

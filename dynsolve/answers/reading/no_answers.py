@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dynsolve.answers.reading.grids import Grid
-from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers
+from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, is_symbol
 from dynsolve.answers.reading.motion_equations import says_what_drives
 from dynsolve.answers.reading.right_side import RightSide
 from dynsolve.answers.reading.shapes import fitted, is_gravity_vector
@@ -42,15 +42,48 @@ def states_constant(
 
 def calls_forces(vocabulary: Vocabulary, members: Sequence[list[Token]], first: LeftSide) -> bool:
     """Whether a chain only says what forces are called: τ = (u, 0), d/dt ∂L/∂ẋ - ∂L/∂x = F."""
-    forces = {"tau", *(q.force for q in vocabulary.coordinates)}
+    forces = _forces(vocabulary)
     named = [name for name in first.candidates if name in forces] if isinstance(first, NamedAnswers) else []
     return len(members) == 2 and bool(named) and says_what_drives(vocabulary, named, members[-1])
 
 
-def is_condition(vocabulary: Vocabulary, names: Names, found: RightSide | ReadError) -> bool:
-    """Whether det J = 0 says which configurations are singular, where these are asked for."""
-    is_asked = names == [("det",)] and "singular" in vocabulary.quantities
-    return is_asked and isinstance(found, RightSide) and found.value == ZERO
+def is_condition(
+    vocabulary: Vocabulary, names: Names, found: RightSide | ReadError, before: Sequence[RightSide] = ()
+) -> bool:
+    """Whether `= 0` says where the arm is singular or at rest, as at the end of det J = l_1 l_2 s_2 = 0.
+
+    `before` are the values before it in its chain.
+    """
+    if not names or not _is_zero(found):
+        return False
+    if names == [("det",)] and "singular" in vocabulary.quantities:
+        return True
+    balanced = {"det", "g", *vocabulary.quantities.parts("g"), *_forces(vocabulary)}
+    return bool(before) and all(balanced.issuperset(candidates[:1]) for candidates in names)
+
+
+def states_zero(
+    vocabulary: Vocabulary, first: list[Token], names: Names, found: RightSide | ReadError
+) -> bool:
+    r"""Whether a sentence says of a symbol or a force that it is 0: $\phi = 0$, `\tau = 0`."""
+    is_force = all(_forces(vocabulary).issuperset(candidates[:1]) for candidates in names)
+    return _is_zero(found) and (
+        is_force or is_symbol(vocabulary, first) or is_condition(vocabulary, names, found)
+    )
+
+
+def _forces(vocabulary: Vocabulary) -> set[str]:
+    return {"tau", *(q.force for q in vocabulary.coordinates)}
+
+
+def _is_zero(found: RightSide | ReadError) -> bool:
+    """Whether a value is 0, or holds nothing else."""
+    if not isinstance(found, RightSide):
+        return False
+    value = found.value
+    return (
+        {entry for row in value.rows for entry in row} == {ZERO} if isinstance(value, Grid) else value == ZERO
+    )
 
 
 def is_inertia_force(vocabulary: Vocabulary, names: Names, tokens: Sequence[Token]) -> bool:

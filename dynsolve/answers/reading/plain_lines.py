@@ -13,6 +13,8 @@ _LEAD = re.compile(
     r"[ \t]*(?:\(%[io][0-9]{1,4}\)[ \t]*|>>>?[ \t]+|[-*+•>][ \t]+)?"
     rf"(?:\({_COUNTED}\.?\)[ \t]+|\([0-9.]{{1,6}}\)|{_COUNTED}[.)][ \t]+"
     r"|[0-9]{1,2}\.[0-9]{1,2}[ \t]+(?=[A-Za-z\\]))?"
+    r"(?:(?:[Ll]et|[Ss]ei|[Ll]a|[Ww]here|[Ww]ith|[Ww]obei|[Mm]it|[Mm]ed|[Dd]er|[Hh]vor)[ \t]+"
+    r"(?=[^\s=]{1,20}[ \t]*=))?"
 )
 """What stands before an equation in its line: a prompt, the mark of a list, its number."""
 

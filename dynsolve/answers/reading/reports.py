@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice
 from operator import itemgetter
 
-from dynsolve.answers.reading.asides import IN_SENTENCE, SUPPOSED, read_aside
+from dynsolve.answers.reading.asides import read_aside
+from dynsolve.answers.reading.coordinate_formulas import coordinate_named
 from dynsolve.answers.reading.dh_tables import NAME, tables_of, without
 from dynsolve.answers.reading.displayed_sets import DisplayedSets
 from dynsolve.answers.reading.displays import Display, continued, is_label
@@ -20,6 +22,7 @@ from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.plain_lines import hidden, plain_lines
 from dynsolve.answers.reading.report_text import visible
+from dynsolve.answers.reading.sentences import IN_CASE, IN_SENTENCE, said_of, taken_from
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.spoken_verdicts import spoken_verdicts
@@ -30,6 +33,7 @@ from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.unread_text import list_unread
 from dynsolve.answers.submission import NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
+from dynsolve.quantities.model_families import LINEAR_A
 
 _ENVIRONMENT = (
     "equation|align|gather|multline|eqnarray|alignat|flalign|xalignat|displaymath|math|dmath|IEEEeqnarray"
@@ -57,14 +61,14 @@ _SAYS = re.compile(
     r"(?:[ \t\n](?:is|are|being|denotes|equals|means|stands for|(?:must|has to) be|er|ist)[ \t\n]{1,3}"
     r"|(?P<sign>:|:?=|&|\])[ \t\n}\]*]{0,5})\Z"
 )
-_EQUALS = re.compile(r"=|[≡≜≈]|\\(?:triangleq|equiv|coloneqq|doteq|approx)(?![A-Za-z])")
-_SUPPOSES = re.compile(
-    r"\b(?:if|when\w*|for|assum\w+|suppos\w+|set\w*|let|unless|wenn|falls|für|sei|setze\w*|hvis|når|anta\w*)"
-    r"[ \t\n]{1,3}\Z",
+_FOR = re.compile(
+    r"\b(?:writ\w+|us(?:e|ing)|put\w*|denot\w+|schreib\w+|verwend\w+|setz\w+|skriv\w+|bruk\w+)\b[^.;\n=]{0,80}?"
+    r"\$([^$=]{1,30})\$[ \t\n]+(?:for|für|instead of|in place of|statt|anstelle von|i stedet for)[ \t\n]+\Z",
     re.IGNORECASE,
 )
-"""The words of a sentence that only supposes what follows."""
+"""What says that a letter is another: `we write $z$ for`."""
 
+_EQUALS = re.compile(r"=|[≡≜≈]|\\(?:triangleq|equiv|coloneqq|doteq|approx)(?![A-Za-z])")
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
 _AND = "(?:and|og|und|y)"
 _BESIDE = re.compile(
@@ -102,7 +106,9 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     text = without_sets(text, headed)
     names_answer = _answer_names(reader)
     text = text if latex else with_equations(text, names_answer)
-    spans = list(islice(_displays(text, source, names_answer), 2 * MAX_EQUATIONS))
+    spans = list(
+        islice(_displays(text, source, names_answer, partial(_is_coordinate, reader)), 2 * MAX_EQUATIONS)
+    )
     displays = _labelled([(start, display) for start, _, display in spans if display is not None])
     is_plain = all(display.aside for _, display in displays)
     if is_plain or not latex:
@@ -125,7 +131,9 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
             if display.aside:
                 read_aside(reader, display)
             else:
+                first = reader.equations
                 sets.read_display(offset, display)
+                reader.found.in_case.update(range(first + 1, reader.equations + 1) if display.in_case else ())
         sets.settle()
         if not reader.begins_anew():
             break
@@ -134,6 +142,13 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         why = f"only the first {MAX_EQUATIONS} equations of a file are read"
         reader.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place, why))
     list_unread(reader, source, hidden(text, read))
+
+
+def _is_coordinate(reader: EquationReader, text: str) -> bool:
+    """Whether a text is a coordinate; of a model that is linear at a point none makes a special case."""
+    return LINEAR_A.name not in reader.vocabulary.quantities and bool(
+        coordinate_named(reader.vocabulary, text)
+    )
 
 
 def _names(reader: EquationReader) -> list[str]:
@@ -175,7 +190,7 @@ def _body(text: str) -> list[Token]:
 
 
 def _displays(
-    text: str, source: Source, names_answer: NamesAnswer
+    text: str, source: Source, names_answer: NamesAnswer, is_coordinate: NamesAnswer
 ) -> Iterator[tuple[int, int, Display | None]]:
     """The displayed equations of a text with their spans; a span without one is a formula in a sentence."""
     position = 0
@@ -207,8 +222,7 @@ def _displays(
                 yield opening.start() if said is None else end - len(said.text), position, said
                 continue
             if not _stands_alone(text, opening.start(), position):
-                supposes = _SUPPOSES.search(text, max(opening.start() - 30, 0), opening.start())
-                why = SUPPOSED if supposes else IN_SENTENCE
+                why = said_of(text, opening.start(), position, is_coordinate)
                 yield start, end, replace(_display(text, source, start, end, ""), aside=why)
                 continue
         label = _LABEL.match(text, position)
@@ -220,7 +234,10 @@ def _displays(
         if said is not None:
             yield end - len(said.text), end, said
             continue
-        yield start, end, _display(text, source, start, end, f"({label[1]})" if label else "")
+        why = "" if kind == "inline" else taken_from(text, opening.start(), position, is_coordinate)
+        display = _display(text, source, start, end, f"({label[1]})" if label else "")
+        in_case = why == IN_CASE
+        yield start, end, replace(display, aside="" if in_case else why, in_case=in_case)
 
 
 def _end_of_paragraph(text: str, start: int) -> int:
@@ -233,11 +250,12 @@ def _said_to_be(
     text: str, source: Source, opening: int, start: int, end: int, names_answer: NamesAnswer
 ) -> Display | None:
     """What a formula is said to be: `where h is $-m_2 l_1$` is h = -m_2 l_1, `P: $m g l$` is P = m g l."""
-    said = _SAYS.search(text, max(opening - 60, 0), opening)
+    said = _FOR.search(text, max(opening - 120, 0), opening)
+    said = said or _SAYS.search(text, max(opening - 60, 0), opening)
     if said is None:
         return None
     name = said[1].replace("$", " ")
-    if said["sign"] and not names_answer(name.strip()):
+    if said.re is _SAYS and said["sign"] and not names_answer(name.strip()):
         return None
     formula = text[start:end].rjust(end - said.end(1) - 1)
     display = _display(text, source, said.start(1), end, "")

@@ -156,6 +156,7 @@ class Vocabulary:
         angle = self.angle_of(found[2]) if found else None
         if found is None or angle is None:
             return None
+        self.missed.add(name)  # a report may define it below
         return Meaning(Function("sin" if found[1] in "sS" else "cos", angle))
 
     def short_angle(self, name: str) -> Function | None:

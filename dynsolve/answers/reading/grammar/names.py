@@ -25,7 +25,7 @@ from dynsolve.quantities.spelling import key
 _BEFORE_TERM = frozenset({"+", "-", "(", "[", "begin", "&", "\\\\", ",", ";"})
 _BEHIND_ENTRY = frozenset({"&", "\\\\", "close", ",", ";", "]"})
 _OWNER_BODY = re.compile(r"[0-9]+$")
-_SEVERAL = re.compile(r"(?:q|theta|phi)([0-9]{2,})")
+SEVERAL = re.compile(r"(?:q|theta|phi)([0-9]{2,})")
 _MOMENT = re.compile(r"[IJ][xyz]{1,2}")
 
 
@@ -62,6 +62,7 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning is None and (name, form.dots) in vocabulary.derived:
         meaning, form.dots = Meaning(vocabulary.derived[name, form.dots]), 0
     if meaning is None and form.angle and form.base in ("c", "s", "C", "S"):
+        vocabulary.missed.add(name)
         meaning = Meaning(short_function(reader, form))
     if meaning is None:
         meaning = _meaning(reader, form, name)
@@ -142,7 +143,8 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
     short = vocabulary.short_angle(name)
     if short is not None:
         return Meaning(short)
-    if (several := _SEVERAL.fullmatch(name)) and (angle := vocabulary.angle_of(several[1])):
+    if (several := SEVERAL.fullmatch(name)) and (angle := vocabulary.angle_of(several[1])):
+        vocabulary.missed.add(name)
         return Meaning(angle, f"{form.text} is read as a sum of coordinates")
     if "inertia" in reader.options and (meaning := vocabulary.inertia(name)):
         return meaning
