@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import Member, Origin
-from dynsolve.answers.reading.by_content import meant
+from dynsolve.answers.reading.by_content import called_force, force_meant, meant
 from dynsolve.answers.reading.displays import Display, Equation, equations
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
@@ -15,6 +15,7 @@ from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
     UnknownSide,
+    name_alone,
     read_left_side,
     read_left_sides,
     spoken_of,
@@ -65,9 +66,17 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         else ReadError(f"more than {MAX_MEMBERS} members")
     )
     if isinstance(side, UnknownSide) and isinstance(value, RightSide):
-        by_content = meant(reader.vocabulary, side.key, value.value)
-        side = NamedAnswers(by_content) if by_content else side
+        forces = force_meant(reader.vocabulary, side.key, value.value)
+        by_content = meant(reader.vocabulary, side.key, value.value) or forces
+        if len(by_content) == 1:
+            reader.define(side.key, value)
+            side = NamedAnswers(by_content)
         origin = replace(origin, names=by_content or origin.names)
+    if isinstance(side, NamedAnswers) and isinstance(value, RightSide):
+        name = name_alone(reader.vocabulary, members[0])
+        called = called_force(reader.vocabulary, name, side.candidates, [value.value])
+        side = NamedAnswers(called or side.candidates)
+        origin = replace(origin, names=side.candidates)
     names = [side.candidates] if isinstance(side, NamedAnswers) else []
     before = read_right_side(reader.vocabulary, members[-2]) if len(members) > 2 else None
     if (

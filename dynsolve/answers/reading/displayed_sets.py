@@ -11,10 +11,11 @@ is part of a branch of the inverse kinematics.  One of equations in coordinates 
 from __future__ import annotations
 
 import re
-from collections.abc import Set
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
+from dynsolve.answers.reading.asides import SUPPOSED
 from dynsolve.answers.reading.configurations import is_set, read_equations
 from dynsolve.answers.reading.coordinate_formulas import coordinate_named, function_named, names_within
 from dynsolve.answers.reading.displays import Display
@@ -32,10 +33,13 @@ _BEFORE = 600
 """So far before a display its words are looked for."""
 
 _INLINE = r"\$[^$\n]{1,200}\$"
+_SAID = r"(?:\s{0,9}\([^()$\n]{1,60}\))?"
 _FORMULAS = re.compile(
-    rf"(?<![$\\]){_INLINE}(?:(?:\s{{0,9}},|(?:\s{{0,9}},)?\s{{1,9}}(?:{OR}|{AND}|{SO}))\s{{0,9}}{_INLINE}){{0,8}}"
+    rf"(?<![$\\]){_INLINE}(?:{_SAID}(?:\s{{0,9}},|(?:\s{{0,9}},)?\s{{1,9}}(?:{OR}|{AND}|{SO}))\s{{0,9}}{_INLINE}){{0,8}}"
 )
-"""Formulas in a sentence, one behind the other."""
+"""Formulas in a sentence, one behind the other, with what is said of one in parentheses."""
+
+_REMARK = re.compile(r"\$\s{0,9}\([^()$\n]{1,60}\)")
 
 _MOST_FORMULAS = 500
 _MOST_ROWS = 100
@@ -52,6 +56,7 @@ _SIGN = re.compile(r":\s*=|=\s*:|\\coloneqq\b|\\eqqcolon\b")
 _OWN = re.compile(r"\s*\\?[A-Za-z]{1,7}(?:_\{?\w{1,3}\}?)?\s*")
 _ALIGN = re.compile(r"&\s*(?=:?\s*=)|(?<==)\s*&")
 _ARROW = re.compile(rf"{FOLLOWS.pattern}|\\to\b|→")
+_EITHER_SIGN = re.compile(rf"=\s*\+?\s*([^\s=;+-][^=;]{{0,200}}?)\s*,?\s+(?:{OR})\s+-\s*\1(?![\w(^])")
 _IS_STATEMENT = re.compile(r"=|\\in\b|∈")
 _ZERO = re.compile(r"=\s*0(?:\s|\\[,;:! ]|\\q?quad|[.,;])*\Z")
 _DETERMINANT = re.compile(
@@ -121,8 +126,51 @@ class DisplayedSets:
         for name in ("singular", "equilibria"):
             if name in self.reader.vocabulary.quantities and name not in {*self.told, *self.found}:
                 self._read_sentence(name)
+        if "inverse" in self.reader.vocabulary.quantities and "inverse" not in self.told:
+            self._read_branches()
         for name, (place, texts) in self.found.items():
             read_equations(self.reader, name, texts, place)
+            sets = self.reader.found.configurations
+            if (unread := self._unread(name, place, texts)) and not sets[-1].fault:
+                sets[-1] = replace(
+                    sets[-1], alternatives=(), fault=f"a part of it could not be read: {unread}"
+                )
+
+    def _unread(self, name: str, place: Place, texts: Sequence[str]) -> str:
+        """An equation that belongs to a set and was not read with it: the set is not judged by a part."""
+        given = self._coordinates(texts) if name == "inverse" else set()
+        for one in (*self.reader.found.not_recognized, *self.reader.found.left_alone):
+            text = _plain(one.text)
+            if name not in one.answers or any(text in other for other in texts):
+                continue
+            if name == "inverse":
+                is_part = bool(given) and not self._coordinates([text]) <= given
+            else:
+                is_part = one.place.line == place.line and one.why != SUPPOSED
+            if is_part and self._may_belong(name, text):
+                return one.text
+        return ""
+
+    def _may_belong(self, name: str, text: str) -> bool:
+        """Whether an equation is one of a branch, or of coordinates alone."""
+        vocabulary = self.reader.vocabulary
+        return bool(self._coordinates([text])) if name == "inverse" else is_set(vocabulary, text)
+
+    def _read_branches(self) -> None:
+        r"""`Then $q_1 = \arctan\frac{y}{x}$.`: of the coordinates those that no display gives."""
+        given = self._coordinates(self.found["inverse"][1] if "inverse" in self.found else ())
+        for found in islice(_FORMULAS.finditer(self.text), _MOST_FORMULAS):
+            formulas = _in_words(found[0])
+            named = self._coordinates([formulas])
+            if not named or not given.isdisjoint(named) or not self._are_branches(formulas, bool(given)):
+                continue
+            where = self.source.place(found.start(), len(found[0]))
+            self.found.setdefault("inverse", (where, []))[1].append(formulas)
+
+    def _coordinates(self, texts: Iterable[str]) -> set[str]:
+        """The coordinates for which a text has an equation."""
+        lefts = (equation.partition("=")[0] for text in texts for equation in joined(text))
+        return {coordinate_named(self.reader.vocabulary, left) for left in lefts} - {""}
 
     def _read_sentence(self, name: str) -> None:
         r"""`The arm is singular for $q_2 = 0$ and $q_2 = \pi$.`"""
@@ -131,7 +179,7 @@ class DisplayedSets:
             words = text[max(found.start() - _BEFORE, 0) : found.start()].rpartition(".")[2]
             if not ANNOUNCED[name].search(words) or DENIED.search(words):
                 continue
-            formulas = _plain(found[0].replace("$", " "))
+            formulas = _in_words(found[0])
             if is_set(self.reader.vocabulary, formulas):
                 self.found[name] = (self.source.place(found.start(), len(found[0])), [formulas])
                 return
@@ -179,6 +227,11 @@ class DisplayedSets:
         return max(told, key=lambda name: told[name]) if told else ""
 
 
+def _in_words(formulas: str) -> str:
+    """Formulas of a sentence with the words between them, without what is said in parentheses."""
+    return _plain(_REMARK.sub("$", formulas).replace("$", " "))
+
+
 def _rows(text: str) -> list[str]:
     """The rows of a display that is no matrix; one that begins with a sign goes on with the row before."""
     bare = _LAYOUT.sub(" ", text)
@@ -192,7 +245,8 @@ def _rows(text: str) -> list[str]:
 
 
 def _plain(row: str) -> str:
-    """A row without what only sets it."""
+    """A row without what only sets it; `+a or -a` is ±a."""
+    row = _EITHER_SIGN.sub(r"= ±\1", row)
     return _SIGN.sub("=", _ALIGN.sub("", _LAYOUT.sub(" ", row))).strip().rstrip(".,;").strip()
 
 

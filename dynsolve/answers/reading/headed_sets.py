@@ -48,6 +48,11 @@ _WORDS = re.compile(rf";|∨|∧|\s(?:{AND}|{OR}|{SO})\s")
 _TUPLE = re.compile(r"\(([^()=]{1,80}(?:\([^()]{1,40}\)[^()=]{0,40})?)\)")
 _BETWEEN = re.compile(rf"(?:\s|,|;|\b(?:{AND}|{OR})\b|=|∈|\\in\b|\\?[{{}}])*")
 _TRAILING = re.compile(r"(?:[\s.,;]|\\\]|\\\)|\\\\|\$\$)+\Z")
+_REST = re.compile(
+    rf"(?<=\$)[ \t]*(?:\.[ \t]+|[,;][ \t]+(?!(?:.*[ \t])?(?:{AND}|{OR})[ \t]))[^\W\d_][^$=∈\\<>]*\Z"
+)
+"""What a sentence goes on with behind the last formula of a set."""
+
 _RELATION = re.compile(r"=|∈|\\in\b|\bnone\b|\bno\b")
 _MATHEMATICS = re.compile(r"\$|\\[()\[\]]")
 _NOT_LINE_END = re.compile(r"[^\n]")
@@ -110,6 +115,7 @@ def _value(values: list[str], coordinates: Sequence[str], is_joined: bool) -> st
     """
     plain = []
     for value in values:
+        value = _REST.sub("", ANY.sub("", value))
         value = _MATHEMATICS.sub(" ", _DECORATION.sub("", ANY.sub("", _REMARK.sub("", value))))
         plain.append(_points(_LEADING.sub("", _TRAILING.sub("", value)).strip(), coordinates))
     if is_joined and len(plain) == 1:

@@ -50,8 +50,9 @@ HEADS = {
 
 ANNOUNCED = {
     "singular": _compiled((
-        r"singular|rank|invertib|determinant|\\det\b|\bdet\b", r"singulär|\brang\b|invertierbar",
-        r"singulær|inverterbar",
+        r"singular|rank|invertib|determinant|\\det\b|\bdet\b|vanish",
+        r"singulär|\brang\b|invertierbar|verschwind",
+        r"singulær|inverterbar|forsvinn",
     )),
     "inverse": _compiled((
         r"invers|reach|solution|branch|elbow", r"rückwärtskinemati|erreich|lösung|ellbogen|ellenbogen",

@@ -106,3 +106,9 @@ def test_a_force_has_the_index_of_its_coordinate(name: str, force: str) -> None:
 def test_a_force_that_may_be_any_names_all() -> None:
     found = report(r"$$F = \frac{d}{dt}(m_2\dot q_1) = m_2\ddot q_1$$")
     assert found.answers == () and [one.answers for one in found.not_recognized] == [("tau1", "tau2")]
+
+
+@pytest.mark.parametrize("name", ["M_2", "T_2", r"\Gamma_2", r"Q_{q_2}"])
+def test_a_torque_by_any_letter_counts_in_a_sentence(name: str) -> None:
+    (answer,) = report(rf"The torque of joint two is ${name}=m_2\ddot q_1$, as it must be.").answers
+    assert answer.name == "tau2"
