@@ -146,7 +146,9 @@ class DisplayedSets:
             if name == "inverse":
                 is_part = bool(given) and not self._coordinates([text]) <= given
             else:
-                is_part = one.place.line == place.line and one.why != SUPPOSED
+                words = one.place.excerpt[: one.place.column - 1].rpartition(".")[2]
+                is_denied = one.why == SUPPOSED or DENIED.search(words)
+                is_part = one.place.line == place.line and not is_denied
             if is_part and self._may_belong(name, text):
                 return one.text
         return ""
@@ -162,8 +164,13 @@ class DisplayedSets:
         for found in islice(_FORMULAS.finditer(self.text), _MOST_FORMULAS):
             formulas = _in_words(found[0])
             named = self._coordinates([formulas])
-            if not named or not given.isdisjoint(named) or not self._are_branches(formulas, bool(given)):
+            if (
+                not named
+                or not given.isdisjoint(named)
+                or not self._are_branches(formulas, is_announced=False)
+            ):
                 continue
+            given |= named
             where = self.source.place(found.start(), len(found[0]))
             self.found.setdefault("inverse", (where, []))[1].append(formulas)
 

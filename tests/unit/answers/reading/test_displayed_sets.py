@@ -114,6 +114,13 @@ SENTENCES = [
     (TWO_LINKS, rf"$q_2=\pm\arccos {C2}$ and ${Q1}$.", "inverse", "correct"),
     (TWO_LINKS, rf"So $q_2=\pm\arccos {C2}$. The first angle is then $${Q1}$$", "inverse", "correct"),
     (TWO_LINKS, rf"So $q_2=\pm\arccos X_9$. The first angle is then $${Q1}$$", "inverse", "unreadable"),
+    (
+        TWO_LINKS,
+        rf"So $q_2=\pm\arccos {C2}$. Then $${Q1}$$ Singular are $q_2=0$ and $q_2=\pi$.",
+        "inverse",
+        "correct",
+    ),
+    (TWO_LINKS, r"Not singular: $q_2=\pi/2$. Singular: $q_2=0$, $q_2=\pi$.", "singular", "correct"),
     (TWO_LINKS, rf"The first angle is $${Q1}$$", "inverse", "wrong"),
 ]
 
