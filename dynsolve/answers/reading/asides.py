@@ -57,7 +57,11 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
     if motion is not None:
         tokens = [token for member in members for token in member]
         origin = replace(origin, names=motion.forces)
-        reader.found.motion_aside(motion, tokens, origin, origin.of(members, origin.display.aside))
+        refused = origin.of(members, origin.display.aside)
+        if origin.display.aside in HOLDING:
+            reader.found.motion_aside(motion, tokens, origin, refused)
+        else:
+            reader.found.said_aside(refused)
         return
     origin = replace(origin, names=spoken_of(reader.vocabulary, members[0], side))
     value = (

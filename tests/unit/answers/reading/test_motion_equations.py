@@ -80,6 +80,7 @@ def test_a_model_of_several_vectors_is_one_of_all_forces() -> None:
         (r"Newton's law: $m\ddot q_1=F_{q_1}-f_v\dot q_1$.", ["f1: m q̈₁ + f_v q̇₁"]),
         (r"$m\ddot q_1=F$ and $m_p\ddot q_2=\tau_2$.", ["f1: m q̈₁", "tau2: m_p q̈₂"]),
         (r"We get $m\ddot q_1=\tau_1$ first. $$\tau_1 = m_p\ddot q_1$$", ["tau1: m_p q̈₁"]),
+        (r"If $m\ddot q_1=F$ held, it would be easy.", []),
         (r"So $f_1$ must be $m\ddot q_1$.", ["f1: m q̈₁"]),
     ],
 )
