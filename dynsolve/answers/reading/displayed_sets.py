@@ -21,7 +21,7 @@ from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.headed_sets import ANY
 from dynsolve.answers.reading.placed_text import placed
-from dynsolve.answers.reading.sentences import HOLDING
+from dynsolve.answers.reading.sentences import QUOTED, REJECTED, SUPPOSED
 from dynsolve.answers.reading.set_text import FOLLOWS, joined
 from dynsolve.answers.reading.set_words import AND, ANNOUNCED, DENIED, OR, SO
 from dynsolve.answers.reading.sources import Source
@@ -147,7 +147,7 @@ class DisplayedSets:
                 is_part = bool(given) and not self._coordinates([text]) <= given
             else:
                 words = one.place.excerpt[: one.place.column - 1].rpartition(".")[2]
-                is_denied = one.why not in HOLDING or DENIED.search(words)
+                is_denied = one.why in (SUPPOSED, REJECTED, QUOTED) or DENIED.search(words)
                 is_part = one.place.line == place.line and not is_denied
             if is_part and self._may_belong(name, text):
                 return one.text
