@@ -269,6 +269,7 @@ class AnswerList:
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
         self._settle_asides()
+        self._settle_first_frame()
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)
         self.not_recognized += lost
 
@@ -278,6 +279,13 @@ class AnswerList:
         holds_mass = answer.node is not None and not self.vocabulary.masses.isdisjoint(names_in(answer.node))
         is_behind = stage in (Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED)
         return is_behind and (holds_mass or answer.name == "friction")
+
+    def _settle_first_frame(self) -> None:
+        """A_1 where only H_1 is given, which is that too, or the other way round."""
+        given = {answer.name for answer in self.answers}
+        for name, other in (("A1", "H1"), ("H1", "A1")):
+            if self.vocabulary.base_is_world and name in self.vocabulary.asked and name not in given:
+                self.answers += [replace(one, name=name) for one in self.answers if one.name == other]
 
     def _settle_asides(self) -> None:
         """The asides that answer what is given nowhere so that it can be read, and those that do not."""

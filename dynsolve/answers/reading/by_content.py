@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.notation.names import split
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Symbol
 from dynsolve.notation.walk import walk
 from dynsolve.quantities.stages import Stage
 
@@ -63,12 +63,15 @@ def force_meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, .
 
     Without an index it is one of those that are driven.
     """
-    if not isinstance(value, Node) or not name or name in vocabulary.symbols:
+    if isinstance(value, Abstract) or not name or name in vocabulary.symbols:
         return ()
-    symbols = [part for part in walk(value) if isinstance(part, Symbol)]
+    tree = value.node if isinstance(value, Grid) else value
+    symbols = [part for part in walk(tree) if isinstance(part, Symbol)]
     has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
     if not has_mass or all(symbol.dots < 2 for symbol in symbols):
         return ()
+    if isinstance(value, Grid):
+        return ("tau",) if value.shape == vocabulary.shape("tau") and len(name) == 1 else ()
     forces = [q.force for q in vocabulary.coordinates]
     index = "".join(split(name)[1]) or name[1:]
     counted = "".join(character for character in index if character.isdigit())
@@ -81,8 +84,12 @@ def force_meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, .
 def called_force(
     vocabulary: Vocabulary, name: str, candidates: tuple[str, ...], values: Sequence[Value]
 ) -> tuple[str, ...]:
-    """The generalized force that T_1 is, which may be an energy; none where the name is the energy's own."""
-    scalars = [vocabulary.quantities[c].family for c in candidates if vocabulary.shape(c) is None]
-    if name in candidates or not values or any(family.stage is not Stage.ENERGY for family in scalars):
+    """The force that T_1 or G_1 is, else an energy or an entry of g; none where that has the very name."""
+    scalars = [vocabulary.quantities[c] for c in candidates if vocabulary.shape(c) is None]
+    may_differ = all(
+        one.family.stage is Stage.ENERGY or vocabulary.quantities.entry_of(one.name)[0] == "g"
+        for one in scalars
+    )
+    if name in candidates or not values or not may_differ:
         return ()
     return force_meant(vocabulary, name, values[-1])

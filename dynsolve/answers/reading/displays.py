@@ -235,9 +235,7 @@ _PENDING = frozenset({"+", "-", "*", "/", "=", "cdot", "times", "command"})
 def _pieces(row: list[Token]) -> list[list[Token]]:
     r"""The equations that stand beside one another in a row: `P_1 = 0, \quad P_2 = 0`."""
     merged: list[list[Token]] = []
-    for boundary, piece in _cut(row):
-        if merged and _is_equation(piece[1:-1]) and (piece[0].kind, piece[-1].kind) == ("(", ")"):
-            piece = piece[1:-1]  # (ω = q̇) beside an equation
+    for boundary, piece in _cut(_without_parentheses(row)):
         if _is_words(piece) or (merged and _is_remark(piece)):
             continue
         if not merged:
@@ -254,6 +252,25 @@ def _pieces(row: list[Token]) -> list[list[Token]]:
 
 
 _CONCLUSIONS = SEPARATORS - {"quad", "qquad"}
+
+
+def _without_parentheses(row: list[Token]) -> list[Token]:
+    """The row with `;` for parentheses around equations beside its own: `K = ... (ω = q̇, v = ṙ)`."""
+    found = list(row)
+    level, opening, has_sides = 0, 0, False
+    for position, token in enumerate(row):
+        level += OPENS.get(token.kind, 0)
+        has_sides = has_sides or (token.kind == "=" and level <= 0)
+        if token.kind == "(" and level == 1 and has_sides:
+            before = row[position - 1]
+            is_apart = before.text in SEPARATORS or (token.spaced and before.kind not in _PENDING)
+            opening = position if is_apart else 0
+        elif token.kind == ")" and level == 0 and opening:
+            ends = position + 1 == len(row) or row[position + 1].kind in _ENDINGS
+            if ends and _is_equation(row[opening + 1 : position]):
+                found[opening], found[position] = (t._replace(kind=";") for t in (row[opening], token))
+            opening = 0
+    return found
 
 
 def _cut(row: list[Token]) -> list[tuple[Token | None, list[Token]]]:
@@ -284,7 +301,8 @@ def _is_remark(piece: list[Token]) -> bool:
 
 
 _MEMBERSHIPS = frozenset("in ni notin subset forall exists to mapsto".split())
-_RELATIONS = _MEMBERSHIPS | frozenset("neq ne geq ge leq le gt lt < >".split())
+_UNEQUAL = frozenset({"neq", "ne"})
+_RELATIONS = _MEMBERSHIPS | _UNEQUAL | frozenset("geq ge leq le gt lt < >".split())
 
 
 def _is_relation(token: Token) -> bool:
@@ -301,7 +319,8 @@ def _is_equation(piece: list[Token]) -> bool:
 
 
 def _trimmed(piece: list[Token]) -> list[Token]:
-    while piece and piece[-1].kind in _ENDINGS:
+    is_odd = sum(token.kind == "|" for token in piece) % 2  # \\left. ... \\right|
+    while piece and piece[-1].kind in (_ENDINGS | {"|"} if is_odd else _ENDINGS):
         piece = piece[:-1]
     while piece and piece[0].kind in _ENDINGS:
         piece = piece[1:]
@@ -328,7 +347,8 @@ def _without_remark(member: list[Token]) -> list[Token]:
         level += OPENS.get(token.kind, 0)
         if level == 0 and position and _is_relation(token):
             said = [t.text for t in member[position + 1 :]]
-            return member[:position] if token.text in _MEMBERSHIPS or said[:1] == ["0"] else member
+            ends = token.text in _MEMBERSHIPS or token.text in _UNEQUAL or said[:1] == ["0"]
+            return member[:position] if ends else member
     return member
 
 

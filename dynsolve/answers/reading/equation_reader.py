@@ -28,6 +28,7 @@ from dynsolve.answers.reading.left_side import (
     read_left_side,
     read_left_sides,
     spoken_of,
+    without_factor,
 )
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.linear_models import linear_parts
@@ -159,7 +160,7 @@ class EquationReader:
 
     def _read_equation(self, equation: Equation, origin: Origin) -> None:
         """Read one chain a = b = c."""
-        members = equation.members
+        members = without_factor(self.vocabulary, equation.members)
         if len(members) > MAX_MEMBERS:
             self.found.not_recognized.append(origin.of(members, f"more than {MAX_MEMBERS} members"))
             return

@@ -112,6 +112,27 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
     return UnknownSide(own, (), True, "") if own and own in vocabulary.defined else None
 
 
+def without_factor(vocabulary: Vocabulary, members: list[list[Token]]) -> list[list[Token]]:
+    r"""The members of `2K = ...` divided by the number; those of `\sum M_2 = ...` without the sign."""
+    first = members[0]
+    if first[0].text == "sum" and first[1:2] and first[1].kind not in ("_", "^"):
+        return [first[1:], *members[1:]]
+    start = 2 if first[1:2] and first[1].kind in ("*", "cdot") else 1
+    if first[0].kind != "number" or not isinstance(read_left_side(vocabulary, first[start:]), NamedAnswers):
+        return members
+    return [first[start:], *(_divided(member, first[0]) for member in members[1:])]
+
+
+def _divided(member: list[Token], number: Token) -> list[Token]:
+    at = member[0].start
+    one, over, below, opening = (
+        number._replace(kind=kind, text=text, start=at, end=at)
+        for kind, text in (("number", "1"), ("/", "/"), ("number", number.text), ("(", "("))
+    )
+    end = member[-1].end
+    return [one, over, below, opening, *member, opening._replace(kind=")", text=")", start=end, end=end)]
+
+
 def spoken_of(vocabulary: Vocabulary, member: list[Token], side: LeftSide) -> tuple[str, ...]:
     """The answers that a side speaks of, though it may be more than their name: `(1) g2`, `D[0,0]`.
 

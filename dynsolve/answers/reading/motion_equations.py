@@ -56,12 +56,8 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
     named = [(side, term) for side, terms in enumerate(sides) for term in terms if term.forces]
     if len(named) > 1:
         return None
-    if not named and isinstance(read_left_side(vocabulary, members[1]), UnknownSide):
-        left = read_right_side(vocabulary, members[0])
-        name = name_alone(vocabulary, members[1])
-        forces = force_meant(vocabulary, name, left.value) if isinstance(left, RightSide) else ()
-        if isinstance(left, RightSide) and forces:
-            return MotionEquation(forces, left, is_zero=False)
+    if not named and (called := _called(vocabulary, members)):
+        return called
     rests = [_rest(vocabulary, terms) for terms in sides]
     values = [rest.value for rest in rests if rest is not None and isinstance(rest.value, Node)]
     if len(values) < 2:
@@ -77,6 +73,22 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
     free = tuple(name for rest in read for name in rest.free)
     found = RightSide(value, (), notes, free, is_definition=False)
     return MotionEquation(forces, found, is_zero=not named)
+
+
+def _called(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> MotionEquation | None:
+    """The force that a name alone is said to be: one of the student's own behind it, or S_2, else a sine."""
+    for place, others in ((1, NamedAnswers), (0, NamedAnswers | UnknownSide)):
+        name = name_alone(vocabulary, members[place])
+        if name and name not in vocabulary.others:
+            value = read_right_side(vocabulary, members[1 - place])
+            forces = force_meant(vocabulary, name, value.value) if isinstance(value, RightSide) else ()
+            if (
+                isinstance(value, RightSide)
+                and forces
+                and not isinstance(read_left_side(vocabulary, members[place]), others)
+            ):
+                return MotionEquation(forces, value, is_zero=False)
+    return None
 
 
 def acceleration_of(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> int:

@@ -32,6 +32,18 @@ _WORDS = re.compile(
 )
 """The words of a sentence before an equation: `The potential energy P = ...`."""
 
+_SPOKEN = re.compile(
+    r"(?:(?:the|total|die|gesamte|den|totale?)[ \t]+)*(?:"
+    r"(?P<K>kinetic energy|kinetische energie|kinetiske? energi(?:en)?)"
+    r"|(?P<P>potential energy|poten[tz]ielle energie|potensielle? energi(?:en)?)"
+    r"|(?P<L>lagrangian|lagrange[- ]?fun(?:ktion|ksjon(?:en)?))"
+    r"|(?P<D>(?:inertia|mass) matrix|(?:massen|tr[äa]gheits)matrix|(?:masse|treghets)matrisen?)"
+    r"|(?P<g>gravity vector|gravita(?:tions|sjons)vektor(?:en)?)"
+    r")[ \t]*(?P<sign>:?=|:(?=[^=\n]*[*^])(?![^\n]*=))",
+    re.IGNORECASE,
+)
+"""The name of an answer in words, before a formula: `Kinetic energy = ...`, `Potensiell energi: ...`."""
+
 _SIGN_BELOW = re.compile(r"\n[ \t]*=(?!=)")
 """The next line begins with the sign of the equation: `K1` stands alone on this one."""
 
@@ -39,6 +51,9 @@ _AND = re.compile(
     r"[ \t](?:and|og|und|et|y|with|where|mit|wobei|med|hvor|der)[ \t](?=[ \t]{0,9}[^\s:=]{1,40}[ \t]*=)"
 )
 _REMARK = re.compile(r"(?:(?<=\s)|(?<=[;)\]]))(?:#|//|%(?!pi\b))[^\n]*")
+_SAID_BEHIND = re.compile(r"[ \t]+(?:for|für)[ \t]+(?:all|alle|any|every)[ \t][^\n]*\Z")
+"""Where a value holds, said behind it."""
+
 _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
 _NOT_LINE_END = re.compile(r"[^\n]")
 FORMULA = "\0"
@@ -102,6 +117,8 @@ def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool
         return -1
     lead = _LEAD.match(text, start, stop)
     first = lead.end() if lead else start
+    if (spoken := _SPOKEN.match(text, first, stop)) is not None and names_answer(_letter(spoken)):
+        return first
     if (named := _NAMED.match(text, first, stop)) is not None and names_answer(named[1]):
         return first
     if not _EQUATION.match(text, first, stop):
@@ -113,6 +130,11 @@ def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool
     if words is not None and names_answer(heads[1]) and not names_answer(heads[0]):  # `det J = ...`
         return words.end()
     return first
+
+
+def _letter(spoken: re.Match[str]) -> str:
+    """The name of the answer that words call."""
+    return next(name for name in "KPLDg" if spoken[name])
 
 
 def _with_powers(text: str, first: int, stop: int) -> str:
@@ -136,8 +158,10 @@ def _formula(piece: str, names_answer: Callable[[str], bool]) -> str:
     """The equation without remarks and the dots of lines that go on; `K1: ...` as `K1= ...`."""
     piece = _REMARK.sub(lambda found: " " * len(found[0]), piece)
     piece = _DOTS.sub(lambda found: " " * len(found[0]), piece)
-    piece = _TERMINATOR.sub("", piece)
+    piece = _SAID_BEHIND.sub("", _TERMINATOR.sub("", piece))
     piece = _AND.sub(lambda found: ";" + " " * (len(found[0]) - 1), piece)
+    if (spoken := _SPOKEN.match(piece)) is not None:
+        piece = f"{_letter(spoken):<{spoken.end() - 1}}={piece[spoken.end() :]}"
     named = _NAMED.match(piece)
     if named is not None and names_answer(named[1]):
         at = piece.index(":", named.end(1))

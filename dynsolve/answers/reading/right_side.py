@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.grammar.brackets import MIRRORED, SYMMETRIC_NOTE
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.names import unknown
@@ -35,8 +36,10 @@ vector C q̇; τ as the force of the only motor.
 """
 
 
-_UNITS = frozenset("J N Nm kg rad m s".split())
-_PENDING = frozenset({"+", "-", "*", "/", "cdot", "times"})
+_UNITS = frozenset("in J N Nm kg kgm rad m s W".split())
+_OF_UNITS = frozenset("{ } ( ) [ ] ^ * / - cdot number raised".split())
+_LONGEST_UNIT = 30
+_PENDING = frozenset("+ - * / ^ _ cdot times command".split())
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +68,7 @@ def read_right_side(
     """
     if not member:
         return ReadError("there is nothing here", 0, 1, EXPECTED)
-    tokens = _without_unit(split_names(member, vocabulary), vocabulary)
+    tokens = split_names(_without_unit(member, vocabulary), vocabulary)
     first: RightSide | ReadError | None = None
     fits: RightSide | None = None
     for options in _WAYS:
@@ -89,13 +92,24 @@ def read_right_side(
 
 
 def _without_unit(tokens: list[Token], vocabulary: Vocabulary) -> list[Token]:
-    """The tokens without the unit of plain text behind them: `... * cos(q1) Nm`."""
-    last = len(tokens)
-    while last > 1 and tokens[last - 1].text in _UNITS and tokens[last - 1].spaced:
-        if vocabulary.symbol(tokens[last - 1].text) is not None:
-            break
-        last -= 1
-    return tokens[:last] if last == len(tokens) or tokens[last - 1].kind not in _PENDING else tokens
+    """The tokens without the unit behind them: `... * cos(q1) Nm`, `... [N m]`, `... (kg m^2/s^2)`."""
+    start = len(tokens)
+    while start > max(1, len(tokens) - _LONGEST_UNIT) and _is_of_unit(tokens[start - 1]):
+        start -= 1
+    for position in range(start, len(tokens)):
+        first, before = tokens[position], tokens[position - 1].kind
+        names = [token.text for token in tokens[position:] if token.text in _UNITS]
+        unknown = [name for name in names if vocabulary.symbol(name) is None]
+        is_group = first.kind == "[" or (first.kind == "{" and before != "}" and len(names) > 1)
+        begins = is_group or (first.spaced and (first.kind == "(" or first.text in unknown))
+        level = sum(OPENS.get(token.kind, 0) for token in tokens[position:])
+        if begins and unknown and not level and before not in _PENDING:
+            return tokens[:position]
+    return tokens
+
+
+def _is_of_unit(token: Token) -> bool:
+    return token.text in _UNITS or token.kind in _OF_UNITS or token.text == "frac"
 
 
 def _read(

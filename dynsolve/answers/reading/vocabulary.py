@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.index_order import USUAL, in_usual_order
 from dynsolve.notation.names import split
@@ -68,7 +69,8 @@ class Vocabulary:
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
     `candidates` are the matrices that are to be judged; `asked` is what has to be answered, with its parts;
-    `defined` is what the student defined; `from_zero` are the names whose indices count from 0.
+    `defined` is what the student defined; `from_zero` are the names whose indices count from 0;
+    `base_is_world` says that H_1 is A_1.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -86,6 +88,7 @@ class Vocabulary:
     broken: dict[str, str] = field(default_factory=dict)
     angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
+    base_is_world: bool = True
     missed: set[str] = field(default_factory=set)
     used: set[str] = field(default_factory=set)
     own_entries: set[str] = field(default_factory=set)
@@ -98,7 +101,8 @@ class Vocabulary:
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
-            self.asked, subscripts=self.subscripts, from_zero=self.from_zero,
+            self.asked, subscripts=self.subscripts, base_is_world=self.base_is_world,
+            from_zero=self.from_zero,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -342,6 +346,8 @@ def vocabulary(problem: Problem) -> Vocabulary:
         tuple(candidate.name for candidate in robot.questions.candidates),
         frozenset(part for name in problem.marks or problem.find for part in quantities(robot).within(name)),
         subscripts=spoken,
+        base_is_world=robot.base_position.is_zero
+        and (robot.base_rotation - Matrix.identity(robot.ring, 3)).is_zero,
     )
 
 

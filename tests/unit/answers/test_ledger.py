@@ -33,7 +33,6 @@ def judged(text: str, ending: str = "md") -> dict[str, Any]:
         ("Let the matrix be $D = X_7$, as before.", 1, "X_7"),
         ("$$D[7,7] = m_2$$", 1, "matrix"),
         ("$$(7)\\quad d_{12} = \\frac{d}{dt}(x_9)$$", 1, "x_9"),
-        (r"$$2D = \begin{bmatrix} 2 m_2 & 0 \\ 0 & 2 m_2 \end{bmatrix}$$", 1, "more than a name"),
     ],
 )
 def test_an_equation_of_what_nothing_else_answers_waits(text: str, line: int, reason: str) -> None:

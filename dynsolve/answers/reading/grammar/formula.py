@@ -311,7 +311,12 @@ class FormulaReader(Reader):
     def norm(self) -> Value:
         """The absolute value of a scalar, or the length of a vector, of which the square alone is read."""
         opening = self.take()
-        value = self.inner(self.until("|", opening))
+        tokens = self.until("|", opening)
+        is_matrix = any(token.kind in ("begin", ",", ";") for token in tokens)
+        if is_matrix and self.vocabulary.shape(self.owner) not in (None, (1, 1)):
+            ends = (opening._replace(kind=kind) for kind in "[]")
+            return self.scripted(self.inner([next(ends), *tokens, next(ends)]))
+        value = self.inner(tokens)
         scripts = Scripts()
         if self.script(scripts) and scripts.powers == [Fraction(2)]:
             return self.with_scripts(value, scripts, opening.start)
@@ -346,6 +351,8 @@ class FormulaReader(Reader):
             self.take()
             above, below = self.group(), self.group()
             return self.scripted(brackets.finished(self, [[self.inner(above)], [self.inner(below)]], token))
+        if name == "nabla":
+            return self.gradient()
         length = token.end - token.start
         if name in ("cdots", "ldots", "dots", "vdots", "ddots"):
             message = "dots stand for something that was left out"
@@ -362,6 +369,19 @@ class FormulaReader(Reader):
         if found is None:
             found = self.placed(start, divided, self.inner(above), self.inner(below))
         self.nesting -= 1
+        return found
+
+    def gradient(self) -> Value:
+        r"""`\nabla P`, which is g."""
+        start = self.take().start
+        if self.token.kind == "_":
+            self.take(), self.group()
+        form = self.form() if self.begins_with_name() else None
+        is_potential = form is not None and "P" in self.vocabulary.named(form.key)
+        found = references.quantity(self, Form("g", start, self.token.start), "g") if is_potential else None
+        if found is None:
+            help = "the gradient of the potential energy is read"
+            raise ReadError("this is the gradient of nothing known", start, 1, help)
         return found
 
     def unit_vector(self) -> Value | None:

@@ -27,7 +27,9 @@ _NEED_AN_INDEX = frozenset("Jv Jw Kv Kw Jomega Komega I omega v A H R".split())
 
 def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
     r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, without a transpose."""
-    if reader.naming or form.scripts.transposed or not (form.dots or form.scripts.mark or name in _ANGLES):
+    is_one = len(reader.vocabulary.coordinates) == 1 and reader.vocabulary.is_vector(name)
+    is_marked = form.dots or form.scripts.mark or name in _ANGLES or is_one
+    if reader.naming or form.scripts.transposed or not is_marked:
         return None
     is_matrix = reader.vocabulary.shape(reader.owner) not in (None, (1, 1))
     if is_matrix or any(t.text in ("T", "top") for t in reader.tokens):
@@ -116,6 +118,10 @@ def _spelled_rates(reader: Reader, form: Form, name: str) -> Value | None:
     order = _SPELLED_RATES.get(name)
     if order is None or form.dots:
         return None
+    only = reader.vocabulary.only_coordinate("q")
+    if len(reader.vocabulary.coordinates) == 1 and only and not reader.references:
+        reader.symbols.setdefault(only.name)
+        return reader.with_scripts(Symbol(only.name, order), form.scripts, form.start)
     reader.names_used += 1
     return reader.with_scripts(reader.vocabulary.velocities(order), form.scripts, form.start)
 

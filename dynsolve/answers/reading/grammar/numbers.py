@@ -16,6 +16,8 @@ _BEFORE_DEGREES = frozenset({"°", "name", "^"})
 def read(reader: Reader) -> Value:
     """A number, with its degrees."""
     token = reader.take()
+    if token.text == "0" and reader.token.kind == "_":  # 0_{2×2}
+        reader.take(), reader.group()
     if len(token.text) == 1 and reader.token.kind not in _BEFORE_DEGREES:  # as most numbers are
         return reader.scripted(Number(int(token.text)))
     value = plain.rational(plain.FormulaToken("number", token.text, token.start, token.end))

@@ -11,9 +11,10 @@ from dynsolve.answers.reading.grammar.exponents import bounded, constant, raised
 from dynsolve.answers.reading.grammar.forms import PSEUDO_INVERSE, Form, Scripts, index_text, is_angle
 from dynsolve.answers.reading.grids import Value
 from dynsolve.answers.reading.tokens.lexer import Token
-from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol
+from dynsolve.quantities import families
 
 ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
 
@@ -31,6 +32,11 @@ MARKS = ("bar", "hat", "tilde")
 r"""Accents that make another name: `\bar J` is the student's own, and so is a pseudo-inverse `J^\#`."""
 
 _PSEUDO = frozenset({"sharp", "dagger", "dag", "ddagger"})
+_OF_FORCES = frozenset("nc nk np ext act gen mot".split())
+"""What stands above a generalized force and tells it from no other."""
+
+_FORCES = (families.TAU, families.FORCE)
+
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
 
@@ -121,6 +127,8 @@ class ScriptCursor(Cursor):
                 form.index += part
             elif kind == "^" and self.pseudo_inverse():
                 form.index += PSEUDO_INVERSE
+            elif kind == "^" and self.raised_index(form):
+                continue
             elif kind == "[" and (index := self.bracketed_index(form)):
                 form.index += index
             elif kind == "*" and self.star_is_mark(form):
@@ -129,6 +137,25 @@ class ScriptCursor(Cursor):
             elif not self.script(form.scripts):
                 break
         form.end = self.tokens[max(self.position - 1, 0)].end
+
+    def raised_index(self, form: Form) -> bool:
+        r"""Whether an index stands above a name, which is taken: `\tau^{(2)}` is tau2, `Q^{nc}` Q."""
+        vocabulary, ahead = self.vocabulary, 2 if self.peek().kind == "{" else 1
+        inside = [self.peek(ahead + i) for i in range(3)]
+        named = vocabulary.named(form.key)
+        if [t.kind for t in inside] == ["(", "number", ")"]:
+            name = form.key + inside[1].text
+            if vocabulary.symbol(name) is None and not vocabulary.named(name):
+                return False
+            form.index += inside[1].text
+        else:
+            is_force = all(vocabulary.quantities[one].family in _FORCES for one in named)
+            is_mark = inside[0].text in _OF_FORCES and (named or DRIVING.fullmatch(form.key))
+            if not is_mark or not is_force:
+                return False
+        self.take()
+        self.group()
+        return True
 
     def bracketed_index(self, form: Form) -> str:
         """The index in brackets, which is taken, of a name with it: `m[1]`, `q[2](t)`, `D[0,0]`, `D[0][0]`.

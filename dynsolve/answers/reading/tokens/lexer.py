@@ -34,12 +34,13 @@ class Token(NamedTuple):
 
 
 _DOTTED = {"\u0307": 1, "\u0308": 2}
+_DOTS_BEHIND = str.maketrans({"˙": "\u0307", "¨": "\u0308"})
 _PRECOMPOSED = "ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏżḦḧẍẅÿ"
 """Letters that Unicode has with their dots, in one code point."""
 _SCRIPT_TENSOR = "𝓘ℐ"
 """The letter of the tensor in base coordinates, which is another than the tensor I in the body's axes."""
 _GREEK = "".join(SPELLED)
-_LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳℓ"
+_LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳℓℝ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
 _BRACED = r"_\{[ ]?[A-Za-z0-9]{1,20}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{1,20}){0,5}[ ]?\}"
 _UNDOTTED = rf"(?!(?:_?[{_INDEX}]+|_\{{[0-9]+\}})?[\u0307\u0308])"
@@ -55,7 +56,8 @@ _TOKEN = re.compile(
     | (?P<number>(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
     | (?P<mathematica>\\\[[A-Z][a-z]{{1,12}}\][A-Za-z0-9]{{0,20}})
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
-    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|=:|==|[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″■@〖〗!$≡≜≔≕≝⟨⟩])
+    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|=:|==
+          |[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂∇∑≠∈∀⇒⟹⇔’′″■@〖〗!$≡≜≔≕≝⟨⟩])
     | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
     | (?P<dotted>(?:[{_LETTER}][\u0307\u0308]{{1,2}}|[{_PRECOMPOSED}])
           (?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*
@@ -97,6 +99,11 @@ _SIGNS = {
     "≕": "=",
     "≝": "=",
 }
+_COMMANDS = {
+    "∂": "partial", "∇": "nabla", "∑": "sum", "≠": "neq", "∈": "in", "∀": "forall", "⇒": "Rightarrow",
+    "⟹": "Longrightarrow", "⇔": "Leftrightarrow",
+}  # fmt: skip
+"""Signs that are one of LaTeX's commands."""
 _ASCII = str.maketrans(SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)})
 _FRACTIONS = dict(zip("½⅓⅔¼¾⅙⅚⅛⅜⅝⅞", "1/2 1/3 2/3 1/4 3/4 1/6 5/6 1/8 3/8 5/8 7/8".split(), strict=True))
 
@@ -207,6 +214,7 @@ def tokenize(text: str) -> list[Token]:
     if len(text) > MAX_LENGTH:
         message = f"an equation of {len(text)} characters; at most {MAX_LENGTH} are read"
         raise ReadError(message, MAX_LENGTH, 1, "name parts of it with abbreviations")
+    text = text.translate(_DOTS_BEHIND)
     found: list[Token] = []
     offset, length = 0, len(text)
     spaced = broken = False
@@ -271,8 +279,8 @@ def _token(piece: Token) -> Token | None:
     if kind == "sign":
         if text == "″":
             return piece._replace(kind="''")
-        if text == "∂":
-            return piece._replace(kind="command", text="partial")
+        if text in _COMMANDS:
+            return piece._replace(kind="command", text=_COMMANDS[text])
         return piece._replace(kind=_SIGNS.get(text, text))
     if kind == "name" or kind == "dotted":
         return _name(piece)

@@ -22,7 +22,8 @@ from dynsolve.notation.characters import SPELLED
 _FONTS = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
     "overrightarrow operatorname ensuremath boxed fbox framebox mathop mathord mathrel mathbin smash bold "
-    "underbar uline uuline undertilde utilde symbf symbfit symrm mathbfit qty quantity bigstrut".split()
+    "underbar uline uuline undertilde utilde symbf symbfit symrm mathbfit si unit qty quantity "
+    "bigstrut".split()
 )
 _SCRIPT = frozenset("mathcal mathscr mathfrak cal script".split())
 _MATRICES = {"pmatrix": "pmatrix", "bmatrix": "bmatrix", "matrix": "matrix", "mqty": "matrix"} | {
@@ -210,6 +211,11 @@ def _simplify_command(
         if dots and dots == len(over) and dots < 3:
             out.append(token._replace(text="dot" if dots == 1 else "ddot"))
         return position
+    empty = [t.kind for t in tokens[position : position + 2]] == ["{", "}"]
+    if token.text in ("dot", "ddot") and empty and out and out[-1].kind == ")":  # (m r²)\dot{}
+        power, dot = token._replace(kind="^", text="^"), token._replace(kind="cdot")
+        out += [power, token._replace(kind="{"), *[dot] * (len(token.text) - 2), token._replace(kind="}")]
+        return position + 2
     text = "script" if token.text in _SCRIPT else _ACCENTS.get(token.text, token.text)
     out.append(token._replace(text=text))
     has_power = token.text in _POWERED and tokens[position].kind == "^"

@@ -10,7 +10,7 @@ from dynsolve.errors import ReadError
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc sgn sign".split())
 _SYMMETRIC = frozenset({"sym", "symm", "symmetric"})
 _WORD_AS_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_\{?[A-Za-z0-9,]+\}?)?")
-_WORDS = frozenset("and og where hvor der with med so such or eller for då da".split())
+_WORDS = frozenset("and og where hvor der with med so such or eller for für alle all då da".split())
 _UNITS = frozenset({"J", "N", "Nm", "rad", "kg"})
 _MODULES = frozenset("sp sym sympy smp np numpy math".split())
 _OF_MODULES = frozenset(

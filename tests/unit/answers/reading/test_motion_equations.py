@@ -46,7 +46,7 @@ def test_what_is_no_equation_of_motion_is_none(equation: str) -> None:
 
 
 def test_a_matrix_that_has_no_columns_by_itself_stops_nothing() -> None:
-    text = r"$$Y = \begin{bmatrix} m_1 \\ g_0 \end{bmatrix}$$ $$2 Y = m_1 \ddot q_1$$"
+    text = r"$$Y = \begin{bmatrix} m_1 \\ g_0 \end{bmatrix}$$ $$Y + Y = m_1 \ddot q_1$$"
     found = report(text, stem="rp-parameters")
     assert [(answer.name, answer.fault) for answer in found.answers] == [("Y", "")]
     assert [one.why for one in found.left_alone] == ["a matrix of any size is named here"]
