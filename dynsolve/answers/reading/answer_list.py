@@ -292,10 +292,10 @@ class AnswerList:
         self._settle_motions()
         self._settle_cases()
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
-        for why in (True, False):
-            given = self._given()
+        for of_case in (False, True):
+            given = self._given(with_parts=of_case)
             for refused, answers in self._asides:
-                if (refused.why == IN_CASE) is why:
+                if (refused.why == IN_CASE) is not of_case:
                     continue
                 can_be_read = all(answer.node is not None for answer in answers)
                 wanted = named | self.vocabulary.asked if can_be_read else named
@@ -321,14 +321,19 @@ class AnswerList:
 
     def _settle_cases(self) -> None:
         """Set aside the displays of one case, where another answers the same, or the whole of an entry."""
-        given = self._given()
+        given = self._given(with_parts=True)
         for answer in [a for a in self.answers if a.occurrence[0] in self.in_case]:
-            if not given.isdisjoint({answer.name, self.vocabulary.quantities.entry_of(answer.name)[0]}):
+            if answer.name in given:
                 self.answers.remove(answer)
                 case = NotRecognized(answer.text, answer.label, answer.place, IN_CASE, (answer.name,))
                 self.left_alone.append(case)
 
-    def _given(self) -> set[str]:
+    def _given(self, with_parts: bool) -> set[str]:
         """What is answered so that it can be read, and not for one case alone."""
         read = [answer for answer in self.answers if answer.node is not None]
-        return {answer.name for answer in read if answer.occurrence[0] not in self.in_case}
+        given = {answer.name for answer in read if answer.occurrence[0] not in self.in_case}
+        return (
+            {part for name in given for part in self.vocabulary.quantities.within(name)}
+            if with_parts
+            else given
+        )

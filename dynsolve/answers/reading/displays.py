@@ -330,14 +330,23 @@ def _trimmed(piece: list[Token]) -> list[Token]:
 def _members(piece: list[Token]) -> list[list[Token]]:
     members: list[list[Token]] = [[]]
     level = 0
-    for token in piece:
+    for position, token in enumerate(piece):
         level = max(level + OPENS.get(token.kind, 0), 0)
         if token.kind == "=" and level == 0:
+            if "approx" in token.text and len(members) > 1 and not _has_decimals(piece[position:]):
+                break
             members.append([])
         else:
             members[-1].append(token)
     said = [_without_remark(member) for member in members if member]
     return said if len(members) > 1 else []
+
+
+def _has_decimals(tokens: list[Token]) -> bool:
+    """Whether numbers are rounded, and no formula: `0.333 m l^2`."""
+    return any(token.kind == "number" and "." in token.text for token in tokens) or not any(
+        token.kind == "name" for token in tokens
+    )
 
 
 def _without_remark(member: list[Token]) -> list[Token]:

@@ -26,7 +26,7 @@ from dynsolve.answers.reading.sentences import IN_CASE, IN_SENTENCE, said_of, ta
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.spoken_verdicts import spoken_verdicts
-from dynsolve.answers.reading.tables import with_equations
+from dynsolve.answers.reading.tables import headed_columns, with_equations
 from dynsolve.answers.reading.tokens.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.tokens.macros import Macro
 from dynsolve.answers.reading.tokens.prepare import prepared
@@ -105,11 +105,15 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     headed = headed_sets(text, reader)
     text = without_sets(text, headed)
     names_answer = _answer_names(reader)
-    text = text if latex else with_equations(text, names_answer)
+    columns = list[tuple[int, Display]]()
+    if not latex:
+        text, columns = headed_columns(text, source, names_answer)
+        text = with_equations(text, names_answer)
     spans = list(
         islice(_displays(text, source, names_answer, partial(_is_coordinate, reader)), 2 * MAX_EQUATIONS)
     )
     displays = _labelled([(start, display) for start, _, display in spans if display is not None])
+    displays = sorted([*displays, *columns], key=itemgetter(0))
     is_plain = all(display.aside for _, display in displays)
     if is_plain or not latex:
         rest = hidden(text, [(start, end) for start, end, _ in spans])

@@ -109,3 +109,28 @@ def test_a_letter_for_a_coordinate(form: str) -> None:
 def test_a_definition_in_plain_text(word: str) -> None:
     for angle, expected in (("q2", "correct"), ("2*q2", "wrong")):
         assert verdicts(f"{word}d = {angle}\nP = M*g*q1 + m*g*l*sin(d)\n", "txt")["P"] == expected
+
+
+@pytest.mark.parametrize("table", [
+    "| entry | value |\n|---|---|\n"
+    "| $d_{{11}}$ | $M+m$ |\n| $d_{{12}}=d_{{21}}$ | ${0}$ |\n| $d_{{22}}$ | $ml^2$ |",
+    "| $d_{{11}}$ | $d_{{12}}=d_{{21}}$ | $d_{{22}}$ |\n|:-:|:-:|:-:|\n| $M+m$ | ${0}$ | $ml^2$ |",
+])  # fmt: skip
+def test_entries_in_a_table(table: str) -> None:
+    for value, expected in ((r"ml\cos q_2", "correct"), (r"ml\sin q_2", "wrong")):
+        report = judged(f"The entries are\n\n{table.format(value)}\n\nas expected.")
+        assert next(answer for answer in report.answers if answer.name == "D").verdict.value == expected
+        assert all(
+            "|" in answer.place.excerpt for answer in report.answers if answer.name == "d12" and answer.place
+        )
+
+
+def test_what_letters_mean_behind_an_equation_in_plain_text() -> None:
+    for angle, expected in (("q2", "correct"), ("2*q2", "wrong")):
+        text = f"P = M*g*z + m*g*l*sin(d)   (z = q1, d = {angle})\n"
+        assert verdicts(text, "txt")["P"] == expected
+
+
+def test_an_approximation_is_no_value() -> None:
+    for value, expected in ((P, "correct"), (SLIP, "wrong")):
+        assert verdicts(rf"$$P={value}\approx Mgq_1+mglq_2$$")["P"] == expected
