@@ -293,7 +293,7 @@ class AnswerList:
         self._settle_cases()
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
         for of_case in (False, True):
-            given = self._given(with_parts=of_case)
+            given = self._given(with_parts=of_case) - (named if of_case else set())
             for refused, answers in self._asides:
                 if (refused.why == IN_CASE) is not of_case:
                     continue

@@ -53,8 +53,8 @@ _ONE_CASE = _words(
     r"|\bat rest\b|\bin ruhe\b|\bi ro\b|\blinearis|\bcheck\b|\bprobe\b|\bkontroll\b|\bcompar|\bvergleich"
     r"|\bsammenlign"
     r"|\bwould\b|\bwürden?\b|\bwären?\b|\bville\b|\bcontributes?\b|\bwithout\b|\bohne\b|\buten\b",
-    r"\b(?:for|at|if|when|with|bei|für|wenn|falls|mit|ved|når|hvis|med)\b[^$:]{0,40}\$[^$=]{1,60}(?:=[^$=]{1,60})+\$",
-    r"\(\$[^$=]{1,60}(?:=[^$=]{1,60})+\$\)",
+    r"\b(?:for|at|if|when|bei|für|wenn|falls|ved|når|hvis)\b[^$:]{0,40}\$[^$=]{1,60}(?:=[^$=]{1,60})+\$",
+    r"\(\$[^$=]{1,60}(?:=[^$=]{1,60})+\$\)|=[ \t]*[0-9.,]+(?:\\[,;: ]|[ \t])*\\(?:mathrm|text)[^$]{1,60}\$",
 )
 """What may make a formula one of a case: it counts where nothing else answers the same."""
 

@@ -26,7 +26,7 @@ TWO = "θ | θ - π"
 FORMS = [
     (r"Equilibria: $\theta = 0$ and $\theta = \pi$, $x$ arbitrary.", TWO),
     (r"Ruhelagen: $\theta = 0$ oder $\theta = \pi$. Die untere ist stabil.", TWO),
-    (r"Equilibria: $\theta\in\{0,\pi\}$, the pole is upright or hangs then.", TWO),
+    (r"Equilibria: $\theta\in\{0,\pi\}$, where the pole is vertical.", TWO),
     (r"**Equilibria:** $\theta = 0$ (unstable), $\theta = \pi$ (stable), for any $x$.", TWO),
     ("The equilibrium points are: theta = 0 or theta = pi", TWO),
     ("equilibria: theta = 0 or pi", TWO),

@@ -56,7 +56,7 @@ CASES = [
     " we would get", "At first we had", "The book gives", "I boka står det",
     "Vergleich mit dem Skript: dort steht",
     "One could think that",
-    "Zuerst hatten wir", "Check ($M=0$):",
+    "Zuerst hatten wir", "Check ($M=0$):", "With $m=1\\,\\mathrm{kg}$:",
 ]  # fmt: skip
 
 
