@@ -110,11 +110,11 @@ class MatrixDiagnoser:
 
 
 def _is_explained(found: Iterable[Diagnosis]) -> bool:
-    """Whether one slip, and no list of what differs, was found in the entries of a matrix.
+    """Whether slips of one kind, and no list of what differs, were found in the entries of a matrix.
 
     A term that is doubled, or one too many, may have a cause that says more.
     """
-    slips = [one.code for one in found if one.code != "dimensions"]
+    slips = list({one.code for one in found if one.code != "dimensions"})
     return len(slips) == 1 and slips[0] not in _LISTS and slips[0] not in ("factor", "extra_term")
 
 

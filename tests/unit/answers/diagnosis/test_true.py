@@ -216,3 +216,15 @@ def test_a_number_for_a_letter_and_an_index_are_two_slips() -> None:
     found = judged(ELBOW, "g1", "(m1*lc1 + m2*l1)*9.81*cos(q1) + m2*9.81*lc1*cos(q1 + q2)")
     assert codes(found) == ["number_for_letter", "symbol"]
     assert "stands l_c1 where l_c2 belongs" in found.diagnosis[1].message
+
+
+def test_rates_exchanged_in_two_entries_are_told_in_both() -> None:
+    twin = """
+gravity: none
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  D: [[a, b*cos(q1 - q2)], [b*cos(q1 - q2), c]]
+find: [C]
+"""
+    C = [["0", "b*sin(q1 - q2)*q1_dot"], ["-b*sin(q1 - q2)*q2_dot", "0"]]
+    assert [d.message.count("belongs") for d in judged(twin, "C", C).diagnosis] == [1, 1]
