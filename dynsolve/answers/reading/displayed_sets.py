@@ -253,7 +253,7 @@ def _rows(text: str) -> list[str]:
 
 def _plain(row: str) -> str:
     """A row without what only sets it; `+a or -a` is ±a."""
-    row = _EITHER_SIGN.sub(r"= ±\1", row)
+    row = _EITHER_SIGN.sub(r"= ±\1", " ".join(row.split()))
     return _SIGN.sub("=", _ALIGN.sub("", _LAYOUT.sub(" ", row))).strip().rstrip(".,;").strip()
 
 
