@@ -94,12 +94,15 @@ _QUOTED = _words(
 _BORDER = re.compile(
     r"[.;!?](?=\s)|\n[ \t]*(?=\n)|\n[ \t]*(?:[-*+|]|[0-9]+[.)])[ \t]|\$\$|\\\]|\\end\{\w+\*?\}"
 )
-_FAR = 300
+_FAR, _NEAR = 300, 60
+"""How far back a sentence is looked at, and how far for what stands right before a formula."""
+
+_WORD = re.compile(r"[^\W\d_]{2}")
 
 
 def said_of(text: str, start: int, end: int, is_coordinate: Callable[[str], bool]) -> str:
     """What a sentence says of the formula between two offsets: why it is no equation of its own."""
-    before = text[max(start - _FAR, 0) : start]
+    before = text[max(start - _NEAR, 0) : start]
     if _SUPPOSES.search(before):
         return SUPPOSED
     if _ZERO.fullmatch(text, start, end) and (_ASKED.search(before) or _THEN.match(text, end)):
@@ -112,7 +115,11 @@ def taken_from(text: str, start: int, end: int, is_coordinate: Callable[[str], b
     sentence = _BORDER.split(text[max(start - _FAR, 0) : start])[-1]
     if any(is_coordinate(case["left"]) for case in _CASE.finditer(sentence)):
         return SPECIAL
-    if _REJECTED.search(_TURN.split(sentence)[-1]) or _TAKEN_BACK.match(text, end):
+    if _TAKEN_BACK.match(text, end):
+        return REJECTED
+    if not any(map(_WORD.search, sentence.split("$")[::-2])):  # every other piece is a formula
+        return ""
+    if _REJECTED.search(_TURN.split(sentence)[-1]):
         return REJECTED
     if _QUOTED.search(sentence):
         return QUOTED

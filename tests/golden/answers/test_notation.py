@@ -273,11 +273,13 @@ def test_degrees_without_their_sign_are_pointed_out() -> None:
     assert answer.verdict.value == "wrong" and "90°" in " ".join(answer.notes)
 
 
-def test_programs_that_count_from_zero_are_not_read_as_if_from_one() -> None:
-    assert (
-        verdicts(judged(R, "yaml", "answers: {P: 'm[0]*g*lc[0]*sin(q[0])', g2: 'm[1]*lc[0]'}"))["P"]
-        == "unreadable"
-    )
+@pytest.mark.parametrize("first", [0, 1])
+def test_programs_may_count_from_zero(first: int) -> None:
+    i, j = first, first + 1
+    P = f"m[{i}]*g*lc[{i}]*sin(q[{i}]) + m[{j}]*g*(l[{i}]*sin(q[{i}]) + lc[{j}]*sin(q[{i}] + q[{j}]))"
+    assert verdicts(judged(R, "yaml", f"answers: {{P: '{P}'}}"))["P"] == "correct"
+    slip = P.replace(f"l[{i}]*", f"l[{j}]*", 1)
+    assert verdicts(judged(R, "yaml", f"answers: {{P: '{slip}'}}"))["P"] == "wrong"
 
 
 def test_an_unknown_letter_is_named() -> None:
