@@ -415,6 +415,8 @@ class EquationReader:
                 return
         leading = read[0].found if read and read[0].index == 0 else None
         if isinstance(leading, RightSide) and leading.is_definition:
+            if len(leading.references) == 1 and not origin.names:
+                origin = replace(origin, names=tuple(leading.references))
             is_multiple = origin.names and _values(read) and not is_abstract(leading)
             why = _MORE_THAN_NAME if is_multiple else why_no_value(leading)
             self.found.left_alone.append(origin.of(members, why))

@@ -61,6 +61,10 @@ _SAYS = re.compile(
     r"(?:[ \t\n](?:is|are|being|denotes|equals|means|stands for|(?:must|has to) be|er|ist)[ \t\n]{1,3}"
     r"|(?P<sign>:|:?=|&|\])[ \t\n}\]*]{0,5})\Z"
 )
+_HEADING = re.compile(
+    r"(?m)^[ \t]*(?:#{1,6}[ \t]+|\*\*|\\(?:sub){0,2}section\*?\{|\\paragraph\{)"
+    r"(\$[^$\n=]{1,30}\$|[^\W\d_]\w{0,9})[:*}#]{0,4}[ \t]*\n[ \t\n]{0,9}\Z"
+)
 _FOR = re.compile(
     r"\b(?:writ\w+|us(?:e|ing)|put\w*|denot\w+|schreib\w+|verwend\w+|setz\w+|skriv\w+|bruk\w+)\b[^.;\n=]{0,80}?"
     r"\$([^$=]{1,30})\$[ \t\n]+(?:for|für|instead of|in place of|statt|anstelle von|i stedet for)[ \t\n]+\Z",
@@ -253,13 +257,18 @@ def _end_of_paragraph(text: str, start: int) -> int:
 def _said_to_be(
     text: str, source: Source, opening: int, start: int, end: int, names_answer: NamesAnswer
 ) -> Display | None:
-    """What a formula is said to be: `where h is $-m_2 l_1$` is h = -m_2 l_1, `P: $m g l$` is P = m g l."""
+    """What a formula is said to be: `where h is $-m_2 l_1$` is h = -m_2 l_1, `P: $m g l$` is P = m g l.
+
+    Below a heading that is a name it is that.
+    """
     said = _FOR.search(text, max(opening - 120, 0), opening)
     said = said or _SAYS.search(text, max(opening - 60, 0), opening)
+    said = said or _HEADING.search(text, max(opening - 60, 0), opening)
     if said is None:
         return None
     name = said[1].replace("$", " ")
-    if said.re is _SAYS and said["sign"] and not names_answer(name.strip()):
+    is_answer = said.re is _HEADING or (said.re is _SAYS and said["sign"])
+    if is_answer and not names_answer(name.strip()):
         return None
     formula = text[start:end].rjust(end - said.end(1) - 1)
     display = _display(text, source, said.start(1), end, "")

@@ -24,6 +24,11 @@ _BEFORE_SIGN = re.compile(
     rf"(?<![^\s,;:|$&(\"'*])(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})"
     r"[\"'*$}]{0,4}[ \t]{0,9}:?=(?!=)"
 )
+_CALLED = re.compile(
+    rf"(?m)(?:\bEq\([ \t]*|^>>>[ \t]+)(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})(?=,|[ \t]*$)"
+)
+"""SymPy's `Eq(tau1, ...)`, and a name behind Python's prompt, its value below."""
+
 _KEY = re.compile(
     r"(?m)(?:^[ \t>-]*|[{,][ \t]*)[\"']?(?P<name>[^\s:\"'#={,][^:\"'#=\n]{0,40}?)[\"']?[ \t]*[:=](?=\s)"
 )
@@ -35,6 +40,7 @@ _MOST_LISTED = 100
 def list_unread(reader: EquationReader, source: Source, text: str, why: str = NOT_READ) -> None:
     """List what stands before `=` in a text, in which what was read is blank, and is asked for."""
     _list(reader, source, text, _BEFORE_SIGN, why)
+    _list(reader, source, text, _CALLED, why)
 
 
 def list_unread_keys(reader: EquationReader, source: Source, text: str, why: str = NOT_READ) -> None:

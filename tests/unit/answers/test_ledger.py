@@ -33,6 +33,9 @@ def judged(text: str, ending: str = "md") -> dict[str, Any]:
         ("Let the matrix be $D = X_7$, as before.", 1, "X_7"),
         ("$$D[7,7] = m_2$$", 1, "matrix"),
         ("$$(7)\\quad d_{12} = \\frac{d}{dt}(x_9)$$", 1, "x_9"),
+        (r"$$\frac{D}{2} = \begin{bmatrix} 1 & 0 \\ 0 & m_2/2 \end{bmatrix}$$", 1, "more than a name"),
+        ("Eq(D, Matrix(2, 2, X))", 1, "no equation"),
+        (">>> D\nMatrix(2, 2, X)", 1, "no equation"),
     ],
 )
 def test_an_equation_of_what_nothing_else_answers_waits(text: str, line: int, reason: str) -> None:
@@ -78,6 +81,8 @@ ASKED = Checker(replace(load("in3140-rp"), marks={"K": Fraction(2), "g": Fractio
         ("md", "* **K:** ${}$"),
         ("md", "1. **K** = ${}$, as wanted"),
         ("md", "- $K$: ${}$"),
+        ("md", "## K\n\n$${}$$"),
+        ("tex", "\\section*{{$K$}}\n\\[{}\\]"),
         ("md", "- The energy $K$ is ${}$."),
         ("md", "| K | ${}$ |"),
         ("md", "| energy | $K = {}$ | joules |"),
@@ -102,7 +107,7 @@ def test_an_equation_in_a_sentence_is_judged_where_nothing_else_answers_that(
     with_display = ASKED(ASKED.reader(f"{text.format(value)}\n\n{shown}\n", f"a.{ending}"))
     (answer,) = (a for a in with_display.answers if a.name == "K")
     assert answer.verdict == "wrong" and answer.place is not None
-    assert ending == "html" or answer.place.line == 3 or text.startswith("|")
+    assert ending == "html" or answer.place.line == 3 + text.count("\n") or text.startswith("|")
 
 
 @pytest.mark.parametrize("text", ["If $K = 0$, it rests.", "For $K = 0$ it rests.", "Wenn $K = 0$ ist"])
