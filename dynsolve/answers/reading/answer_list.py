@@ -292,10 +292,23 @@ class AnswerList:
         self._settle_motions()
         self._settle_cases()
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
+        said = [answer for _, answers in self._asides for answer in answers]
+        within = self.vocabulary.quantities.within
+        general = {
+            part for a in (*self.answers, *said) if self._holds_generally(a) for part in within(a.name)
+        }
+        general -= named
         for of_case in (False, True):
             given = self._given(with_parts=of_case) - (named if of_case else set())
             for refused, answers in self._asides:
                 if (refused.why == IN_CASE) is not of_case:
+                    continue
+                if (
+                    answers
+                    and general.issuperset(refused.answers)
+                    and not any(map(self._holds_generally, answers))
+                ):
+                    self.left_alone.append(refused)
                     continue
                 can_be_read = all(answer.node is not None for answer in answers)
                 wanted = named | self.vocabulary.asked if can_be_read else named
@@ -305,6 +318,11 @@ class AnswerList:
                     self.answers += answers
                 else:
                     (self.left_alone if given & set(refused.answers) else self.not_recognized).append(refused)
+
+    def _holds_generally(self, answer: Answer) -> bool:
+        """Whether coordinates stand in a value; one without may be that of a single case."""
+        names = names_in(answer.node) if answer.node is not None else frozenset()
+        return not names.isdisjoint(q.name for q in self.vocabulary.coordinates)
 
     def _settle_motions(self) -> None:
         """The equations of motion in sentences, for what nothing else gives."""

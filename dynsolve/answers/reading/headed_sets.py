@@ -16,7 +16,9 @@ from dynsolve.answers.reading.set_words import AND, ARBITRARY, HEADS, OR, SO, ST
 from dynsolve.answers.reading.sources import Source
 from dynsolve.quantities.spelling import key
 
-_MARK = r"(?:[ \t>*_#+$|-]|[0-9]{1,2}[.)][ \t]|\\(?:item|noindent|par|quad|,|;|:|!|\[|\())*"
+_MARK = (
+    r"(?:[ \t>*_#+$|-]|\(?(?:[0-9]{1,2}|[A-Za-z])[.)](?=[* \t])|\\(?:item|noindent|par|quad|,|;|:|!|\[|\())*"
+)
 _FONT = r"(?:\\(?:text\w{0,2}|emph|underline|paragraph\*?|(?:sub){0,2}section\*?|math(?:rm|bf))[ \t]*\{)?"
 _HEAD = r"(?P<head>[^\W\d_](?:[^\W\d_]|[ \t'-]){2,60}?)[*_ \t}]*"
 _POINT = r"(?:[ \t]*\$?\([^()=\n]{1,60}\)\$?[ \t]*)?"

@@ -87,9 +87,11 @@ _GIVES = (
     "gives?|has|have|had|says?|states?|writes?|gibt|hat|hatten|sagt|schreibt|steht"
     "|gir|har|hadde|sier|skriver|står"
 )
+_IN_BRACKETS = r"(?:\([^()$]{1,20}\)[ \t\n]*)?"
+_AFTER = "nach|laut|gemäß|according to|ifølge|etter|in|im|i"
 _QUOTED = _words(
-    rf"\b{_BOOK}[ \t\n]*[:,]?(?:[ \t\n]+\w+){{0,2}}[ \t\n]+(?:{_GIVES})\b[^$.;]{{0,40}}\Z",
-    rf"\b(?:nach|laut|gemäß|according to|ifølge|etter)(?:[ \t\n]+\w+)?[ \t\n]+{_BOOK}\b[^$.;]{{0,60}}\Z",
+    rf"\b{_BOOK}[ \t\n]*{_IN_BRACKETS}[:,]?(?:[ \t\n]+\w+){{0,2}}[ \t\n]+(?:{_GIVES})\b[^$.;]{{0,40}}\Z",
+    rf"\b(?:{_AFTER})(?:[ \t\n]+\w+)?[ \t\n]+{_BOOK}\b[^$.;]{{0,60}}\Z",
 )
 _BORDER = re.compile(
     r"[.;!?](?=\s)|\n[ \t]*(?=\n)|\n[ \t]*(?:[-*+|]|[0-9]+[.)])[ \t]|\$\$|\\\]|\\end\{\w+\*?\}"

@@ -32,6 +32,8 @@ FORMS = [
     ("equilibria: theta = 0 or pi", TWO),
     ("equilibria = theta = 0 or theta = pi", TWO),
     ("## Equilibria:\n\n- $\\theta = 0$\n- $\\theta = \\pi$\n\n$$P = m g$$", TWO),
+    ("(d) The equilibria:\n- $\\theta = 0$ (stable)\n- $\\theta = \\pi$, unstable", TWO),
+    ("**(b)** Equilibria:\n1. $\\theta = 0$ (stable)\n2. $\\theta = \\pi$ (unstable)", TWO),
     (r"\[ \text{Equilibria: } \theta = 0,\ \pi \]", TWO),
     (r"$$\text{Equilibria: } \sin\theta = 0$$", "sin(θ)"),
     (r"\textbf{Equilibria:} $\sin\theta = 0$.", "sin(θ)"),

@@ -54,6 +54,7 @@ def test_a_condition_at_the_end_of_a_chain_is_no_value(form: str, zero: str) -> 
 CASES = [
     "For $q_2=0$ this becomes", "Im Sonderfall $q_2=0$ wird", "Utstrakt arm, $q_2=0$:", "If there is no load,"
     " we would get", "At first we had", "The book gives", "I boka står det",
+    "The book (7.87) has", "In the book,", "Im Skript",
     "Vergleich mit dem Skript: dort steht",
     "One could think that",
     "Zuerst hatten wir", "Check ($M=0$):", "With $m=1\\,\\mathrm{kg}$:",
@@ -69,6 +70,15 @@ def test_what_does_not_hold_in_general_gives_way(case: str, form: str) -> None:
         report = judged(form.format(case, f"P={value}", f"P={other}"))
         assert {a.name: a.verdict.value for a in report.answers}["P"] == expected
         assert len([one for one in report.set_aside if "P" in one.answers]) == 1
+
+
+@pytest.mark.parametrize(
+    "form", ["$g_1=Mg$, $g_2={0}$; horizontally $g_2=0$.", "$g_2={0}$. Drawn down, $g_2=mgl$, $g_1=Mg$."]
+)
+def test_a_number_in_a_sentence_is_no_general_answer(form: str) -> None:
+    """Where letters answer the same."""
+    for value, expected in ((r"mgl\cos q_2", "correct"), (r"mgl\sin q_2", "wrong")):
+        assert verdicts(form.format(value))["g2"] == expected
 
 
 def test_a_rejected_attempt_gives_way_within_its_sentence() -> None:
