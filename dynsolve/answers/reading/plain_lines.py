@@ -55,6 +55,9 @@ _SAID_BEHIND = re.compile(r"[ \t]+(?:for|für)[ \t]+(?:all|alle|any|every)[ \t][
 """Where a value holds, said behind it."""
 
 _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
+_ROW_END = re.compile(r"(?<=[^\s=+\-*/,;(\[{&\\.])[ \t]*\n[ \t]*(?=[^\s=+\-*/),;\]])")
+"""The end of a line where no sign says that it goes on: within brackets, as in MATLAB, that of a row."""
+
 _NOT_LINE_END = re.compile(r"[^\n]")
 FORMULA = "\0"
 """What stands for each character of a formula that is read as such."""
@@ -154,10 +157,21 @@ def _with_powers(text: str, first: int, stop: int) -> str:
     return "".join(signs)
 
 
+def _with_rows(piece: str) -> str:
+    """The equation with a semicolon where a line within brackets ends a row."""
+    parts, done, depth = list[str](), 0, 0
+    for found in _ROW_END.finditer(piece):
+        part = piece[done : found.start()]
+        depth += part.count("[") - part.count("]")
+        parts += [part, f";{found[0][1:]}" if depth > 0 else found[0]]
+        done = found.end()
+    return "".join(parts) + piece[done:]
+
+
 def _formula(piece: str, names_answer: Callable[[str], bool]) -> str:
     """The equation without remarks and the dots of lines that go on; `K1: ...` as `K1= ...`."""
     piece = _REMARK.sub(lambda found: " " * len(found[0]), piece)
-    piece = _DOTS.sub(lambda found: " " * len(found[0]), piece)
+    piece = _DOTS.sub(lambda found: " " * len(found[0]), _with_rows(piece))
     piece = _SAID_BEHIND.sub("", _TERMINATOR.sub("", piece))
     piece = _AND.sub(lambda found: ";" + " " * (len(found[0]) - 1), piece)
     if (spoken := _SPOKEN.match(piece)) is not None:

@@ -52,6 +52,14 @@ def test_lines_of_a_program_are_no_rows() -> None:
     assert [judged(text)[name] for name in "DCg"] == ["correct"] * 3
 
 
+def test_a_line_end_within_brackets_ends_a_row_and_dots_do_not() -> None:
+    tau = "(I1zz + m2*L2^2)*θ1'' + 2*m2*L2*L2'*θ1'{}\n       (m2)*(L2'' - L2*θ1'^2)"
+    assert judged(f"tau = [{tau.format('')}];")["tau"] == "correct"
+    assert judged(f"tau = [{tau.format(';')}];")["tau"] == "correct"
+    assert judged(f"tau = [{tau.format(' ...')}];")["tau"] != "correct"
+    assert judged(f"tau = [{tau.format('').replace('(m2)', '(2*m2)')}];")["tau"] == "wrong"
+
+
 @pytest.mark.parametrize("zero", ["", r"\cdot", " "])
 def test_what_stands_for_0_beside_a_diagonal(zero: str) -> None:
     text = rf"$$D = \begin{{bmatrix}} {{}}&{zero}\\{zero}&m_2\end{{bmatrix}}$$"
