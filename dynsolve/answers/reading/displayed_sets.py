@@ -44,6 +44,8 @@ _REMARK = re.compile(r"\$\s{0,9}\([^()$\n]{1,60}\)")
 _MOST_FORMULAS = 500
 _MOST_ROWS = 100
 """A display of more rows is read as a whole."""
+_LONGEST = 20_000
+"""A display of more characters is no set."""
 _MOST_MEMBERS = 20
 """A longer chain defines no letter on its way."""
 
@@ -76,6 +78,9 @@ class DisplayedSets:
 
     def read_display(self, offset: int, display: Display) -> None:
         """Read a display without the equations of a set, which are kept."""
+        if len(display.text) > _LONGEST:
+            self.reader.read_display(display)
+            return
         if (space := self._space(display)) is not None:
             display = space
         rows = [self._without_own(display, row) for row in _rows(display.text)]

@@ -190,7 +190,7 @@ def _whole(text: str, start: int, stop: int, end: int) -> int:
         line = _REMARK.sub("", text[seen:stop]).rstrip()
         goes_on = line.endswith("...")
         line = line.removesuffix("...").rstrip()
-        level += sum((c in "([{") - (c in ")]}") for c in line)
+        level += sum(map(line.count, "([{")) - sum(map(line.count, ")]}"))
         if line.endswith("=") and seen == start:
             stop = _skip_blank_lines(text, stop, end)
         below = text.find("\n", stop + 1, end)
