@@ -54,6 +54,10 @@ _REMARK = re.compile(r"(?:(?<=\s)|(?<=[;)\]]))(?:#|//|%(?!pi\b))[^\n]*")
 _SAID_BEHIND = re.compile(r"[ \t]+(?:for|für)[ \t]+(?:all|alle|any|every)[ \t][^\n]*\Z")
 """Where a value holds, said behind it."""
 
+_SPOKEN_WORDS = r"[^\W\d_]{4,30}(?:[ \t][^\W\d_]{1,30}){0,6}"
+_REMARK_BEHIND = re.compile(rf"(?<=\S)[ \t]{{2,9}}(?:\({_SPOKEN_WORDS}\)|\[{_SPOKEN_WORDS}\])[ \t]*\Z")
+"""Words in brackets, apart from the value: `   [Coriolis]`."""
+
 _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
 _ROW_END = re.compile(r"(?<=[^\s=+\-*/,;(\[{&\\.])[ \t]*\n[ \t]*(?=[^\s=+\-*/),;\]])")
 """The end of a line where no sign says that it goes on: within brackets, as in MATLAB, that of a row."""
@@ -172,7 +176,7 @@ def _formula(piece: str, names_answer: Callable[[str], bool]) -> str:
     """The equation without remarks and the dots of lines that go on; `K1: ...` as `K1= ...`."""
     piece = _REMARK.sub(lambda found: " " * len(found[0]), piece)
     piece = _DOTS.sub(lambda found: " " * len(found[0]), _with_rows(piece))
-    piece = _SAID_BEHIND.sub("", _TERMINATOR.sub("", piece))
+    piece = _REMARK_BEHIND.sub("", _SAID_BEHIND.sub("", _TERMINATOR.sub("", piece)))
     piece = _AND.sub(lambda found: ";" + " " * (len(found[0]) - 1), piece)
     if (spoken := _SPOKEN.match(piece)) is not None:
         piece = f"{_letter(spoken):<{spoken.end() - 1}}={piece[spoken.end() :]}"

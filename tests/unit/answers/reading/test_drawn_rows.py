@@ -60,6 +60,13 @@ def test_a_line_end_within_brackets_ends_a_row_and_dots_do_not() -> None:
     assert judged(f"tau = [{tau.format('').replace('(m2)', '(2*m2)')}];")["tau"] == "wrong"
 
 
+@pytest.mark.parametrize("remark", ["   [Coriolis]", "  (Gravitation und Feder)", "  [sentrifugal]  "])
+def test_words_in_brackets_behind_a_line_are_no_part_of_it(remark: str) -> None:
+    f2 = "f2 = m2*L2'' - m2*L2*θ1'^2"
+    assert judged(f2 + remark)["f2"] == "correct"
+    assert judged(f2.replace("^2", "") + remark)["f2"] == "wrong"
+
+
 @pytest.mark.parametrize("zero", ["", r"\cdot", " "])
 def test_what_stands_for_0_beside_a_diagonal(zero: str) -> None:
     text = rf"$$D = \begin{{bmatrix}} {{}}&{zero}\\{zero}&m_2\end{{bmatrix}}$$"
