@@ -40,6 +40,9 @@ _MODULO = re.compile(r"\s*(?:\(\s*mod(?:ulo)?\s+([^()]+)\)|\\pmod\s*\{([^{}]*)\}
 _HALF_TURN = re.compile(r"\s*(?:\\?pi|π|180\s*(?:°|deg|\^\\circ|\^\{\\circ\}))\s*\Z")
 _MEMBERS = re.compile(r"(?:\\in\b|∈|\bin\b|=)\s*\\?\{((?:[^{}]|\{[^{}]*\})*?)\\?\}\s*\Z")
 _WHOLE = re.compile(r"(?<![A-Za-z_\\])([kn])(?![A-Za-z_0-9])")
+_OF_TURNS = re.compile(r"(?<![A-Za-z_\\])([kn])(?=[\s*]{0,3}(?:\\?pi(?![A-Za-z])|π))")
+"""A letter before π counts turns, whatever else the problem calls so: k π beside a stiffness k."""
+
 _OR = re.compile(rf"\s(?:{OR})\s|\s\|\|?\s|∨|\\(?:lor|vee)\b|;")
 _AND = re.compile(rf"\s(?:{AND})\s|&&?|∧|\\(?:land|wedge)\b")
 _JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|{FOLLOWS.pattern}|,")
@@ -61,8 +64,10 @@ def alternatives(
     """
     text = " or ".join(map(_spelled_out, texts))
     for equations in _either(text, is_value):
+        found = [letter for one in equations for letter in _WHOLE.findall(one)]
+        turns = [letter for one in equations for letter in _OF_TURNS.findall(one)]
         letters = dict.fromkeys(
-            letter for one in equations for letter in _WHOLE.findall(one) if not is_name(letter)
+            letter for letter in found if not is_name(letter) or found.count(letter) == turns.count(letter)
         )
         for numbers in product(WHOLE_NUMBERS, repeat=len(letters)):
             values = dict(zip(letters, numbers, strict=True))

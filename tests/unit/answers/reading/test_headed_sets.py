@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.submission import Submission
 from dynsolve.notation.unicode import to_unicode
@@ -69,3 +70,20 @@ def test_other_words_are_no_head(text: str) -> None:
 def test_what_stands_around_a_head_is_read_as_ever() -> None:
     found = report("$$P = M g$$\nEquilibria: $\\theta = 0$\n$$K = M g$$")
     assert [answer.name for answer in found.answers] == ["P", "K"]
+
+
+@pytest.mark.parametrize(
+    ("angle", "expected"),
+    [(r"k\pi", "correct"), ("k π", "correct"), ("k", "wrong"), (r"\pi/2 + k\pi", "wrong")],
+)
+def test_a_letter_before_pi_counts_turns_also_where_it_is_a_stiffness(angle: str, expected: str) -> None:
+    problem = read_problem("""
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + l*sin(theta), -l*cos(theta), 0]}]
+springs: [{stiffness: k, of: x}]
+find: [equilibria]
+""")
+    said = read_submission(problem, rf"Equilibria: $x = 0$ and $\theta = {angle}$", "report.md")
+    assert [answer.verdict for answer in Checker(problem)(said).answers] == [expected]
