@@ -83,53 +83,32 @@ REPORTS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("problem", "text", "verdicts"), REPORTS)
+SENTENCES = [(TWO_LINKS, text, {name: verdict}) for name, verdict, text in [
+    ("singular", "correct", r"The arm is singular for $q_2=0$ (stretched) and $q_2=\pi$ (folded)."),
+    ("singular", "correct", r"Singulært er $q_2=0$ (strak) og $q_2=\pi$ (foldet)."),
+    ("singular", "correct", r"Its determinant vanishes if $q_2=0$ or $q_2=\pi$. So far."),
+    ("singular", "unreadable", r"The arm is singular for $q_2=0$ and, when it is folded, $q_2=\pi$."),
+    ("singular", "correct", r"Singularities: $q_2=0$ or $q_2=\pi$. Else it moves."),
+    ("singular", "correct", r"Singularities: $q_2\in\{0,\pi\}$, the arm is straight."),
+    ("singular", "unreadable", r"Singularities: $q_2=0$, and then the folded arm."),
+    ("singular", "correct", r"Not singular: $q_2=\pi/2$. Singular: $q_2=0$, $q_2=\pi$."),
+    ("inverse", "correct", rf"Then $q_2=\pm\arccos {C2}$ and ${Q1}$, both."),
+    ("inverse", "correct", rf"$q_2=\pm\arccos {C2}$ and ${Q1}$."),
+    ("inverse", "correct", rf"So $q_2=\pm\arccos {C2}$. The first angle is then $${Q1}$$"),
+    ("inverse", "unreadable", rf"So $q_2=\pm\arccos X_9$. The first angle is then $${Q1}$$"),
+    ("inverse", "correct", rf"So $q_2=\pm\arccos {C2}$. Then $${Q1}$$ Singular are $q_2=0$ and $q_2=\pi$."),
+    ("inverse", "wrong", rf"The first angle is $${Q1}$$"),
+]]  # fmt: skip
+"""A set of a sentence is judged whole, or waits."""
+
+
+@pytest.mark.parametrize(("problem", "text", "verdicts"), [*REPORTS, *SENTENCES])
 def test_sets_of_a_report(problem: str, text: str, verdicts: dict[str, str]) -> None:
     read = read_problem(problem, "own.yaml")
     for ending in (".md", ".tex"):
         report = check(read, FileReader(read)(text + "\n", f"answer{ending}"))
         found = {answer.name: answer.verdict for answer in report.answers}
         assert {name: found.get(name) for name in verdicts} == verdicts, report.answers
-
-
-SENTENCES = [
-    (
-        TWO_LINKS,
-        r"The arm is singular for $q_2=0$ (stretched) and $q_2=\pi$ (folded).",
-        "singular",
-        "correct",
-    ),
-    (TWO_LINKS, r"Singulært er $q_2=0$ (strak) og $q_2=\pi$ (foldet).", "singular", "correct"),
-    (TWO_LINKS, r"Its determinant vanishes if $q_2=0$ or $q_2=\pi$. So far.", "singular", "correct"),
-    (
-        TWO_LINKS,
-        r"The arm is singular for $q_2=0$ and, when it is folded, $q_2=\pi$.",
-        "singular",
-        "unreadable",
-    ),
-    (TWO_LINKS, r"Singularities: $q_2=0$ or $q_2=\pi$. Else it moves.", "singular", "correct"),
-    (TWO_LINKS, r"Singularities: $q_2\in\{0,\pi\}$, the arm is straight.", "singular", "correct"),
-    (TWO_LINKS, r"Singularities: $q_2=0$, and then the folded arm.", "singular", "unreadable"),
-    (TWO_LINKS, rf"Then $q_2=\pm\arccos {C2}$ and ${Q1}$, both.", "inverse", "correct"),
-    (TWO_LINKS, rf"$q_2=\pm\arccos {C2}$ and ${Q1}$.", "inverse", "correct"),
-    (TWO_LINKS, rf"So $q_2=\pm\arccos {C2}$. The first angle is then $${Q1}$$", "inverse", "correct"),
-    (TWO_LINKS, rf"So $q_2=\pm\arccos X_9$. The first angle is then $${Q1}$$", "inverse", "unreadable"),
-    (
-        TWO_LINKS,
-        rf"So $q_2=\pm\arccos {C2}$. Then $${Q1}$$ Singular are $q_2=0$ and $q_2=\pi$.",
-        "inverse",
-        "correct",
-    ),
-    (TWO_LINKS, r"Not singular: $q_2=\pi/2$. Singular: $q_2=0$, $q_2=\pi$.", "singular", "correct"),
-    (TWO_LINKS, rf"The first angle is $${Q1}$$", "inverse", "wrong"),
-]
-
-
-@pytest.mark.parametrize(("problem", "text", "name", "verdict"), SENTENCES)
-def test_a_set_of_a_sentence_is_judged_whole_or_waits(
-    problem: str, text: str, name: str, verdict: str
-) -> None:
-    test_sets_of_a_report(problem, text, {name: verdict})
 
 
 def test_both_signs_in_words_are_two_branches() -> None:
