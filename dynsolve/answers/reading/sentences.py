@@ -43,7 +43,8 @@ r"""What stands around an `= 0` that is a condition: `from $g = 0$`, `$\det J = 
 _ZERO = re.compile(r"[^=]*=[ \t\n]*(?:\\\w+[ \t]*\{?[ \t]*)?0[ \t\n}.,]*(?:\$|\\\))")
 _CASE = re.compile(
     r"(?:\b(?:for|at|if|when|with|bei|für|wenn|falls|mit|ved|når|hvis|med)[ \t\n]+|,[ \t\n]*|\A[ \t>*+-]*)"
-    r"\(?\$(?P<left>[^$=]{1,30})=(?:[-+0-9\s.,/{}°^]|\\[dt]?frac|\\pi|π|\\circ|\\pm)+\$"
+    r"\(?\$(?P<left>[^$=]{1,30})=(?:[-+0-9\s.,/{}°^]|\\[dt]?frac|\\pi|π|\\circ|\\pm)+\$",
+    re.IGNORECASE,
 )
 """A case that is no general one: `for $q_2 = 0$`, `Stretched arm, $q_2 = 0$`."""
 

@@ -81,6 +81,15 @@ def test_a_number_in_a_sentence_is_no_general_answer(form: str) -> None:
         assert verdicts(form.format(value))["g2"] == expected
 
 
+@pytest.mark.parametrize(
+    "case", ["For $q_2=0$:", "- Für $q_2 = 0$ gilt", "for $q_2=0$ we get", "When $q_2=\\pi$,"]
+)
+def test_a_case_alone_waits(case: str) -> None:
+    report = judged(f"{case} $g_2 = mgl$")
+    assert {answer.verdict for answer in report.answers} == {"missing"}
+    assert ["g2" in one.answers for one in report.not_recognized] == [True]
+
+
 def test_a_rejected_attempt_gives_way_within_its_sentence() -> None:
     form = "One could think that $g_2={0}$, but the arm turns the other way, so $g_2={1}$."
     right, slip = r"mgl\cos q_2", r"-mgl\cos q_2"
