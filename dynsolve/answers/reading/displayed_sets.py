@@ -61,6 +61,7 @@ _ARROW = re.compile(rf"{FOLLOWS.pattern}|\\to\b|→")
 _EITHER_SIGN = re.compile(rf"=\s*\+?\s*([^\s=;+-][^=;]{{0,200}}?)\s*,?\s+(?:{OR})\s+-\s*\1(?![\w(^])")
 _IS_STATEMENT = re.compile(r"=|\\in\b|∈")
 _ZERO = re.compile(r"=\s*0(?:\s|\\[,;:! ]|\\q?quad|[.,;])*\Z")
+_IS_ZERO = re.compile(r"=\s*0(?![\w.,]?\d)")
 _DETERMINANT = re.compile(
     r"\s*(?:\\?det\b|\||\\lvert|\\left\s*\||\\mathrm\{det\}|\\operatorname\{det\})[^=]*="
 )
@@ -189,7 +190,7 @@ class DisplayedSets:
         text = ANY.sub(lambda said: " " * len(said[0]), self.text)
         for found in islice(_FORMULAS.finditer(text), _MOST_FORMULAS):
             words = text[max(found.start() - _BEFORE, 0) : found.start()].rpartition(".")[2]
-            if not ANNOUNCED[name].search(words) or DENIED.search(words):
+            if not ANNOUNCED[name].search(words) or DENIED.search(words.rpartition("\n\n")[2]):
                 continue
             formulas = _in_words(found[0])
             if is_set(self.reader.vocabulary, formulas):
@@ -206,14 +207,15 @@ class DisplayedSets:
     def _set_of(self, words: str, text: str) -> str | None:
         """The answer that the equations of a display belong to; `words` stand before them."""
         vocabulary = self.reader.vocabulary
-        asked = [name for name in ANNOUNCED if name in vocabulary.quantities and name not in self.told]
-        if not asked or not _IS_STATEMENT.search(text):
+        asked = [name for name in ANNOUNCED if name in vocabulary.quantities]
+        if self.told >= set(asked) or not _IS_STATEMENT.search(text) or _is_determinant(text):
             return None
         spoken = self._spoken_of(asked, words + text)
         has_begun = not spoken and "inverse" in self.found
-        if "inverse" in asked and self._are_branches(text, has_begun or spoken == "inverse"):
+        is_open = "inverse" in asked and "inverse" not in self.told
+        if is_open and self._are_branches(text, has_begun or spoken == "inverse"):
             return "inverse"
-        return spoken if spoken not in ("", "inverse") and is_set(vocabulary, text) else None
+        return spoken if spoken not in ("", "inverse", *self.told) and is_set(vocabulary, text) else None
 
     def _are_branches(self, text: str, is_announced: bool) -> bool:
         """Whether every equation gives a coordinate, or its sine or cosine, by what is to be reached.
@@ -260,6 +262,12 @@ def _plain(row: str) -> str:
     """A row without what only sets it; `+a or -a` is ±a."""
     row = _EITHER_SIGN.sub(r"= ±\1", " ".join(row.split()))
     return _SIGN.sub("=", _ALIGN.sub("", _LAYOUT.sub(" ", row))).strip().rstrip(".,;").strip()
+
+
+def _is_determinant(row: str) -> bool:
+    """Whether a row gives the determinant, and no condition of it."""
+    is_condition = _ARROW.search(row) or _IS_ZERO.search(row)
+    return _DETERMINANT.match(row) is not None and not is_condition
 
 
 def _determinant(row: str) -> str:

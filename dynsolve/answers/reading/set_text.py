@@ -159,19 +159,20 @@ def _listed(text: str, is_one_of: bool) -> list[str]:
     """q₂ = 0, π and q₂ ∈ {0, π}: further values of one equation, which commas part.
 
     Where commas part equations, they are alternatives if `and` joins some, and hold together in a
-    text that `is_one_of` several alternatives.
+    text that `is_one_of` several alternatives, or with `and` behind the last comma.
     """
     if (members := _MEMBERS.search(text)) is not None:
         values = _parts(members[1], _COMMA)
         return [f"{text[: members.start()]}= {values[0]}", *values[1:]]
-    pieces = [_LEADING_AND.sub("", piece) for piece in _parts(text, _COMMA)]
+    written = _parts(text, _COMMA)
+    pieces = [_LEADING_AND.sub("", piece) for piece in written]
     lefts = {_left(piece) for piece in pieces if "=" in piece}
     if len(pieces) == 1 or (len(lefts) == 1 and "=" in pieces[0]):
         return pieces
     if all("=" in piece for piece in pieces):
         if any(len(_parts(piece, _AND)) > 1 for piece in pieces):
             return pieces
-        if is_one_of:
+        if is_one_of or pieces[-1] != written[-1]:
             return [" and ".join(pieces)]
     help = "write a list of alternatives, and join by `and` what holds together"
     raise ReadError("a comma stands between equations", text.find(","), 1, help)

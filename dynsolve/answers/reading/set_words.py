@@ -64,7 +64,7 @@ ANNOUNCED = {
 }  # fmt: skip
 
 DENIED = _compiled((
-    r"\b(?:not|never|no|non-?singular|un\w+|except|near|about|around|lineari[sz]\w*)\b",
+    r"\b(?:not|never|no|non-?singular|un(?!d\b|s\b|ser|ten\b|[dt]er\b)\w+|except|near|about|around|lineari[sz]\w*)\b",
     r"\b(?:nicht|kein\w*|nie|außer|nahe|regulär|linearisier\w*)\b",
     r"\b(?:ikke|ingen|aldri|unntatt|nær|rundt|regulær)\b",
 ))  # fmt: skip
