@@ -22,7 +22,7 @@ from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.headed_sets import ANY
 from dynsolve.answers.reading.placed_text import placed
 from dynsolve.answers.reading.sentences import QUOTED, REJECTED, SUPPOSED
-from dynsolve.answers.reading.set_text import FOLLOWS, joined
+from dynsolve.answers.reading.set_text import FOLLOWS, held_together, joined
 from dynsolve.answers.reading.set_words import AND, ANNOUNCED, DENIED, OR, SO
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.span_text import space_named, span_text
@@ -59,6 +59,7 @@ _OWN = re.compile(r"\s*\\?[A-Za-z]{1,7}(?:_\{?\w{1,3}\}?)?\s*")
 _ALIGN = re.compile(r"&\s*(?=:?\s*=)|(?<==)\s*&")
 _ARROW = re.compile(rf"{FOLLOWS.pattern}|\\to\b|→")
 _EITHER_SIGN = re.compile(rf"=\s*\+?\s*([^\s=;+-][^=;]{{0,200}}?)\s*,?\s+(?:{OR})\s+-\s*\1(?![\w(^])")
+_VANISHES = re.compile(r"[^$.]{0,20}(?:vanish|zero|verschwind|null|forsvinn)")
 _IS_STATEMENT = re.compile(r"=|\\in\b|∈")
 _ZERO = re.compile(r"=\s*0(?:\s|\\[,;:! ]|\\q?quad|[.,;])*\Z")
 _IS_ZERO = re.compile(r"=\s*0(?![\w.,]?\d)")
@@ -86,11 +87,11 @@ class DisplayedSets:
             display = space
         rows = [self._without_own(display, row) for row in _rows(display.text)]
         words = self.text[max(offset - _BEFORE, 0) : offset] + _plain(display.text.partition("=")[0])
-        if not any(self._may_be_one(words, _plain(row)) for row in rows):
+        texts = [self._text(words, row) for row in rows]
+        if not any(self._may_be_one(words, text) for text in texts):
             self.reader.read_display(display)
             return
-        for row in rows:  # what one defines may stand in the next
-            text = _plain(row)
+        for row, text in zip(rows, texts, strict=True):  # what one defines may stand in the next
             name = self._set_of(words, text)
             if name is not None:
                 where = display.locate(0, len(display.text))
@@ -98,6 +99,11 @@ class DisplayedSets:
             left = row if name is None else _determinant(row)
             if left:
                 self.reader.read_display(replace(display, text=left))
+
+    def _text(self, words: str, row: str) -> str:
+        """The equations of a row; those of an equilibrium hold together."""
+        text = _plain(row)
+        return held_together(text) if self._spoken_of(words + text) == "equilibria" else text
 
     def _without_own(self, display: Display, row: str) -> str:
         r"""A row without the letter that it defines beside a coordinate: `\cos q_2 = ... =: D`."""
@@ -190,9 +196,12 @@ class DisplayedSets:
         text = ANY.sub(lambda said: " " * len(said[0]), self.text)
         for found in islice(_FORMULAS.finditer(text), _MOST_FORMULAS):
             words = text[max(found.start() - _BEFORE, 0) : found.start()].rpartition(".")[2]
-            if not ANNOUNCED[name].search(words) or DENIED.search(words.rpartition("\n\n")[2]):
+            is_announced = ANNOUNCED[name].search(words + found[0])
+            if not is_announced or DENIED.search(words.rpartition("\n\n")[2]):
                 continue
             formulas = _in_words(found[0])
+            if not _IS_STATEMENT.search(formulas) and not _VANISHES.match(text, found.end()):
+                continue
             if is_set(self.reader.vocabulary, formulas):
                 self.found[name] = (self.source.place(found.start(), len(found[0])), [formulas])
                 return
@@ -210,7 +219,7 @@ class DisplayedSets:
         asked = [name for name in ANNOUNCED if name in vocabulary.quantities]
         if self.told >= set(asked) or not _IS_STATEMENT.search(text) or _is_determinant(text):
             return None
-        spoken = self._spoken_of(asked, words + text)
+        spoken = self._spoken_of(words + text)
         has_begun = not spoken and "inverse" in self.found
         is_open = "inverse" in asked and "inverse" not in self.told
         if is_open and self._are_branches(text, has_begun or spoken == "inverse"):
@@ -233,9 +242,9 @@ class DisplayedSets:
         vocabulary = self.reader.vocabulary
         return bool(coordinate_named(vocabulary, text)) or function_named(vocabulary, text) is not None
 
-    @staticmethod
-    def _spoken_of(asked: list[str], words: str) -> str:
-        """Which of the sets the words speak of last."""
+    def _spoken_of(self, words: str) -> str:
+        """Which of the sets that are asked for the words speak of last."""
+        asked = [name for name in ANNOUNCED if name in self.reader.vocabulary.quantities]
         ends = {name: [found.end() for found in ANNOUNCED[name].finditer(words)] for name in asked}
         told = {name: found[-1] for name, found in ends.items() if found}
         return max(told, key=lambda name: told[name]) if told else ""

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 from dynsolve.answers.reading.configurations import read_configurations
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.set_words import AND, ARBITRARY, HEADS, OR, SO, STABLE
+from dynsolve.answers.reading.set_text import held_together
+from dynsolve.answers.reading.set_words import ALL, AND, ARBITRARY, HEADS, OR, REGARDLESS, STABLE
 from dynsolve.answers.reading.sources import Source
-from dynsolve.quantities.spelling import key
 
 _MARK = (
     r"(?:[ \t>*_#+$|-]|\(?(?:[0-9]{1,2}|[A-Za-z])[.)](?=[* \t])|\\(?:item|noindent|par|quad|,|;|:|!|\[|\())*"
@@ -38,15 +38,25 @@ _REMARK = re.compile(
     re.IGNORECASE,
 )
 _NAME = r"\$?\\?[A-Za-z]\w{0,9}(?:_\{?\w{1,3}\}?)?\$?"
+_TURN = r"(?:2[ \t]*(?:\\pi|π)|360(?:°|\^\{?\\circ\}?))"
+_HALF = r"(?:\\pi|π|180(?:°|\^\{?\\circ\}?))"
+_WHOLE_LINE = (
+    rf"(?:(?:\\mathbb[ \t]*\{{?[ \t]*)?[Rℝ]\}}?(?![A-Za-z])|[\[(][ \t]*0[ \t]*,[ \t]*{_TURN}[ \t]*[\])\[]"
+    rf"|[\[(\]][ \t]*[-−–][ \t]*{_HALF}[ \t]*,[ \t]*{_HALF}[ \t]*[\])\[])"
+)
+_ANY = (
+    rf"\b(?:{ALL})[ \t]+(?:(?:values? of|Werte?|verdi(?:er)? av)[ \t]+)?{_NAME}"
+    rf"(?:[ \t]*(?:∈|\\in\b)[ \t]*{_WHOLE_LINE}\$?)?"
+    rf"|\b(?:{REGARDLESS})[ \t]+{_NAME}"
+    rf"|{_NAME}[ \t]+(?:(?:is|are|being|may be|can be|ist|er)[ \t]+)?(?:{ARBITRARY})\b[,;]?"
+    rf"|{_NAME}[ \t]*(?:∈|\\in\b)[ \t]*{_WHOLE_LINE}\$?(?:[ \t]*(?:{ARBITRARY})\b)?"
+)
 ANY = re.compile(
-    rf"[,;]?[ \t]*(?:\b(?:with|for|and|where|mit|med|{AND})[ \t]+)?"
-    rf"(?:\b(?:any|all|every|arbitrary|alle|jedes|beliebiges|hver)[ \t]+{_NAME}"
-    rf"|{_NAME}[ \t]+(?:(?:is|are|may be|can be|ist|er)[ \t]+)?(?:{ARBITRARY})\b[,;]?"
-    rf"|{_NAME}[ \t]*(?:∈|\\in\b)[ \t]*(?:\\mathbb[ \t]*\{{?[ \t]*)?[Rℝ]\}}?(?![A-Za-z])\$?)"
+    rf"[ \t]{{0,9}}\((?:{_ANY})\)"
+    rf"|[,;]?[ \t]{{0,9}}(?:\b(?:with|for|where|mit|bei|für|med|ved|{AND})[ \t]+)?(?:{_ANY})"
 )
 _DECORATION = re.compile(r"\\bar\b\s*|(?<=[\w}])(?:_\{?eq?\}?(?![A-Za-z0-9])|\^\{?\*\}?)")
 _LEADING = re.compile(rf"\A(?:[\s,;]|(?:{AND}|with|for|mit|für|med|ved)\s)+")
-_WORDS = re.compile(rf";|∨|∧|\s(?:{AND}|{OR}|{SO})\s")
 _TUPLE = re.compile(r"\(([^()=]{1,80}(?:\([^()]{1,40}\)[^()=]{0,40})?)\)")
 _BETWEEN = re.compile(rf"(?:\s|,|;|\b(?:{AND}|{OR})\b|=|∈|\\in\b|\\?[{{}}])*")
 _TRAILING = re.compile(r"(?:[\s.,;]|\\\]|\\\)|\\\\|\$\$)+\Z")
@@ -61,6 +71,7 @@ _NOT_LINE_END = re.compile(r"[^\n]")
 _CLOSING = re.compile(r"(?:\\\]|\\\)|\$\$?)[ \t.,;]*\Z")
 _PAIRS = (("\\[", "\\]"), ("\\(", "\\)"))
 _BLANK = " \t$*_}"
+_BLANKS = re.compile(r"[ \t]+")
 _MOST = 200
 """So many lines are looked at."""
 
@@ -117,41 +128,23 @@ def _value(values: list[str], coordinates: Sequence[str], is_joined: bool) -> st
     """
     plain = []
     for value in values:
-        value = _REST.sub("", ANY.sub("", value))
+        value = _REST.sub("", ANY.sub("", _BLANKS.sub(" ", value)))
         value = _MATHEMATICS.sub(" ", _DECORATION.sub("", ANY.sub("", _REMARK.sub("", value))))
         plain.append(_points(_LEADING.sub("", _TRAILING.sub("", value)).strip(), coordinates))
-    if is_joined and len(plain) == 1:
-        pieces = plain[0].split(",")
-        lefts = {piece.partition("=")[0].strip() for piece in pieces}
-        if (
-            len(lefts) == len(pieces) > 1
-            and all("=" in piece for piece in pieces)
-            and not _WORDS.search(plain[0])
-        ):
-            return " and ".join(pieces)
-    return " ; ".join(plain)
+    return held_together(plain[0]) if is_joined and len(plain) == 1 else " ; ".join(plain)
 
 
 def _points(text: str, coordinates: Sequence[str]) -> str:
-    """Points in parentheses as equations: `(q_1, q_2) = (0, 0), (pi, 0)`; any other text as it is."""
-    tuples = [[part.strip() for part in found[1].split(",")] for found in _TUPLE.finditer(text)]
+    """Points in parentheses as one set: `(q_1, q_2) = (0, 0), (pi, 0)`; any other text as it is."""
+    tuples = [found[1] for found in _TUPLE.finditer(text)]
     rest = _TUPLE.sub("", text)
-    if not tuples or _BETWEEN.fullmatch(rest) is None or {len(one) for one in tuples} != {len(coordinates)}:
+    sizes = {one.count(",") + 1 for one in tuples}
+    if not tuples or _BETWEEN.fullmatch(rest) is None or sizes != {len(coordinates)}:
         return text
+    names = ", ".join(coordinates)
     if "=" in rest or "∈" in rest or "\\in" in rest:
         names, *tuples = tuples
-        pairs = [zip(names, one, strict=True) for one in tuples]
-    else:
-        pairs = [zip(coordinates, one, strict=True) for one in tuples]
-    equations = (
-        [f"{name} = {value}" for name, value in pair if key(name) != key(value.lstrip("\\"))]
-        for pair in pairs
-    )
-    return " ; ".join(" and ".join(one) for one in equations)
-
-
-def _plain(name: str) -> str:
-    return key(name.lstrip("\\"))
+    return f"({names}) ∈ {{{', '.join(f'({one})' for one in tuples)}}}"
 
 
 def read_headed(reader: EquationReader, source: Source, found: Iterable[HeadedSet]) -> None:

@@ -11,8 +11,9 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
 
-from dynsolve.answers.reading.set_words import AND, OR, SO
+from dynsolve.answers.reading.set_words import AND, INTEGER, OR, SINCE, SO
 from dynsolve.errors import ReadError
+from dynsolve.quantities.spelling import key
 
 Together = tuple[str, ...]
 """The texts of equations that hold together."""
@@ -31,22 +32,41 @@ FOLLOWS = re.compile(
 )
 """What leads from one form of a set to the next, which says the same."""
 
+_REASON = re.compile(rf"(?:,\s{{0,9}}|\s)(?:{SINCE})\s")
+_VERB = re.compile(r"\s(?:folgt|følger|gilt|gjelder)\s{0,9}\Z")
+_BUILDER = re.compile(r"\\?\{\s{0,9}\([^()=]{1,80}\)\s{0,9}(?:\\mid\b|\||:)(.*?)\\?\}\Z")
+"""`{(x, q): q = 0}`, the points for which something holds."""
+
+_COUNT = r"[jklmn](?:_\{?\d\}?)?"
+_B = r"\s{0,9}"
 _INTEGERS = re.compile(
-    r"\s*[,;]?\s*\(?\s*(?:\\(?:quad|text\{\s*for\s*\}|forall)\s*|for\s+|with\s+|∀\s*)?"
-    r"[kn]\s*(?:(?:\\in|∈|\bin\b)\s*(?:\\mathbb\s*\{?\s*Z\s*\}?|ℤ|Z\b|(?:the\s+)?integers)|(?:an?\s+)?integer)\s*\)?"
+    rf"{_B}[,;]?{_B}\(?{_B}(?:\\(?:quad|text\{{\s*for\s*\}}|forall)\s*|(?:for|with|where|mit|für|med|der)\s+|∀\s*)?"
+    rf"(?<![A-Za-z_\\]){_COUNT}(?:{_B},{_B}{_COUNT}){{0,3}}{_B}"
+    rf"(?:(?:\\in|∈|\bin\b)\s*(?:\\mathbb\s*\{{?\s*Z\s*\}}?|ℤ|Z\b|(?:the\s+)?integers)|(?:{INTEGER})\b){_B}\)?"
 )
-_COUNTED = re.compile(r"\s*[,;]\s*\(?\s*[kn]\s*=\s*(?:0|\.\.\.|\\[lc]?dots|…)[^=]*\Z")
+_COUNTED = re.compile(rf"\s*[,;]\s*\(?\s*{_COUNT}\s*=\s*(?:0|\.\.\.|\\[lc]?dots|…)[^=]*\Z")
 _MODULO = re.compile(r"\s*(?:\(\s*mod(?:ulo)?\s+([^()]+)\)|\\pmod\s*\{([^{}]*)\}|\bmod(?:ulo)?\s+(.+))\s*\Z")
 _HALF_TURN = re.compile(r"\s*(?:\\?pi|π|180\s*(?:°|deg|\^\\circ|\^\{\\circ\}))\s*\Z")
-_MEMBERS = re.compile(r"(?:\\in\b|∈|\bin\b|=)\s*\\?\{((?:[^{}]|\{[^{}]*\})*?)\\?\}\s*\Z")
-_WHOLE = re.compile(r"(?<![A-Za-z_\\])([kn])(?![A-Za-z_0-9])")
-_OF_TURNS = re.compile(r"(?<![A-Za-z_\\])([kn])(?=[\s*]{0,3}(?:\\?pi(?![A-Za-z])|π))")
+_SET = r"\\?\{(?:[^{}]|\{[^{}]*\})*?\\?\}"
+_MEMBERS = re.compile(
+    rf"(?:\\in\b|∈|\bin\b|=)({_B}{_SET}(?:{_B}(?:\\times\b|×){_B}{_SET}){{0,5}}){_B}(?:\^{_B}\{{?{_B}[2-6]{_B}\}}?)?{_B}\Z"
+)
+_RELATION = re.compile(r"=|\\in\b|∈")
+_MOST_BEFORE = 12
+"""So many names and commas are looked at before a membership."""
+
+_TIMES = re.compile(r"\\times\b|×")
+_WHOLE = re.compile(rf"(?<![A-Za-z_\\])({_COUNT})(?![A-Za-z_0-9])")
+_OF_TURNS = re.compile(
+    rf"(?<![A-Za-z_\\])({_COUNT})(?=[\s*]{{0,3}}(?:\\[dt]?frac\s?\{{?\s?)?(?:\\?pi(?![A-Za-z])|π))"
+)
 """A letter before π counts turns, whatever else the problem calls so: k π beside a stiffness k."""
 
 _OR = re.compile(rf"\s(?:{OR})\s|\s\|\|?\s|∨|\\(?:lor|vee)\b|;")
 _AND = re.compile(rf"\s(?:{AND})\s|&&?|∧|\\(?:land|wedge)\b")
 _JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|{FOLLOWS.pattern}|,")
 _COMMA = re.compile(",")
+_COMMA_AND = re.compile(rf",\s{{1,9}}(?:{AND})\s")
 _LEADING_AND = re.compile(rf"\A\s*(?:{AND})\s(?=[^=]*=)")
 _LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
@@ -62,12 +82,14 @@ def alternatives(
     >>> list(alternatives(["q2 = 0 or pi and q3 = 0"], lambda letter: False, lambda text: text[0] != "q"))
     [('q2 = 0', 'q3 = 0'), ('q2 = pi', 'q3 = 0')]
     """
-    text = " or ".join(map(_spelled_out, texts))
+    text = " or ".join(_spelled_out(one, is_value) for one in texts)
     for equations in _either(text, is_value):
         found = [letter for one in equations for letter in _WHOLE.findall(one)]
         turns = [letter for one in equations for letter in _OF_TURNS.findall(one)]
         letters = dict.fromkeys(
-            letter for letter in found if not is_name(letter) or found.count(letter) == turns.count(letter)
+            letter
+            for letter in found
+            if (letter in "kn" and not is_name(letter)) or found.count(letter) == turns.count(letter)
         )
         for numbers in product(WHOLE_NUMBERS, repeat=len(letters)):
             values = dict(zip(letters, numbers, strict=True))
@@ -80,7 +102,12 @@ def joined(text: str) -> list[str]:
     >>> joined("q1 = atan2(y, x), q2 = 0 and q3 = pi")
     ['q1 = atan2(y, x)', 'q2 = 0', 'q3 = pi']
     """
-    return [part.strip() for part in _parts(_SPACE.sub(" ", _WORD.sub(r" \1 ", text)), _JOINTS)]
+    return [part.strip() for part in _parts(_in_signs(text), _JOINTS)]
+
+
+def _in_signs(text: str) -> str:
+    """The text with its words as words, and blanks for what only sets it."""
+    return _EQUALS.sub("=", _SPACE.sub(" ", _WORD.sub(r" \1 ", text)))
 
 
 def _with_numbers(text: str, values: Mapping[str, int]) -> str:
@@ -88,15 +115,81 @@ def _with_numbers(text: str, values: Mapping[str, int]) -> str:
     return _WHOLE.sub(lambda letter: f"({values[letter[1]]})" if letter[1] in values else letter[0], text)
 
 
-def _spelled_out(text: str) -> str:
+def _spelled_out(text: str, is_value: Callable[[str], bool]) -> str:
     """The text with words for signs, behind its last arrow, and without what is said of whole numbers."""
-    text = _EQUALS.sub("=", _SPACE.sub(" ", _WORD.sub(r" \1 ", text)))
-    text = _DETERMINANT.sub("", FOLLOWS.split(text)[-1], count=1)
-    text = _COUNTED.sub("", _INTEGERS.sub("", text))
+    text = _in_signs(text)
+    text = _DETERMINANT.sub("", FOLLOWS.split(_REASON.split(text)[0])[-1], count=1)
+    text = _COUNTED.sub("", _INTEGERS.sub("", _VERB.sub("", text))).strip()
+    text = _BUILDER.sub(r"\1", text)
     if (modulo := _MODULO.search(text)) is not None:
         by = next(group for group in modulo.groups() if group is not None)
         text = text[: modulo.start()] + (" + k*pi" if _HALF_TURN.fullmatch(by) else "")
-    return _with_or(text)
+    return _with_or(_memberships(_both(text), is_value))
+
+
+def held_together(text: str) -> str:
+    """`q_1 = 0, q_2 = π` with `and` for its commas, where each is an equation for something else."""
+    bare = _INTEGERS.sub("", _in_signs(text))
+    pieces = _parts(bare, _COMMA)
+    lefts = {_left(piece) for piece in pieces}
+    is_one = len(lefts) == len(pieces) > 1 and all("=" in piece for piece in pieces)
+    return " and ".join(pieces) if is_one and len(pieces) == len(_parts(bare, _JOINTS)) else text
+
+
+def _both(text: str) -> str:
+    """`q_1 = 0 or q_1 = π, and q_2 = 0 or q_2 = π`, where the comma says that `and` parts first."""
+    pieces = _parts(text, _COMMA_AND)
+    lefts = [{_left(one) for one in _parts(piece, _OR) if "=" in one} for piece in pieces]
+    if len(pieces) == 1 or any(len(left) != 1 for left in lefts) or len(set.union(*lefts)) < len(lefts):
+        return text
+    return " and ".join(f"({piece.strip()})" for piece in pieces)
+
+
+def _memberships(text: str, is_value: Callable[[str], bool]) -> str:
+    """Memberships as equations, which commas join: `q_1, q_2 ∈ {0, π}`, `(q_1, q_2) ∈ {(0, 0), (0, π)}`."""
+
+    def is_name_alone(part: str) -> bool:
+        return _RELATION.search(part) is None and not is_value(part)
+
+    parts = _split(text, _JOINTS)
+    for at in range(len(parts) - 1, -1, -2):
+        found = _MEMBERS.search(parts[at]) if at < len(parts) else None
+        if found is None:
+            continue
+        first = at
+        while (
+            first > max(at - _MOST_BEFORE, 0) and parts[first - 1] == "," and is_name_alone(parts[first - 2])
+        ):
+            first -= 2
+        names = [*parts[first:at:2], *_listing(parts[at][: found.start()])]
+        parts[first : at + 1] = [_equations(names, [_listing(one) for one in _TIMES.split(found[1])])]
+        for joint in (first - 1, first + 1):
+            if 0 < joint < len(parts) and parts[joint] == ",":
+                parts[joint] = " and "
+    return "".join(parts)
+
+
+def _equations(names: Sequence[str], sets: Sequence[Sequence[str]]) -> str:
+    """What says that each name has a value of its set, or all of them those of one tuple of a single set."""
+    if len(names) > 1 and len(sets) == 1 and all(value.strip()[:1] == "(" for value in sets[0]):
+        points = [zip(names, _listing(value), strict=False) for value in sets[0]]
+        choices = [[f"{n} = {v}" for n, v in point if _key(n) != _key(v)] for point in points]
+        return "(" + " or ".join("(" + " and ".join(one) + ")" for one in choices) + ")"
+    pairs = zip(names, sets if len(sets) > 1 else [sets[0]] * len(names), strict=False)
+    return (
+        "(" + " and ".join("(" + " or ".join(f"{n} = {v}" for v in values) + ")" for n, values in pairs) + ")"
+    )
+
+
+def _listing(text: str) -> list[str]:
+    """What commas part between the brackets around all of it, if any."""
+    text = text.strip().removeprefix("\\")
+    inside = text[1:-1].removesuffix("\\") if text[:1] in "({" and text[-1:] in ")}" else text
+    return _parts(inside, _COMMA)
+
+
+def _key(text: str) -> str:
+    return key(text.strip().lstrip("\\"))
 
 
 def _with_or(text: str) -> str:
@@ -156,14 +249,11 @@ def _left(text: str) -> str:
 
 
 def _listed(text: str, is_one_of: bool) -> list[str]:
-    """q₂ = 0, π and q₂ ∈ {0, π}: further values of one equation, which commas part.
+    """q₂ = 0, π: further values of one equation, which commas part.
 
     Where commas part equations, they are alternatives if `and` joins some, and hold together in a
     text that `is_one_of` several alternatives, or with `and` behind the last comma.
     """
-    if (members := _MEMBERS.search(text)) is not None:
-        values = _parts(members[1], _COMMA)
-        return [f"{text[: members.start()]}= {values[0]}", *values[1:]]
     written = _parts(text, _COMMA)
     pieces = [_LEADING_AND.sub("", piece) for piece in written]
     lefts = {_left(piece) for piece in pieces if "=" in piece}
@@ -197,10 +287,15 @@ def _running(text: str) -> Iterator[int]:
 
 def _parts(text: str, separator: re.Pattern[str]) -> list[str]:
     """What stands between separators outside of brackets."""
+    return _split(text, separator)[::2]
+
+
+def _split(text: str, separator: re.Pattern[str]) -> list[str]:
+    """The same with the separators."""
     levels = list(_running(text))
-    found, start = [], 0
+    found, start = list[str](), 0
     for sign in separator.finditer(text):
         if levels[sign.start()] == 0:
-            found.append(text[start : sign.start()])
+            found += [text[start : sign.start()], sign[0]]
             start = sign.end()
     return [*found, text[start:]]

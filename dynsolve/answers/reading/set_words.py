@@ -1,7 +1,8 @@
 """The words around sets in English, German and Norwegian: a table each, one row per language.
 
 `HEADS` are what a set is called at the head of a line or as a heading, `ANNOUNCED` what speaks of one in the
-text before a formula, `DENIED` what takes that back.  `AND`, `OR` and `SO` join formulas.
+text before a formula, `DENIED` what takes that back.  `AND`, `OR` and `SO` join formulas, what
+stands behind `SINCE` gives the reason.  `ALL`, `ARBITRARY` and `REGARDLESS` say that a coordinate is free.
 """
 
 from __future__ import annotations
@@ -71,10 +72,25 @@ DENIED = _compiled((
 
 OR = _any("or", "oder", "eller", "ou")
 AND = _any("and", "und", "og", "et", "y")
-SO = _any(
-    r"i\.\s?e\.", "that is", "hence", "thus", "therefore", "so",
-    r"d\.\s?h\.", "das heißt", "also", "somit", "folglich",
-    r"dvs\.?", "det vil si", "altså", "dermed",
+_IT = r"(?:(?:which|it|this|that|was|das|dies|woraus|daraus|es|det|dette|som) )?"
+SO = rf"(?:(?:{AND}) )?" + _any(
+    r"(?:i\.\s?e\.", "that is", "hence", "thus", "therefore", "so(?: that)?",
+    rf"{_IT}(?:gives?|yields?|implies|means|(?:follows?|results?)(?! from)(?: that)?)",
+    r"d\.\s?h\.", "das heißt", "also", "somit", "folglich", "damit", "woraus", "daraus",
+    rf"{_IT}(?:(?:folgt|ergibt)(?! aus)(?: sich)?(?:,? dass)?|liefert|bedeutet)",
+    r"dvs\.?", "det vil si", "altså", "dermed", rf"{_IT}(?:gir|betyr|(?:følger|medfører)(?! av)(?: at)?)",
+) + ")"  # fmt: skip
+SINCE = _any(
+    "since", "because", "follows? from", "results? from", "weil", "denn", "(?:folgt|ergibt sich) aus",
+    "fordi", "siden", "følger av",
 )  # fmt: skip
+ALL = _any("any", "all", "every", r"(?:alle|jede|beliebige|freie)[rsmn]?", "arbitrary", "hver", "vilkårlige?")
 ARBITRARY = _any("arbitrary", r"any(?:thing|where)?", "free", "beliebig", "frei", "vilkårlig", "fri")
+REGARDLESS = _any(
+    r"(?:independent(?:ly)?|regardless|irrespective) of", "whatever",
+    "unabhängig von", "uavhengig av", "uansett",
+)  # fmt: skip
+INTEGER = _any(
+    r"(?:(?:is|are) )?(?:an )?integers?", "whole numbers?", r"(?:sind |ist )?ganzzahlig", "heltall"
+)
 STABLE = r"(?:un)?stable|(?:in)?stabil\w*|ustabil\w*"
