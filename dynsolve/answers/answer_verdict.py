@@ -35,6 +35,7 @@ NOT_FROM_OWN = "not_from_own"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's, with which Ḋ - 2C is {}"
 FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"
+MAY_FOLLOW = "it is not right by itself, and may follow from {}, which could not be read"
 LONGER = "these are {} parameters; {} are enough"
 
 
@@ -265,3 +266,11 @@ def _entries(name: str, compared: KeyComparison) -> Iterator[tuple[tuple[int, ..
 def in_order(graph: AnswerGraph, names: Iterable[str]) -> tuple[str, ...]:
     """Answers in the order of the derivation, each once."""
     return tuple(sorted(dict.fromkeys(names), key=graph.quantities.position))
+
+
+def waiting_for(answer: JudgedAnswer, sources: Iterable[str]) -> JudgedAnswer:
+    """A wrong answer that a human has to look at, since it may follow from what could not be read."""
+    fault = MAY_FOLLOW.format(" and ".join(sources))
+    return replace(
+        answer, verdict=Verdict.UNREADABLE, fault=fault, entries=(), diagnosis=(), difference=None, loss=""
+    )

@@ -16,7 +16,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 
-from dynsolve.answers.answer_verdict import AnswerJudge
+from dynsolve.answers.answer_verdict import AnswerJudge, in_order, waiting_for
 from dynsolve.answers.configuration_verdict import judged_set
 from dynsolve.answers.definite_verdict import judged_verdicts
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
@@ -172,7 +172,7 @@ class Judge:
     def _answers(self) -> dict[str, JudgedAnswer]:
         """The answers that were given, and those that were asked for, by name."""
         judge = AnswerJudge(self.problem, self.hand_in, self.explanations, self._diagnoser)
-        answers = {name: judge(name) for name in self.hand_in.chains}
+        answers = self._with_waiting({name: judge(name) for name in self.hand_in.chains})
         if self.tables:
             answers[TABLE] = self.checker.table_judge(self.tables)
         sets = self.submission.configurations
@@ -196,6 +196,21 @@ class Judge:
             if (defined := self._unwritten(name, answers)).verdict is Verdict.MISSING:
                 answers[name] = defined
         return answers
+
+    def _with_waiting(self, answers: dict[str, JudgedAnswer]) -> dict[str, JudgedAnswer]:
+        """The answers, where those wait that are not right and may follow from what could not be read."""
+        named = (name for one in self.submission.not_recognized for name in one.answers)
+        faulty = (name for name, answer in answers.items() if answer.verdict is Verdict.UNREADABLE)
+        target, rules = self.hand_in.compare.target, self.hand_in.answer_ring.rules
+        unread = {node: name for name in (*named, *faulty) if (node := target(name).node) in rules}
+        found = dict(answers)
+        for name, answer in answers.items() if unread else ():
+            compared = self.hand_in.comparisons[name]
+            if answer.verdict is Verdict.WRONG and not compared.obstacles:
+                sources = in_order(self.graph, self.explanations.hanging_on(compared, unread))
+                if sources:
+                    found[name] = waiting_for(answer, sources)
+        return found
 
     def _ledger(self, answers: dict[str, JudgedAnswer]) -> Ledger:
         """What becomes of the equations that are none of the answers; formulas that count are."""

@@ -171,6 +171,30 @@ class Explanations:
                 return value.used & empty
         return frozenset()
 
+    def hanging_on(self, compared: KeyComparison, unread: Mapping[str, str]) -> frozenset[str]:
+        """Which of the nodes that could not be read, with their answers, a value that is not the key's hangs on.
+
+        Where one has twice the key's value, what the nearest values lead to is another.
+        """
+        graph, node = self.hand_in.graph, compared.target.node
+        doubled = {
+            name: StudentValue(twice, (unread[name],))
+            for name in unread.keys() - self._students.keys() - {node}
+            if (twice := _twice(graph.key(name))) is not None
+        }
+        if not doubled or not self._keeps(compared):
+            return frozenset()
+        different = [(i, j) for i, row in enumerate(compared.right) for j, r in enumerate(row) if r is None]
+
+        def shown(value: Any) -> list[Any]:
+            return [entry_of(compared.target.of(value), i, j) for i, j in different]
+
+        known = [graph.key(node), *(v.value for v in self.direction.nearest_of_each_route(node))]
+        unchanged = [shown(value) for value in known]
+        led = self._direction({**self._students, **doubled}).nearest_of_each_route(node)
+        changed = (one.used for one in led if shown(one.value) not in unchanged)
+        return frozenset().union(*changed) & frozenset(unread.values())
+
     def lead_elsewhere(self, compared: KeyComparison) -> bool:
         """Whether an answer is the key's although the student's own wrong answers lead to other values."""
         node, robot = compared.target.node, self.hand_in.answer_ring.robot
@@ -197,6 +221,13 @@ class Explanations:
 def entry_of(value: Any, i: int, j: int) -> Any:
     """One entry of a matrix; a scalar is its own."""
     return value[i, j] if isinstance(value, Matrix | FractionMatrix) else value
+
+
+def _twice(value: Any) -> Expr | Matrix | None:
+    """A value that is not the key's; None of what cannot be added."""
+    if isinstance(value, Matrix):
+        return value.scale(value.ring.constant(2))
+    return value + value if isinstance(value, Expr) else None
 
 
 def _entries(value: Any) -> tuple[Expr, ...]:
