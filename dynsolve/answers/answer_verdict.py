@@ -36,6 +36,7 @@ NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel'
 FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"
 MAY_FOLLOW = "it is not right by itself, and may follow from {}, which could not be read"
+NOT_GENERAL = "it is not right in general; {}"
 LONGER = "these are {} parameters; {} are enough"
 
 
@@ -268,9 +269,8 @@ def in_order(graph: AnswerGraph, names: Iterable[str]) -> tuple[str, ...]:
     return tuple(sorted(dict.fromkeys(names), key=graph.quantities.position))
 
 
-def waiting_for(answer: JudgedAnswer, sources: Iterable[str]) -> JudgedAnswer:
-    """A wrong answer that a human has to look at, since it may follow from what could not be read."""
-    fault = MAY_FOLLOW.format(" and ".join(sources))
+def waiting(answer: JudgedAnswer, fault: str) -> JudgedAnswer:
+    """A wrong answer that a human has to look at, and why."""
     return replace(
         answer, verdict=Verdict.UNREADABLE, fault=fault, entries=(), diagnosis=(), difference=None, loss=""
     )

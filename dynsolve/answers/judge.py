@@ -16,7 +16,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 
-from dynsolve.answers.answer_verdict import AnswerJudge, in_order, waiting_for
+from dynsolve.answers.answer_verdict import MAY_FOLLOW, NOT_GENERAL, AnswerJudge, in_order, waiting
 from dynsolve.answers.configuration_verdict import judged_set
 from dynsolve.answers.definite_verdict import judged_verdicts
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
@@ -34,6 +34,7 @@ from dynsolve.answers.marking.marks import mark
 from dynsolve.answers.marking.policy import Policy
 from dynsolve.answers.marking.substance import weighed
 from dynsolve.answers.reading.files import FileReader
+from dynsolve.answers.reading.sentences import NO_CLAIMS
 from dynsolve.answers.submission import NotRecognized, Submission
 from dynsolve.answers.table_verdict import NAME as TABLE
 from dynsolve.answers.table_verdict import TableJudge
@@ -198,18 +199,23 @@ class Judge:
         return answers
 
     def _with_waiting(self, answers: dict[str, JudgedAnswer]) -> dict[str, JudgedAnswer]:
-        """The answers, where those wait that are not right and may follow from what could not be read."""
-        named = (name for one in self.submission.not_recognized for name in one.answers)
+        """The answers; what is not right waits if it may be of one case, or follow from what was not read."""
+        unknown = (one for one in self.submission.not_recognized if one.why not in NO_CLAIMS)
+        named = (name for one in unknown for name in one.answers)
         faulty = (name for name, answer in answers.items() if answer.verdict is Verdict.UNREADABLE)
         target, rules = self.hand_in.compare.target, self.hand_in.answer_ring.rules
         unread = {node: name for name in (*named, *faulty) if (node := target(name).node) in rules}
         found = dict(answers)
-        for name, answer in answers.items() if unread else ():
+        for name, answer in answers.items():
             compared = self.hand_in.comparisons[name]
-            if answer.verdict is Verdict.WRONG and not compared.obstacles:
+            if answer.verdict is not Verdict.WRONG:
+                continue
+            if doubt := compared.answer_value.answer.doubt:
+                found[name] = waiting(answer, NOT_GENERAL.format(doubt))
+            elif unread and not compared.obstacles:
                 sources = in_order(self.graph, self.explanations.hanging_on(compared, unread))
                 if sources:
-                    found[name] = waiting_for(answer, sources)
+                    found[name] = waiting(answer, MAY_FOLLOW.format(" and ".join(sources)))
         return found
 
     def _ledger(self, answers: dict[str, JudgedAnswer]) -> Ledger:

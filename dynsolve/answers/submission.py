@@ -46,6 +46,7 @@ class Answer:
     `turned` are the coordinates that it counts the other way than the problem does.
     `whole` is the matrix that it was written in, where another entry of this could not be read.
     `is_equation` says that it is one side of `... = 0`, which may be multiplied by a factor.
+    `doubt` says why it may be meant of one case alone, and so waits where it is not right.
     `occurrence` is (chain, member): which equation of the file, and which member of
     `a = b = c` from 0; answers stand in the order of the file.
     """
@@ -65,6 +66,7 @@ class Answer:
     turned: tuple[str, ...] = ()
     is_equation: bool = False
     whole: str = ""
+    doubt: str = ""
     occurrence: tuple[int, int] = (0, 0)
 
 

@@ -172,9 +172,10 @@ class Explanations:
         return frozenset()
 
     def hanging_on(self, compared: KeyComparison, unread: Mapping[str, str]) -> frozenset[str]:
-        """Which of the nodes that could not be read, with their answers, a value that is not the key's hangs on.
+        """The answers on which one that is not the key's hangs, of those that could not be read.
 
-        Where one has twice the key's value, what the nearest values lead to is another.
+        These are the values of `unread`, its keys their nodes: if one of them has twice the key's value, the
+        nearest values lead to another.
         """
         graph, node = self.hand_in.graph, compared.target.node
         doubled = {

@@ -201,7 +201,7 @@ def _holds_friction(
 def _is_multiple(
     graph: AnswerGraph, quantity: Quantity, rows: Sequence[Sequence[WrittenEntry]], compare: EntryComparer
 ) -> bool:
-    """Whether forces are right, those of passive coordinates, which are 0, up to a factor."""
+    """Whether forces, which are said to be 0, are right up to a factor."""
     robot, key = graph.robot, graph.key(quantity.rule)
     first = 0 if isinstance(key, Matrix) else quantity.index[0] - 1
     wanted = key.entries if isinstance(key, Matrix) else (key,)
@@ -210,7 +210,7 @@ def _is_multiple(
             continue
         acceleration, given = robot.coordinates[k].name, written.value.numerator
         own, its = (robot.ring.coefficient(one, acceleration, 2) for one in (given, right))
-        if k not in robot.actions.passive or own.is_zero or given * its != right * own:
+        if own.is_zero or given * its != right * own:
             return False
     return True
 

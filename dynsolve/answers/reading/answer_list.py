@@ -10,7 +10,7 @@ from dynsolve.answers.reading.matrix_parts import written_entries
 from dynsolve.answers.reading.motion_equations import MotionEquation
 from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
-from dynsolve.answers.reading.sentences import IN_CASE
+from dynsolve.answers.reading.sentences import FREE, is_of_case
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
@@ -73,8 +73,8 @@ class AnswerList:
     """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
 
     `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`; `own_scalars`
-    are definitions where what they are kept under is used, else answers of another shape; `in_case` are the
-    numbers of the equations that count where no other answers the same.
+    are definitions where what they are kept under is used, else answers of another shape; `in_case` has the
+    numbers of the equations that count where no other answers the same, with the reason.
     """
 
     vocabulary: Vocabulary
@@ -86,7 +86,7 @@ class AnswerList:
     configurations: list[ConfigurationAnswer] = field(default_factory=list)
     verdicts: list[VerdictAnswer] = field(default_factory=list)
     own_scalars: list[tuple[str, list[Answer], NotRecognized]] = field(default_factory=list)
-    in_case: set[int] = field(default_factory=set)
+    in_case: dict[int, str] = field(default_factory=dict)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
@@ -193,6 +193,8 @@ class AnswerList:
         answer = self.answer((name,), Member(0, tokens, equation.found), origin)
         others = tuple(force for force in forces if force != name)
         self.answers.append(replace(answer, alternatives=others, is_equation=equation.is_zero))
+        if equation.is_zero and not self.vocabulary.passive:
+            self.in_case.setdefault(origin.equation, FREE)
 
     def motion_aside(
         self, equation: MotionEquation, tokens: list[Token], origin: Origin, refused: NotRecognized
@@ -269,6 +271,7 @@ class AnswerList:
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
         self._settle_asides()
+        self.answers = [replace(a, doubt=self.in_case.get(a.occurrence[0], "")) for a in self.answers]
         self._settle_first_frame()
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)
         self.not_recognized += lost
@@ -301,7 +304,7 @@ class AnswerList:
         for of_case in (False, True):
             given = self._given(with_parts=of_case) - (named if of_case else set())
             for refused, answers in self._asides:
-                if (refused.why == IN_CASE) is not of_case:
+                if is_of_case(refused.why) is not of_case:
                     continue
                 if (
                     answers
@@ -316,6 +319,8 @@ class AnswerList:
                     wanted |= {*refused.answers}
                 if answers and given.isdisjoint(refused.answers) and not wanted.isdisjoint(refused.answers):
                     self.answers += answers
+                    if of_case:
+                        self.in_case.update((answer.occurrence[0], refused.why) for answer in answers)
                 else:
                     (self.left_alone if given & set(refused.answers) else self.not_recognized).append(refused)
 
@@ -343,7 +348,8 @@ class AnswerList:
         for answer in [a for a in self.answers if a.occurrence[0] in self.in_case]:
             if answer.name in given:
                 self.answers.remove(answer)
-                case = NotRecognized(answer.text, answer.label, answer.place, IN_CASE, (answer.name,))
+                why = self.in_case[answer.occurrence[0]]
+                case = NotRecognized(answer.text, answer.label, answer.place, why, (answer.name,))
                 self.left_alone.append(case)
 
     def _given(self, with_parts: bool) -> set[str]:

@@ -24,7 +24,7 @@ from dynsolve.answers.reading.limits import MAX_MEMBERS
 from dynsolve.answers.reading.motion_equations import motion_equation
 from dynsolve.answers.reading.no_answers import is_condition, states_zero
 from dynsolve.answers.reading.right_side import RightSide, is_value, read_right_side
-from dynsolve.answers.reading.sentences import HOLDING
+from dynsolve.answers.reading.sentences import CONDITION, may_hold
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.errors import ReadError
@@ -58,7 +58,7 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         tokens = [token for member in members for token in member]
         origin = replace(origin, names=motion.forces)
         refused = origin.of(members, origin.display.aside)
-        if origin.display.aside in HOLDING:
+        if may_hold(origin.display.aside):
             reader.found.motion_aside(motion, tokens, origin, refused)
         else:
             reader.found.said_aside(refused)
@@ -106,10 +106,10 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
             reader.found.left_alone.append(replace(refused, needs=value.references))
             reader.found.general += answers
         else:
-            is_claim = origin.display.aside in HOLDING and not states_zero(
-                reader.vocabulary, members[0], names, value
-            )
-            reader.found.said_aside(refused, answers if is_claim else ())
+            holds = may_hold(origin.display.aside)
+            if holds and states_zero(reader.vocabulary, members[0], names, value):
+                refused, holds = replace(refused, why=CONDITION), False
+            reader.found.said_aside(refused, answers if holds else ())
         return
     reader.found.left_alone.append(origin.of(members, origin.display.aside))
     if isinstance(value, ReadError):

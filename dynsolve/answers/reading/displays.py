@@ -21,7 +21,7 @@ class Display:
     `plain` is one in plain text; `among_prose` one in a line that may be a sentence, which is
     listed, never unreadable, where it cannot be read; `aside` says why a formula in the midst of a
     sentence is no equation of its own: it may say what a letter means, and answers what nothing else does;
-    `in_case` that what stands before a display may say that it does not hold in general.
+    `in_case` says why what stands before a display may say that it does not hold in general.
     """
 
     text: str
@@ -30,7 +30,7 @@ class Display:
     plain: bool = False
     aside: str = ""
     among_prose: bool = False
-    in_case: bool = False
+    in_case: str = ""
 
 
 _GOES_ON = re.compile(r"[\s&]*(?:\\(?:quad|qquad|,|;|!|\s))*\s*(?:[-+=*/]|\\(?:cdot|times)(?![A-Za-z]))")

@@ -43,6 +43,7 @@ from dynsolve.answers.reading.right_side import (
     read_right_side,
     why_no_value,
 )
+from dynsolve.answers.reading.sentences import CONDITION
 from dynsolve.answers.reading.shapes import fitted, model_parts, shown
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.macros import Macro
@@ -353,7 +354,7 @@ class EquationReader:
                 self.found.left_alone.append(origin.of(members, "it is a vector of the recursions"))
                 return
             if is_condition(self.vocabulary, names, found, _values(before)):
-                condition = "it is a condition"
+                condition = CONDITION
             elif is_value(found):
                 given += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):

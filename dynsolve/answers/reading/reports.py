@@ -22,7 +22,7 @@ from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.plain_lines import hidden, plain_lines
 from dynsolve.answers.reading.report_text import visible
-from dynsolve.answers.reading.sentences import IN_CASE, IN_SENTENCE, said_of, taken_from
+from dynsolve.answers.reading.sentences import IN_SENTENCE, is_of_case, said_of, taken_from
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.spoken_verdicts import spoken_verdicts
@@ -141,7 +141,9 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
             else:
                 first = reader.equations
                 sets.read_display(offset, display)
-                reader.found.in_case.update(range(first + 1, reader.equations + 1) if display.in_case else ())
+                if display.in_case:
+                    numbers = range(first + 1, reader.equations + 1)
+                    reader.found.in_case.update(dict.fromkeys(numbers, display.in_case))
         sets.settle()
         if not reader.begins_anew():
             break
@@ -244,7 +246,7 @@ def _displays(
             continue
         why = "" if kind == "inline" else taken_from(text, opening.start(), position, is_coordinate)
         display = _display(text, source, start, end, f"({label[1]})" if label else "")
-        in_case = why == IN_CASE
+        in_case = why if is_of_case(why) else ""
         yield start, end, replace(display, aside="" if in_case else why, in_case=in_case)
 
 

@@ -11,8 +11,21 @@ SPECIAL = "it is said of a special case"
 REJECTED = "the sentence takes it back"
 QUOTED = "it is quoted"
 IN_CASE = "it is said of one case"
-HOLDING = frozenset({IN_SENTENCE, IN_CASE})
-"""What is said so counts where nothing else answers the same."""
+CONDITION = "it is a condition"
+NO_CLAIMS = frozenset({CONDITION, SUPPOSED, SPECIAL, REJECTED, QUOTED})
+"""What is said so says nothing of what the student found."""
+
+FREE = "it is an equation of free motion, in which no generalized force stands"
+
+
+def is_of_case(why: str) -> bool:
+    """Whether it is said of one case: behind these words stand those of the sentence."""
+    return why.startswith(IN_CASE)
+
+
+def may_hold(why: str) -> bool:
+    """Whether what is said so counts where nothing else answers the same."""
+    return why == IN_SENTENCE or is_of_case(why)
 
 
 def _words(*rows: str) -> re.Pattern[str]:
@@ -51,10 +64,13 @@ _CASE = re.compile(
 _ONE_CASE = _words(
     r"\b(?:special|limiting) cases?\b|\b(?:sonder|spezial)f[aä]ll|\b(?:spesial|grense)tilfelle"
     r"|\bhorizontal position"
+    r"|\bstatic(?:ally)?\b|\bstatisch\w*|\bstatisk\b|\b(?:hold|stand)\w* still\b|\bstillst\w+"
+    r"|\bnothing moves\b|\bnichts bewegt\b|\bingenting beveger\b"
     r"|\bat rest\b|\bin ruhe\b|\bi ro\b|\blinearis|\bcheck\b|\bprobe\b|\bkontroll\b|\bcompar|\bvergleich"
     r"|\bsammenlign"
     r"|\bwould\b|\bwürden?\b|\bwären?\b|\bville\b|\bcontributes?\b|\bwithout\b|\bohne\b|\buten\b",
     r"\b(?:for|at|if|when|bei|für|wenn|falls|ved|når|hvis)\b[^$:]{0,40}\$[^$=]{1,60}(?:=[^$=]{1,60})+\$",
+    r"\\dot[^$=]{1,30}=[ \t]*0[ \t]*\$|[\u0307'][^$=]{0,10}=[ \t]*0[ \t]*\$",
     r"\(\$[^$=]{1,60}(?:=[^$=]{1,60})+\$\)|=[ \t]*[0-9.,]+(?:\\[,;: ]|[ \t])*\\(?:mathrm|text)[^$]{1,60}\$",
 )
 """What may make a formula one of a case: it counts where nothing else answers the same."""
@@ -115,7 +131,8 @@ def said_of(text: str, start: int, end: int, is_coordinate: Callable[[str], bool
 
 def taken_from(text: str, start: int, end: int, is_coordinate: Callable[[str], bool]) -> str:
     """Why the sentence around a formula says that it may not be what holds in general; else empty."""
-    sentence = _BORDER.split(text[max(start - _FAR, 0) : start])[-1]
+    before = text[max(start - _FAR, 0) : start].rstrip()
+    sentence = _BORDER.split(before)[-1]
     if any(is_coordinate(case["left"]) for case in _CASE.finditer(sentence)):
         return SPECIAL
     if _TAKEN_BACK.match(text, end):
@@ -126,4 +143,5 @@ def taken_from(text: str, start: int, end: int, is_coordinate: Callable[[str], b
         return REJECTED
     if _QUOTED.search(sentence):
         return QUOTED
-    return IN_CASE if _ONE_CASE.search(sentence) else ""
+    case = _ONE_CASE.search(sentence)
+    return f"{IN_CASE}: {case.group().strip()}" if case else ""

@@ -45,10 +45,11 @@ def test_a_consequence_of_what_was_not_read_waits(before: str, source: str) -> N
     [
         (f"$$K = {UNREAD}$$", WRONG_G),  # nothing of K is in g
         ("$$L = K - P$$", WRONG_G),  # a definition hides nothing
+        ("The arm is free ($\\tau = 0$).", WRONG_G),  # neither does a condition
         (f"$$P = {P1} + {P2}$$", f"$$P_1 = {UNREAD}$$", WRONG_G),  # P stands between
         (f"$$P = {P1} + {P2}$$", rf"$$\tau_2 = {UNREAD}$$", WRONG_G),  # the other entry
         (WRONG_G, rf"$$\tau_1 = {UNREAD}$$"),  # written after it
-        (f"$$P = {UNREAD}$$", rf"$$g = \begin{{bmatrix}} m_1 \\ m_2 \end{{bmatrix}}$$"),  # nothing of the key
+        (f"$$P = {UNREAD}$$", r"$$g = \begin{bmatrix} m_1 \\ m_2 \end{bmatrix}$$"),  # nothing of the key
     ],
 )
 def test_what_cannot_follow_from_it_is_wrong(lines: tuple[str, ...]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.answers.reading.sentences import FREE
 from tests.unit.answers.reading.submissions import report, shown
 
 # of the crane, q1 is driven and q2 is passive
@@ -25,12 +26,9 @@ def test_the_force_is_what_drives_or_that_of_the_passive_coordinate(equation: st
 
 
 def test_equations_are_those_of_all_coordinates_in_their_order_where_the_file_names_none_passive() -> None:
-    found = report(r"$$M\ddot x = F$$ $$m\ddot\theta = 0$$ $$m l\ddot\theta = -g$$", stem="cart-pole").answers
-    assert [(a.name, a.alternatives) for a in found] == [
-        ("f1", ("tau2",)),
-        ("tau2", ("f1",)),
-        ("f1", ("tau2",)),
-    ]
+    found = report(r"$$M\ddot x = F$$ $$m\ddot\theta = 0$$ $$m l\ddot\theta = -g$$", stem="cart-pole")
+    assert [(a.name, a.alternatives) for a in found.answers] == [("f1", ("tau2",)), ("tau2", ("f1",))]
+    assert [(one.answers, one.why) for one in found.left_alone] == [(("f1",), FREE)]
 
 
 @pytest.mark.parametrize("equation", [
