@@ -131,8 +131,9 @@ def said_of(text: str, start: int, end: int, is_coordinate: Callable[[str], bool
 
 def taken_from(text: str, start: int, end: int, is_coordinate: Callable[[str], bool]) -> str:
     """Why the sentence around a formula says that it may not be what holds in general; else empty."""
-    before = text[max(start - _FAR, 0) : start].rstrip()
-    sentence = _BORDER.split(before)[-1]
+    before = text[max(start - _FAR, 0) : start]
+    open_end = before.rstrip()  # a sentence that has not ended goes on in the display below it
+    sentence = _BORDER.split(before if open_end.endswith((".", ";", "!", "?")) else open_end)[-1]
     if any(is_coordinate(case["left"]) for case in _CASE.finditer(sentence)):
         return SPECIAL
     if _TAKEN_BACK.match(text, end):
