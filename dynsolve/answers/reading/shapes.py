@@ -123,7 +123,7 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
                 loose.insert(0, (name, turned.node, "the row is read as a column"))
             elif 0 in shape:  # of any size: B is D only where it has the size of D
                 loose.insert(0, (name, value.node, ""))
-            else:
+            elif name != "Cqd" or 1 in value.shape:  # N = Ḋ - 2C and other matrices have its letters
                 loose.append((name, value.node, ""))
         elif shape == (1, 1) and isinstance(value, Node):
             exact.append((name, Matrix(((value,),)), ""))
