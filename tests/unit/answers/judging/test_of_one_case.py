@@ -86,4 +86,4 @@ def test_a_zero_beside_right_entries_shows_no_step() -> None:
     g1 = r"m_1 g l_{c1} \cos q_1 + m_2 g (l_1 \cos q_1 + l_{c2} \cos(q_1 + q_2))"
     answer = judged(ELBOW, rf"$$g = \begin{{bmatrix}} {g1} \\ 0 \end{{bmatrix}}$$", "g")
     assert answer.verdict is Verdict.WRONG
-    assert [one.code for one in answer.diagnosis] == ["zero"]
+    assert [one.code for one in answer.diagnosis] == ["gravity_missing"]  # of this entry alone
