@@ -47,9 +47,8 @@ class MatrixDiagnoser:
         if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
             return found
         given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
-        if all(entry.mine is not None and entry.mine.is_zero for entry in wrong):  # 0 shows no step
-            is_all = {d.code for d in found} == {"zero"} and all(entry.is_zero for entry in given.entries)
-            return (slip("zero", yours="Your answer"),) if is_all else found
+        if all(entry.is_zero for entry in given.entries):
+            return (slip("zero", yours="Your answer"),) if {d.code for d in found} == {"zero"} else found
         if wrong[0].name == "C" and self._is_transposed_coriolis(compared):
             return (slip("transposed"),)
         for value, right, diagnosis in self._of_matrix(given, wrong[0], _is_explained(found)):

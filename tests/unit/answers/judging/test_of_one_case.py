@@ -80,10 +80,3 @@ def test_a_matrix_under_a_letter_of_the_coriolis_vector_is_none() -> None:
     report = check(check.reader(text, "a.md"))
     assert not [answer.name for answer in report.answers if answer.given]
     assert [one.text.partition(" ")[0] for one in report.set_aside] == ["N"]
-
-
-def test_a_zero_beside_right_entries_shows_no_step() -> None:
-    g1 = r"m_1 g l_{c1} \cos q_1 + m_2 g (l_1 \cos q_1 + l_{c2} \cos(q_1 + q_2))"
-    answer = judged(ELBOW, rf"$$g = \begin{{bmatrix}} {g1} \\ 0 \end{{bmatrix}}$$", "g")
-    assert answer.verdict is Verdict.WRONG
-    assert [one.code for one in answer.diagnosis] == ["gravity_missing"]  # of this entry alone
