@@ -68,11 +68,27 @@ class AnswerJudge:
             written=answer.node,
         )
         if value.rows is None:
-            return replace(base, fault=value.fault, expected=value.expected)
+            unreadable = replace(base, fault=value.fault, expected=value.expected)
+            return self._partly(unreadable, value) if value.read is not None else unreadable
         base = _placed_in_chain(base, chains[-1])
         if compared.target.node not in self.hand_in.answer_ring.rules:
             return replace(base, fault=f"{name} is no quantity of this problem")
         return self.compared(base, compared)
+
+    def _partly(self, base: JudgedAnswer, value: AnswerValue) -> JudgedAnswer:
+        """A matrix of which some entries could not be read: it waits for a human, the others are judged."""
+        compared = self.hand_in.compare(base.name, replace(value, rows=value.read))
+        width = 1 if base.name == "C" else len(value.nodes[0])
+        unread = {i * width + j % width for i, j in value.answer.unread}
+        judged = self.compared(base, compared).entries
+        if len(judged) != len(value.nodes) * width:
+            return base
+        entries = tuple(
+            EntryVerdict(entry.index, Verdict.UNREADABLE) if place in unread else entry
+            for place, entry in enumerate(judged)
+        )
+        found = dict.fromkeys(one for entry in entries for one in entry.diagnosis)
+        return replace(base, entries=entries, diagnosis=tuple(found))
 
     def compared(self, base: JudgedAnswer, compared: KeyComparison) -> JudgedAnswer:
         """The verdict of an answer that was compared with the key; `base` is what else is known of it."""

@@ -122,7 +122,7 @@ def slips(report: Report, view: FeedbackView) -> Iterator[Block]:
             yield Fold(f"{_named(answer)}: wrong", tuple(_wrong(answer, view)))
     for answer in report.answers:
         if answer.verdict is Verdict.UNREADABLE and answer.given:
-            yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer)))
+            yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer, view)))
 
 
 def not_recognized(report: Report) -> Iterator[Block]:
@@ -245,7 +245,7 @@ def _index(entry: EntryVerdict) -> str:
     return str(entry.index[0]) if len(entry.index) == 1 else f"({entry.index[0]}, {entry.index[1]})"
 
 
-def _unreadable(answer: JudgedAnswer) -> Iterator[Block]:
+def _unreadable(answer: JudgedAnswer, view: FeedbackView) -> Iterator[Block]:
     place = answer.place
     where = f"{place}: " if place and place.line else ""
     yield Text((f"{where[:1].upper()}{where[1:]}{answer.fault}.",))
@@ -257,6 +257,12 @@ def _unreadable(answer: JudgedAnswer) -> Iterator[Block]:
         yield Text((Verbatim(f"{before} ▸{here}◂ {after}".strip()),))
     if answer.expected:
         yield Note((answer.expected,))
+    bad = [e for e in answer.entries if e.verdict is Verdict.WRONG]
+    if bad:
+        yield Text((f"Of what could be read, {_places(bad, answer)} {'are' if len(bad) > 1 else 'is'} wrong.",))
+        yield from _slips(answer, bad, view) if view.level >= 2 or view.teacher else ()
+    elif answer.entries:
+        yield Text(("What could be read of it is right or follows.",))
 
 
 def findings(report: Report) -> Iterator[Finding]:

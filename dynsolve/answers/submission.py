@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from dynsolve.errors import Finding
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Matrix, Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +45,7 @@ class Answer:
     the names of symbols that are no symbol of the problem (h0, a zero level of height).
     `turned` are the coordinates that it counts the other way than the problem does.
     `whole` is the matrix that it was written in, where another entry of this could not be read.
+    `partial` is a matrix of which the entries at `unread`, from 0, could not be read, with 0 in their places.
     `is_equation` says that it is one side of `... = 0`, which may be multiplied by a factor.
     `doubt` says why it may be meant of one case alone, and so waits where it is not right.
     `occurrence` is (chain, member): which equation of the file, and which member of
@@ -67,6 +68,8 @@ class Answer:
     is_equation: bool = False
     whole: str = ""
     doubt: str = ""
+    partial: Matrix | None = None
+    unread: tuple[tuple[int, int], ...] = ()
     occurrence: tuple[int, int] = (0, 0)
 
 

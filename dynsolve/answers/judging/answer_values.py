@@ -34,6 +34,7 @@ MOST_ENTRIES = 144
 class AnswerValue:
     """One answer with its value: rows of entries, a scalar as 1×1; `fault` where there is none.
 
+    `read` are the rows where only some entries could be read, 0 for the others.
     `is_definition` says that the value needs what is given nowhere, which `fault` names.
     """
 
@@ -43,6 +44,7 @@ class AnswerValue:
     fault: str = ""
     expected: str = ""
     is_definition: bool = False
+    read: Rows | None = None
 
     @property
     def is_matrix(self) -> bool:
@@ -64,11 +66,12 @@ class AnswerValues:
         self._nodes: dict[int, Node] = {}
         self._faults: dict[int, tuple[str, str]] = {}
         for place, answer in enumerate(answers):
-            if answer.node is None:
+            node = answer.node or answer.partial
+            if node is None:
                 self._faults[place] = answer.fault or "this could not be read", answer.expected
                 continue
             try:
-                turned = in_problems_coordinates(answer, named) or answer.node
+                turned = in_problems_coordinates(answer, named) or node
                 self._nodes[place] = with_inputs(base.robot, named, answer.name, turned)
                 builder.admit(self._nodes[place])
             except AlgebraError as error:
@@ -106,6 +109,8 @@ class AnswerValues:
             return AnswerValue(answer, None, nodes, error.message, is_definition=True)
         except AlgebraError as error:
             return AnswerValue(answer, None, nodes, error.message, error.help)
+        if answer.partial is not None:
+            return AnswerValue(answer, None, nodes, answer.fault, answer.expected, read=rows)
         return AnswerValue(answer, rows, nodes)
 
     def _lookup(self, reference: Reference) -> RationalExpr:

@@ -17,6 +17,7 @@ from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, VerdictAnswer
 from dynsolve.errors import ReadError
+from dynsolve.notation.tree import ZERO, Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import names_in
 from dynsolve.quantities.model_families import QDD_FORWARD, REFERENCE
@@ -157,7 +158,8 @@ class AnswerList:
     def by_entries(self, candidates: tuple[str, ...], member: Member, origin: Origin) -> list[Answer]:
         """The entries of a matrix that is written out, each as an answer; none where no entry can be read.
 
-        The matrix is judged by them; C is not, of which only the rows of C q̇ are determined.
+        The matrix is judged by them; one whose entries have no names, and C, of which only the rows of
+        C q̇ are determined, is one answer of which a part is read.
         """
         whole, quantities = candidates[0], self.vocabulary.quantities
         rows = written_entries(member.tokens)
@@ -167,7 +169,7 @@ class AnswerList:
             (j, i) if is_row else (i, j): tokens for i, row in enumerate(rows) for j, tokens in enumerate(row)
         }
         if whole == "C" or written.keys() != named.keys():
-            return []
+            return self._partly(candidates, rows, member, origin)
         read = [
             Member(member.index, tokens, read_right_side(self.vocabulary, tokens, (named[at],)))
             for at, tokens in written.items()
@@ -183,6 +185,35 @@ class AnswerList:
             return []
         return [
             replace(answer, whole=whole, references=answer.references or tuple(by_name)) for answer in answers
+        ]
+
+    def _partly(
+        self, candidates: tuple[str, ...], rows: list[list[list[Token]]], member: Member, origin: Origin
+    ) -> list[Answer]:
+        """The one record of a matrix of which some entries can be read."""
+        read = [[read_right_side(self.vocabulary, tokens) for tokens in row] for row in rows]
+        found = [one for row in read for one in row]
+        values = [one for one in found if isinstance(one, RightSide)]
+        faults = {
+            (i, j): one for i, row in enumerate(read) for j, one in enumerate(row) if isinstance(one, ReadError)
+        }
+        is_matrix = len({len(row) for row in rows}) == 1 and all(isinstance(v.value, Node) for v in values)
+        if not values or not faults or not is_matrix:
+            return []
+        nodes = [[one.value if isinstance(one, RightSide) else ZERO for one in row] for row in read]
+        size = len(rows), len(rows[0])
+        candidates = tuple(sorted(candidates, key=lambda one: self.vocabulary.shape(one) != size))
+        (i, j), fault = next(iter(faults.items()))
+        where = f"entry {max(i, j) + 1}" if 1 in size else f"entry ({i + 1}, {j + 1})"
+        return [
+            replace(
+                self.unreadable(candidates, fault, origin, member.index),
+                fault=f"{where}: {fault.message}",
+                partial=Matrix(tuple(tuple(n for n in row if isinstance(n, Node)) for row in nodes)),
+                unread=tuple(faults),
+                references=tuple(dict.fromkeys(name for value in values for name in value.references)),
+                free=tuple(dict.fromkeys(name for value in values for name in value.free)),
+            )
         ]
 
     def motion(self, equation: MotionEquation, tokens: list[Token], origin: Origin) -> None:
