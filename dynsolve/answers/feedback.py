@@ -259,7 +259,9 @@ def _unreadable(answer: JudgedAnswer, view: FeedbackView) -> Iterator[Block]:
         yield Note((answer.expected,))
     bad = [e for e in answer.entries if e.verdict is Verdict.WRONG]
     if bad:
-        yield Text((f"Of what could be read, {_places(bad, answer)} {'are' if len(bad) > 1 else 'is'} wrong.",))
+        yield Text(
+            (f"Of what could be read, {_places(bad, answer)} {'are' if len(bad) > 1 else 'is'} wrong.",)
+        )
         yield from _slips(answer, bad, view) if view.level >= 2 or view.teacher else ()
     elif answer.entries:
         yield Text(("What could be read of it is right or follows.",))

@@ -195,7 +195,10 @@ class AnswerList:
         found = [one for row in read for one in row]
         values = [one for one in found if isinstance(one, RightSide)]
         faults = {
-            (i, j): one for i, row in enumerate(read) for j, one in enumerate(row) if isinstance(one, ReadError)
+            (i, j): one
+            for i, row in enumerate(read)
+            for j, one in enumerate(row)
+            if isinstance(one, ReadError)
         }
         is_matrix = len({len(row) for row in rows}) == 1 and all(isinstance(v.value, Node) for v in values)
         if not values or not faults or not is_matrix:

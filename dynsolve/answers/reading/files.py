@@ -52,9 +52,10 @@ class FileReader:
         if self.printer.remembered > MOST_PRINTED:
             self.printer = UnicodePrinter(self.style)
         names = self.vocabulary.fresh()
-        names.from_zero = counted_from_zero(
-            content if isinstance(content, str) else content.decode(errors="ignore"), len(names.coordinates)
-        )
+        text = content if isinstance(content, str) else content.decode(errors="ignore")
+        if file.endswith(".ipynb"):
+            text = text.replace("\\n", "\n")  # the ends of lines within the strings of its JSON
+        names.from_zero = counted_from_zero(text, len(names.coordinates))
         reader = EquationReader(names, self.printer)
         problem, student, faults = _read(reader, content, file)
         reader.found.settle()

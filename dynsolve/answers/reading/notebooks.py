@@ -1,6 +1,6 @@
 """Jupyter notebooks: the Markdown cells as one report, its places those of the .ipynb file.
 
-Code is not read; what it says of an answer is listed.
+Code is never run; what it says of an answer is listed, or read where nothing else answers that.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def read_notebook(reader: EquationReader, source: Source) -> list[Finding]:
         ]
     read_report(reader, _cells(source, content, "markdown"))
     code = _cells(source, content, "code")
-    list_unread(reader, code, code.text, "it stands in code, which is not read")
+    list_unread(reader, code, code.text, "it stands in code, which is not read", is_code=True)
     return []
 
 

@@ -6,16 +6,21 @@ So an equation in code, or in a line of prose that no reader knows, waits for a 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable
 from itertools import islice
 
+from dynsolve.answers.reading.answer_list import Member
+from dynsolve.answers.reading.displays import OPENS, Display
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.left_side import read_left_side, spoken_of
+from dynsolve.answers.reading.right_side import RightSide, is_value, read_right_side
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.tokens.prepare import prepared
-from dynsolve.answers.submission import NotRecognized
+from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
+from dynsolve.notation.walk import names_in
 
 NOT_READ = "it stands where no equation is read"
 
@@ -24,10 +29,18 @@ _BEFORE_SIGN = re.compile(
     rf"(?<![^\s,;:|$&(\"'*])(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})"
     r"[\"'*$}]{0,4}[ \t]{0,9}:?=(?!=)"
 )
+_PROMPT = r"(?:>>>|In ?\[[0-9]{1,4}\]:)[ \t]{1,9}"
 _CALLED = re.compile(
-    rf"(?m)(?:\bEq\([ \t]*|^>>>[ \t]+)(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})(?=,|[ \t]*$)"
+    rf"(?m)(?:\bEq\([ \t]*|^{_PROMPT})"
+    rf"(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})"
+    r"(?:,|[ \t]{0,9}$(?:\n[ \t]{0,9}Out ?\[[0-9]{1,4}\]:)?)"
 )
-"""SymPy's `Eq(tau1, ...)`, and a name behind Python's prompt, its value below."""
+"""SymPy's `Eq(tau1, ...)`, and a name behind a prompt of Python, its value below."""
+
+_OUTSIDE = re.compile(rf"(?:{_PROMPT})?")
+_CHANGED = re.compile(rf"(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})[ \t]{{0,9}}[-+*/]=")
+_REMARK = re.compile(r"#[^\n]*")
+_LONGEST_READ = 5_000
 
 _KEY = re.compile(
     r"(?m)(?:^[ \t>-]*|[{,][ \t]*)[\"']?(?P<name>[^\s:\"'#={,][^:\"'#=\n]{0,40}?)[\"']?[ \t]*[:=](?=\s)"
@@ -37,10 +50,15 @@ _MOST_LISTED = 100
 """So many signs of equality are looked at, and so many of them are listed."""
 
 
-def list_unread(reader: EquationReader, source: Source, text: str, why: str = NOT_READ) -> None:
-    """List what stands before `=` in a text, in which what was read is blank, and is asked for."""
-    _list(reader, source, text, _BEFORE_SIGN, why)
-    _list(reader, source, text, _CALLED, why)
+def list_unread(
+    reader: EquationReader, source: Source, text: str, why: str = NOT_READ, is_code: bool = False
+) -> None:
+    """List what stands before `=` in a text, in which what was read is blank, and is asked for.
+
+    What a program prints of a name, or gives a name of its `is_code` once, outside of loops, is read.
+    """
+    _list(reader, source, text, _BEFORE_SIGN, why, is_read=is_code)
+    _list(reader, source, text, _CALLED, why, is_read=True)
 
 
 def list_unread_keys(reader: EquationReader, source: Source, text: str, why: str = NOT_READ) -> None:
@@ -48,10 +66,21 @@ def list_unread_keys(reader: EquationReader, source: Source, text: str, why: str
     _list(reader, source, text, _KEY, why)
 
 
-def _list(reader: EquationReader, source: Source, text: str, pattern: re.Pattern[str], why: str) -> None:
+def _list(
+    reader: EquationReader,
+    source: Source,
+    text: str,
+    pattern: re.Pattern[str],
+    why: str,
+    is_read: bool = False,
+) -> None:
     named: Callable[[str], tuple[str, ...]] = _Names(reader)
     seen = set[tuple[int, tuple[str, ...]]]()
-    for found in islice(pattern.finditer(text), _MOST):
+    matches = list(islice(pattern.finditer(text), _MOST))
+    times = Counter(found["name"] for found in matches)
+    if is_read:
+        times.update(found["name"] for found in islice(_CHANGED.finditer(text), _MOST))
+    for found in matches:
         names = named(found["name"])
         begin = text.rfind("\n", 0, found.start("name")) + 1
         if not names or (begin, names) in seen or len(seen) == _MOST_LISTED:
@@ -60,7 +89,58 @@ def _list(reader: EquationReader, source: Source, text: str, pattern: re.Pattern
         end = text.find("\n", found.end())
         line = source.text[found.start("name") : end if end >= 0 else len(text)]
         place = source.place(found.start("name"), len(found["name"]))
-        reader.found.not_recognized.append(NotRecognized(shown(line), "", place, why, names))
+        refused = NotRecognized(shown(line), "", place, why, names)
+        is_outside = pattern is _CALLED or _OUTSIDE.fullmatch(text, begin, found.start("name"))
+        is_once = is_read and is_outside and times[found["name"]] == 1
+        answers = _answers(reader, source, text, found.end(), names) if is_once else []
+        if answers:
+            reader.found.said_aside(refused, answers)
+        else:
+            reader.found.not_recognized.append(refused)
+
+
+def _answers(
+    reader: EquationReader, source: Source, text: str, start: int, names: tuple[str, ...]
+) -> list[Answer]:
+    """What a value that begins here answers; nothing where it cannot be read, or the names are answered."""
+    quantities = reader.vocabulary.quantities
+    given = {
+        part for answer in reader.found.answers if answer.node for part in quantities.within(answer.name)
+    }
+    parts = {part for name in names for part in quantities.parts(name)}
+    if given.intersection(names) or (parts and parts <= given):
+        return []
+    value = _REMARK.sub(lambda remark: " " * len(remark[0]), text[start : _end(text, start)])
+
+    def locate(offset: int, length: int) -> Place:
+        return source.place(start + offset, length)
+
+    origin = reader.origin(Display(value, "", locate, plain=True), "")
+    try:
+        tokens = prepared(value.replace("\n", " "))[:-1]
+    except ReadError:
+        return []
+    found = read_right_side(reader.vocabulary, tokens, names)
+    if not isinstance(found, RightSide) or not is_value(found):
+        return []
+    answer = reader.found.answer(names, Member(1, tokens, found), origin)
+    holds = answer.node is not None and not names_in(answer.node).isdisjoint(
+        q.name for q in reader.vocabulary.coordinates
+    )
+    is_entry = bool(quantities.entry_of(answer.name)[0])  # an energy that begins with 0 is none yet
+    return [answer] if answer.node is not None and (holds or is_entry) else []
+
+
+def _end(text: str, start: int) -> int:
+    """Where a value ends: at the end of its line, or where a bracket closes that it did not open."""
+    level = 0
+    start += len(text[start : start + 99]) - len(text[start : start + 99].lstrip())
+    last = min(len(text), start + _LONGEST_READ)
+    for at in range(start, last):
+        level += OPENS.get(text[at], 0)
+        if level < 0 or (level == 0 and text[at] == "\n"):
+            return at
+    return last
 
 
 class _Names:

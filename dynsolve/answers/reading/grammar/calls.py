@@ -15,7 +15,7 @@ _MATRICES = frozenset(
     "Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array Vector vector".split()
 )
 _DERIVATIVES = frozenset({"Derivative", "diff", "Diff"})
-_OTHERS = frozenset({"Rational", "transpose", "Transpose", "Integer"})
+_OTHERS = frozenset("Rational transpose Transpose Integer simplify expand trigsimp factor nsimplify".split())
 _MADE = frozenset({"diag", "Diag", "zeros"})
 _DOTS = {"dot": 1, "ddot": 2}
 
@@ -29,16 +29,14 @@ def is_call(reader: Reader) -> bool:
         return _is_by_time(reader)
     if token.kind != "name" or reader.peek().kind != "(":
         return False
+    if token.text in _MADE | _MATRICES | _DERIVATIVES | _OTHERS or token.text in _DOTS:
+        return True
     if functions.is_elsewhere(token) and functions.name_of(token, reader.vocabulary) is None:
         length = token.end - token.start
         raise ReadError(
             f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt"
         )
-    if token.text in _MADE:
-        return True
-    return (
-        token.text in _MATRICES or token.text in _DERIVATIVES or token.text in _OTHERS or token.text in _DOTS
-    )
+    return False
 
 
 def read(reader: Reader) -> Value:

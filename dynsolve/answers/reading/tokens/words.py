@@ -14,7 +14,8 @@ _WORDS = frozenset("and og where hvor der with med so such or eller for für all
 _UNITS = frozenset({"J", "N", "Nm", "rad", "kg"})
 _MODULES = frozenset("sp sym sympy smp np numpy math".split())
 _OF_MODULES = frozenset(
-    "sin cos tan sqrt pi Matrix array matrix Rational Derivative diff Integer transpose".split()
+    "sin cos tan sqrt pi Matrix array matrix Rational Derivative diff Integer transpose"
+    " simplify expand trigsimp factor nsimplify".split()
 )
 
 
