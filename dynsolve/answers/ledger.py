@@ -1,7 +1,7 @@
 """What becomes of the equations of a hand-in that were not judged: they wait for a human, or are set aside.
 
 An equation whose left side names what is asked for waits where nothing else answers that, so that no
-mark is lost to what was not read; else it is set aside, with its reason.
+mark is lost to what was not read; else it is set aside, with its reason.  A picture waits for what is missing.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from dynsolve.answers.submission import NotRecognized
+from dynsolve.answers.submission import PICTURE, NotRecognized
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.quantities.index import Quantities
 
@@ -36,7 +36,10 @@ class Ledger:
         self.set_aside = list[NotRecognized]()
         for one, is_known in (*((r, False) for r in refused), *((e, True) for e in explained)):
             waits = tuple(sorted(n for n, names in absent.items() if not names.isdisjoint(one.answers)))
-            if waits or not (is_known or given & set(one.answers)):
+            of_others = bool(one.answers) and known.isdisjoint(one.answers)
+            if one.why == PICTURE:
+                self.not_recognized += [replace(one, answers=waits, waits=waits)] if waits else []
+            elif waits or not (is_known or of_others or given & set(one.answers)):
                 self.not_recognized.append(replace(one, waits=waits))
             else:
                 self.set_aside.append(replace(one, answers=tuple(n for n in one.answers if n in known)))
@@ -52,6 +55,8 @@ class Ledger:
                 found[name] = replace(answer, place=unread[0].place, notes=(fault,), fault=fault)
         for one in self.not_recognized:
             for name in one.waits:
+                if one.why == PICTURE and found[name].fault:
+                    continue
                 found[name] = replace(
                     found[name], label=one.label, place=one.place, notes=(one.why,), fault=one.why
                 )

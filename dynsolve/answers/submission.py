@@ -13,6 +13,9 @@ from dataclasses import dataclass
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Matrix, Node
 
+PICTURE = "a picture stands here; pictures are not read"
+"""Why what may stand in a picture waits."""
+
 
 @dataclass(frozen=True, slots=True)
 class Place:

@@ -28,7 +28,8 @@ def unwritten(graph: AnswerGraph, name: str, of: Fraction, answers: Answers) -> 
     """The verdict of what is not written, from the answers that are; `of` are its marks."""
     parts = _written_parts(graph, name, answers)
     if parts is None:
-        base = JudgedAnswer(name, Verdict.MISSING, of=of, given=False)
+        notes = tuple(_incomplete(graph, name, answers))
+        base = JudgedAnswer(name, Verdict.MISSING, of=of, given=False, notes=notes)
         return _within_whole(graph, base, answers) or base
     verdict = worst([part.verdict for part in parts])
     used = [source for part in parts for source in part.follows_from] if verdict is Verdict.FOLLOWS else []
@@ -42,6 +43,17 @@ def unwritten(graph: AnswerGraph, name: str, of: Fraction, answers: Answers) -> 
         notes=(BY_PARTS,),
         follows_from=in_order(graph, used),
     )
+
+
+def _incomplete(graph: AnswerGraph, name: str, answers: Answers) -> Iterator[str]:
+    """Which parts of a whole are there, and which are not, where only some are."""
+    parts = graph.quantities.parts(name)
+    there = [part for part in parts if {part, graph.quantities.mirrored(part)} & answers.keys()]
+    if there:
+        lacking = ", ".join(
+            dict.fromkeys(min(p, graph.quantities.mirrored(p)) for p in parts if p not in there)
+        )
+        yield f"{', '.join(there)} {'are' if len(there) > 1 else 'is'} there, but not {lacking}"
 
 
 def _within_whole(graph: AnswerGraph, base: JudgedAnswer, answers: Answers) -> JudgedAnswer | None:

@@ -1,17 +1,19 @@
 """Jupyter notebooks: the Markdown cells as one report, its places those of the .ipynb file.
 
-Code is never run; what it says of an answer is listed, or read where nothing else answers that.
+Code is never run; what it says of an answer is listed, or read where nothing else answers that; a picture
+that it shows is listed.
 """
 
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.unread_text import list_unread
+from dynsolve.answers.reading.unread_text import list_unread, picture
 from dynsolve.errors import Finding
 
 MAX_CELLS = 2_000
@@ -30,6 +32,8 @@ def read_notebook(reader: EquationReader, source: Source) -> list[Finding]:
     read_report(reader, _cells(source, content, "markdown"))
     code = _cells(source, content, "code")
     list_unread(reader, code, code.text, "it stands in code, which is not read", is_code=True)
+    if shown := re.search(r'"image/(?:png|jpeg|svg\+xml)"', source.text):
+        reader.found.not_recognized.append(picture(reader, shown[0], source.place(shown.start())))
     return []
 
 

@@ -30,7 +30,7 @@ from dynsolve.answers.reading.tables import headed_columns, with_equations
 from dynsolve.answers.reading.tokens.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.tokens.macros import Macro
 from dynsolve.answers.reading.tokens.prepare import prepared
-from dynsolve.answers.reading.unread_text import list_unread
+from dynsolve.answers.reading.unread_text import list_pictures, list_unread
 from dynsolve.answers.submission import NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.quantities.model_families import LINEAR_A
@@ -152,6 +152,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         why = f"only the first {MAX_EQUATIONS} equations of a file are read"
         reader.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place, why))
     list_unread(reader, source, hidden(text, read))
+    list_pictures(reader, source, text)
 
 
 def _is_coordinate(reader: EquationReader, text: str) -> bool:

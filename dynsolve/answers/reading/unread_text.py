@@ -18,7 +18,7 @@ from dynsolve.answers.reading.right_side import RightSide, is_value, read_right_
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.tokens.prepare import prepared
-from dynsolve.answers.submission import Answer, NotRecognized, Place
+from dynsolve.answers.submission import PICTURE, Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.walk import names_in
 
@@ -40,6 +40,11 @@ _CALLED = re.compile(
 _OUTSIDE = re.compile(rf"(?:{_PROMPT})?")
 _CHANGED = re.compile(rf"(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})[ \t]{{0,9}}[-+*/]=")
 _REMARK = re.compile(r"#[^\n]*")
+_PICTURE = re.compile(
+    r"!\[[^\[\]\n]{0,200}\]\([^()\n]{1,300}\)|<img\s[^<>\n]{1,300}>"
+    r"|\\includegraphics(?:\[[^\[\]\n]{0,200}\])?\{[^{}\n]{1,200}\}"
+)
+_MOST_PICTURES = 20
 _LONGEST_READ = 5_000
 
 _KEY = re.compile(
@@ -59,6 +64,18 @@ def list_unread(
     """
     _list(reader, source, text, _BEFORE_SIGN, why, is_read=is_code)
     _list(reader, source, text, _CALLED, why, is_read=True)
+
+
+def list_pictures(reader: EquationReader, source: Source, text: str) -> None:
+    """List the pictures of a report, in which anything may stand that is asked for."""
+    for found in islice(_PICTURE.finditer(text), _MOST_PICTURES):
+        place = source.place(found.start(), len(found[0]))
+        reader.found.not_recognized.append(picture(reader, shown(found[0]), place))
+
+
+def picture(reader: EquationReader, text: str, place: Place) -> NotRecognized:
+    """The record of a picture."""
+    return NotRecognized(text, "", place, PICTURE, tuple(sorted(reader.vocabulary.asked)))
 
 
 def list_unread_keys(reader: EquationReader, source: Source, text: str, why: str = NOT_READ) -> None:

@@ -103,6 +103,8 @@ class _WebPage(HTMLParser):
             if latex:
                 self._add(f"\\({latex}\\)")
                 return
+        if not self._hidden:
+            self._add(" ![](picture) ")
 
     def handle_endtag(self, tag: str) -> None:
         if tag in _SCRIPTS and not self._hidden and any(name == tag for name, _ in self.open[-20:]):

@@ -153,3 +153,42 @@ def test_a_sentence_answers_what_is_not_asked_where_a_mass_stands_in_it(text: st
     assert [a["name"] for a in report["answers"] if a["verdict"] in ("correct", "wrong")] == [name]
     without = judged(text.replace("m_2", "3"))
     assert not [a["name"] for a in without["answers"] if a["verdict"] in ("correct", "wrong")]
+
+
+PICTURES = [
+    ("md", "![my D](photo.jpg)"),
+    ("tex", r"\includegraphics[width=5cm]{photo.png}"),
+    ("md", '<img src="photo.jpg" width=300>'),
+    ("html", "<p><img src='photo.jpg'></p>"),
+    ("ipynb", json.dumps({"cells": [{"cell_type": "markdown", "source": "![](attachment:a.png)"}]})),
+    ("ipynb", json.dumps({"cells": [{"cell_type": "code", "source": "show()", "outputs": [
+        {"output_type": "display_data", "data": {"image/png": "AAAA"}}]}]})),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("ending", "text"), PICTURES)
+def test_a_picture_waits_for_what_is_missing(ending: str, text: str) -> None:
+    report = judged(text, ending)
+    answer = next(a for a in report["answers"] if a["name"] == "D")
+    assert answer["verdict"] == "missing" and "picture" in answer["fault"]["message"]
+    assert any("D" in q["name"].split(", ") and "picture" in q["reason"] for q in report["queued"])
+
+
+def test_a_picture_beside_answers_says_nothing_of_them() -> None:
+    report = judged(f"{D}\n\n![](arm.png)\n\n$$C = X_7$$")
+    faults = {a["name"]: a.get("fault", {}).get("message", "") for a in report["answers"]}
+    assert not faults["D"] and "X_7" in faults["C"] and "picture" in faults["g"]
+
+
+def test_what_is_there_of_a_matrix_and_what_is_not() -> None:
+    report = judged("$$d_{11} = I_{1zz} + m_2 L_2^2$$")
+    notes = {a["name"]: a["note"] for a in report["answers"]}
+    assert notes["D"] == "d11 is there, but not d12, d22"
+
+
+@pytest.mark.parametrize("said", ["The energy is $V = m_2 g$.", "We have $p = X_7$ and $P = X_7$."])
+def test_a_name_that_nobody_asks_for_is_set_aside(said: str) -> None:
+    robot = load("in3140-rp")
+    checker = Checker(replace(robot, find=("D",), marks={}))
+    report = to_json(checker(checker.reader(f"{said}\n\n{D}", "a.md")))
+    assert not report["not_recognized"] and [one["line"] for one in report["set_aside"]]

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.problem import read_problem
 from dynsolve.problem.library import find
 from tests.unit.answers.hands import checker, verdicts
 from tests.unit.answers.reading.submissions import report
@@ -44,7 +42,7 @@ def judged(text: str, file: str = "report.md", stem: str = "planar-2r") -> dict[
 
 
 def own(problem: str, text: str, file: str) -> dict[str, str]:
-    check = Checker(read_problem(problem, "own.yaml"))
+    check = checker(problem)
     return verdicts(check(read_submission(check.problem, text, file)))
 
 
