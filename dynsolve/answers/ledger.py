@@ -1,7 +1,8 @@
 """What becomes of the equations of a hand-in that were not judged: they wait for a human, or are set aside.
 
 An equation whose left side names what is asked for waits where nothing else answers that, so that no
-mark is lost to what was not read; else it is set aside, with its reason.  A picture waits for what is missing.
+mark is lost to what was not read; else it is set aside, with its reason.  A picture waits for all that is
+missing.
 """
 
 from __future__ import annotations

@@ -30,6 +30,7 @@ lists in what YAML refuses, `span_text` the vectors of a space, `displayed_sets`
 `headed_sets` those behind their heads, by the words of `set_words`;
 `verdicts` what is said of matrices, `spoken_verdicts` in a report.
 `definitions` reads the names that an answer file declares under `symbols:` and `let:`;
+`other_entries` are those that a sentence says are zero;
 `unread_text` lists what names an answer where nothing is read.
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
 from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,

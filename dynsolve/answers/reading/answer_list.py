@@ -9,13 +9,14 @@ from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.matrix_parts import written_entries
 from dynsolve.answers.reading.motion_equations import MotionEquation
 from dynsolve.answers.reading.occurrences import readable
+from dynsolve.answers.reading.other_entries import others
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
 from dynsolve.answers.reading.sentences import FREE, is_of_case
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
 from dynsolve.answers.reading.vocabulary import Vocabulary
-from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, VerdictAnswer
+from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
@@ -75,7 +76,8 @@ class AnswerList:
 
     `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`; `own_scalars`
     are definitions where what they are kept under is used, else answers of another shape; `in_case` has the
-    numbers of the equations that count where no other answers the same, with the reason.
+    numbers of the equations that count where no other answers the same, with the reason, `others_zero` where
+    it is said that the entries which are not written are zero.
     """
 
     vocabulary: Vocabulary
@@ -88,6 +90,7 @@ class AnswerList:
     verdicts: list[VerdictAnswer] = field(default_factory=list)
     own_scalars: list[tuple[str, list[Answer], NotRecognized]] = field(default_factory=list)
     in_case: dict[int, str] = field(default_factory=dict)
+    others_zero: list[tuple[Place, str]] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
@@ -307,6 +310,8 @@ class AnswerList:
         self._settle_asides()
         self.answers = [replace(a, doubt=self.in_case.get(a.occurrence[0], "")) for a in self.answers]
         self._settle_first_frame()
+        for place, text in self.others_zero:
+            self.answers += others(self.answers, self.vocabulary.quantities, place, text)
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)
         self.not_recognized += lost
 

@@ -20,6 +20,7 @@ from dynsolve.answers.reading.headed_sets import headed_sets, read_headed
 from dynsolve.answers.reading.headed_sets import without as without_sets
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
+from dynsolve.answers.reading.other_entries import said_zero
 from dynsolve.answers.reading.plain_lines import hidden, plain_lines
 from dynsolve.answers.reading.report_text import visible
 from dynsolve.answers.reading.sentences import IN_SENTENCE, is_of_case, said_of, taken_from
@@ -151,6 +152,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         place = display.locate(0, 1)
         why = f"only the first {MAX_EQUATIONS} equations of a file are read"
         reader.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place, why))
+    reader.found.others_zero += said_zero(source, text)
     list_unread(reader, source, hidden(text, read))
     list_pictures(reader, source, text)
 
