@@ -38,7 +38,9 @@ _CALLED = re.compile(
 """SymPy's `Eq(tau1, ...)`, and a name behind a prompt of Python, its value below."""
 
 _OUTSIDE = re.compile(rf"(?:{_PROMPT})?")
-_CHANGED = re.compile(rf"(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})[ \t]{{0,9}}[-+*/]=")
+_CHANGED = re.compile(
+    rf"(?<![^\s;])(?P<name>[^\s=,;:|$&\"'()\[\]*<>!+/-]{{1,40}}{_GROUP})[ \t]{{0,9}}[-+*/]="
+)
 _REMARK = re.compile(r"#[^\n]*")
 _PICTURE = re.compile(
     r"!\[[^\[\]\n]{0,200}\]\([^()\n]{1,300}\)|<img\s[^<>\n]{1,300}>"
@@ -95,7 +97,7 @@ def _list(
     seen = set[tuple[int, tuple[str, ...]]]()
     matches = list(islice(pattern.finditer(text), _MOST))
     times = Counter(found["name"] for found in matches)
-    if is_read:
+    if is_read and matches:
         times.update(found["name"] for found in islice(_CHANGED.finditer(text), _MOST))
     for found in matches:
         names = named(found["name"])
