@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-from dynsolve.answers.reading.other_entries import REST_IS_ZERO
+from dynsolve.answers.reading.other_entries import rest_is_zero
 from dynsolve.answers.reading.pretty_print import one_line
 
 _HEAD = r"[ \t]*[^\s=:][^=:\n]{0,40}[ \t]*(?::=|[=:])[ \t]*"
@@ -177,7 +177,7 @@ def _formula(piece: str, names_answer: Callable[[str], bool]) -> str:
     """The equation without remarks and the dots of lines that go on; `K1: ...` as `K1= ...`."""
     piece = _REMARK.sub(lambda found: " " * len(found[0]), piece)
     piece = _DOTS.sub(lambda found: " " * len(found[0]), _with_rows(piece))
-    if (rest := REST_IS_ZERO.search(piece)) is not None:
+    if (rest := next(rest_is_zero(piece), None)) is not None:
         piece = re.sub(r"[\s,;]{1,9}(?:(?:and|und|og)[ \t]{1,9})?\Z", "", piece[: rest.start()])
     piece = _REMARK_BEHIND.sub("", _SAID_BEHIND.sub("", _TERMINATOR.sub("", piece)))
     piece = _AND.sub(lambda found: ";" + " " * (len(found[0]) - 1), piece)
