@@ -2,7 +2,8 @@
 
 An entry is an answer that waits for marks, alone or with the others of a file that no program can
 judge, or a file that should be looked at.  An answer leaves the list when a teacher has given it marks,
-a file beside a hand-in that was judged when a teacher has said a word on one of its answers.
+a file beside a hand-in that was judged, or a picture in one, when a teacher has said a word on one of its
+answers.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
+from dynsolve.answers.submission import PICTURE
 from dynsolve.answers.unwritten import BY_PARTS
 from dynsolve.grading.record import Key, Record, RecordedAnswer
 
@@ -32,7 +34,7 @@ def queue(record: Record, stems: Collection[str]) -> list[Entry]:
     """All that waits, files first; `stems` are the problems of the set."""
     unjudged = {(s, p): why for s, found in record.unjudged().items() for p, why in found.items()}
     judged_by_hand = {(s, p) for s, p, _ in record.overrides()}
-    answers, single = _answers(record, unjudged)
+    answers, single = _answers(record, unjudged, judged_by_hand)
     hand_ins = [replace(row, html=b"", markdown=b"") for row in record.rows()]
     reasons = {(row.student, row.problem): row.reason for row in hand_ins}
     found: list[Entry] = []
@@ -58,7 +60,7 @@ def _each(entry: Entry, answers: Sequence[RecordedAnswer]) -> list[Entry]:
 
 
 def _answers(
-    record: Record, unjudged: Collection[Key]
+    record: Record, unjudged: Collection[Key], judged_by_hand: Collection[Key]
 ) -> tuple[dict[Key, list[RecordedAnswer]], list[Entry]]:
     """The answers of the hand-ins that nobody has judged, and the single answers of others that wait."""
     of_unjudged: dict[Key, list[RecordedAnswer]] = {}
@@ -68,7 +70,7 @@ def _answers(
         key, what = (a.student, a.problem), f"{a.answer} {a.label}".strip()
         if (*key, a.answer) in overtaken:
             single.append(Entry(*key, what, OVERTAKEN, a))
-        elif a.of == "0" or a.said:
+        elif a.of == "0" or a.said or (a.fault == PICTURE and key in judged_by_hand):
             continue
         elif key in unjudged:
             of_unjudged.setdefault(key, []).append(a)
