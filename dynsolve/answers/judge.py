@@ -173,12 +173,20 @@ class Judge:
     def _answers(self) -> dict[str, JudgedAnswer]:
         """The answers that were given, and those that were asked for, by name."""
         judge = AnswerJudge(self.problem, self.hand_in, self.explanations, self._diagnoser)
-        answers = self._with_waiting({name: judge(name) for name in self.hand_in.chains})
+        answers = {name: judge(name) for name in self.hand_in.chains}
+        unread = self._unread(answers)
+        answers = self._with_waiting(answers, unread)
         if self.tables:
             answers[TABLE] = self.checker.table_judge(self.tables)
         sets = self.submission.configurations
         answers |= {
-            answer.name: judged_set(self.checker.configurations, answer, self._marks_of(answer.name))
+            answer.name: judged_set(
+                self.checker.configurations,
+                answer,
+                self._marks_of(answer.name),
+                self.explanations,
+                unread,
+            )
             for answer in sets
         }
         answers |= {
@@ -198,13 +206,18 @@ class Judge:
                 answers[name] = defined
         return answers
 
-    def _with_waiting(self, answers: dict[str, JudgedAnswer]) -> dict[str, JudgedAnswer]:
-        """The answers; what is not right waits if it may be of one case, or follow from what was not read."""
+    def _unread(self, answers: dict[str, JudgedAnswer]) -> dict[str, str]:
+        """The nodes of what could not be read, and the answers of these that stand for them."""
         unknown = (one for one in self.submission.not_recognized if one.why not in NO_CLAIMS)
         named = (name for one in unknown for name in one.answers)
         faulty = (name for name, answer in answers.items() if answer.verdict is Verdict.UNREADABLE)
         target, rules = self.hand_in.compare.target, self.hand_in.answer_ring.rules
-        unread = {node: name for name in (*named, *faulty) if (node := target(name).node) in rules}
+        return {node: name for name in (*named, *faulty) if (node := target(name).node) in rules}
+
+    def _with_waiting(
+        self, answers: dict[str, JudgedAnswer], unread: dict[str, str]
+    ) -> dict[str, JudgedAnswer]:
+        """The answers; what is not right waits if it may be of one case, or follow from what was not read."""
         found = dict(answers)
         for name, answer in answers.items():
             compared = self.hand_in.comparisons[name]

@@ -67,10 +67,10 @@ def balanced_forces(robot: Robot) -> str:
     return "tau" if robot.questions.model.steady else "g"
 
 
-def in_balance(robot: Robot, forces: Node) -> Program:
+def in_balance(robot: Robot, forces: Node) -> list[Node]:
     """The forces that must be 0: those of all coordinates that no motor holds."""
     assert isinstance(forces, Matrix)
-    return compile_trees([forces.rows[k][0] for k in wanted_rows(robot)])
+    return [forces.rows[k][0] for k in wanted_rows(robot)]
 
 
 def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:
@@ -112,7 +112,7 @@ def verify_equilibria(robot: Robot, balanced: Node, cases: Sequence[Case]) -> No
 
     Raises VerificationError where an equilibrium is none, one is missing, or its stability is another.
     """
-    forces = in_balance(robot, balanced)
+    forces = compile_trees(in_balance(robot, balanced))
     programs = [compile_trees(list(case.zeros)) for case in cases]
     for start in starts(robot):
         for program, case in zip(programs, cases, strict=True):

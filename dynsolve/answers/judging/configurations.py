@@ -8,12 +8,15 @@ the student's set must hold, and at every point of the student's the Jacobian mu
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from fractions import Fraction
 from functools import cached_property
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.sampling import WIDEST
 from dynsolve.answers.judging.branches import BranchKey
 from dynsolve.answers.judging.equilibria import EquilibriumKey
@@ -28,7 +31,7 @@ from dynsolve.derivation.configuration_check import (
     with_half_turns,
     zero_near,
 )
-from dynsolve.derivation.equilibrium_check import balanced_forces
+from dynsolve.derivation.equilibrium_check import balanced_forces, in_balance
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
@@ -78,6 +81,25 @@ class ConfigurationKey:
             return self._reduced(answer.alternatives)
         return self._equations(answer.alternatives)
 
+    def vanishing(self, name: str) -> str:
+        """What is 0 on a set: the determinant, or the forces; empty for any other set."""
+        found = {"singular": "det", "equilibria": balanced_forces(self.robot)}.get(name, "")
+        return found if found in self.values.rules else ""
+
+    def is_where_zero(self, answer: ConfigurationAnswer, value: Any) -> bool:
+        """Whether a set is where a value is 0: a determinant, or forces, that are not the key's."""
+        if not isinstance(value, Expr | Matrix) or not self._known(answer):
+            return False
+        compactor = Compactor(value.ring)
+        zeros = (
+            [compactor.form(value)]
+            if isinstance(value, Expr)
+            else in_balance(self.robot, compactor.matrix(value))
+        )
+        if not names_in(*zeros) <= self._names:
+            return False
+        return EquilibriumKey(self.robot, zeros, [zeros], self.numbers).verdict(answer.alternatives).is_right
+
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
         if name == "inverse" and self.robot.questions.target is not None:
@@ -99,9 +121,8 @@ class ConfigurationKey:
 
     @cached_property
     def _equilibria(self) -> EquilibriumKey:
-        return EquilibriumKey(
-            self.robot, self.forms(balanced_forces(self.robot)), self.shown.equilibria, self.numbers
-        )
+        forces = in_balance(self.robot, self.forms(balanced_forces(self.robot)))
+        return EquilibriumKey(self.robot, forces, self.shown.equilibria, self.numbers)
 
     def _balance(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
         """Conditions that all hold: whether gravity is balanced where they do, and they do where it is."""
@@ -136,12 +157,17 @@ class ConfigurationKey:
 
     def _known(self, answer: ConfigurationAnswer) -> bool:
         """Whether every name in an answer has a value here."""
-        names = {"pi", *self.robot.ring.parameters, *(q.name for q in self.robot.coordinates)}
+        names = self._names
         if answer.name == "reduced":
-            names |= {q.force for q in self.robot.coordinates}
+            names = names | {q.force for q in self.robot.coordinates}
         if answer.name == "inverse":
-            names |= set(self.robot.questions.reached)
+            names = names | set(self.robot.questions.reached)
         return names_in(*(part.node for one in answer.alternatives for part in one)) <= names
+
+    @cached_property
+    def _names(self) -> Set[str]:
+        """What stands in sets of every kind."""
+        return {"pi", *self.robot.ring.parameters, *(q.name for q in self.robot.coordinates)}
 
     def _states(self, program: Program) -> list[dict[str, float]]:
         return [{**values, **self.numbers} for values in states_of(self.robot, program)]

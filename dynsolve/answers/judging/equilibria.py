@@ -15,10 +15,10 @@ from dynsolve.answers.judging.held_equations import held_equations
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import Part
 from dynsolve.derivation.configuration_check import is_zero, with_half_turns, zero_near
-from dynsolve.derivation.equilibrium_check import in_balance, starts
+from dynsolve.derivation.equilibrium_check import starts
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.notation.tree import Node
-from dynsolve.notation.tree_values import Program, compile_trees
+from dynsolve.notation.tree_values import compile_trees
 from dynsolve.robot.model import JointType, Robot
 
 _TURNS = 3
@@ -26,22 +26,23 @@ _TURNS = 3
 
 
 class EquilibriumKey:
-    """The equilibria of one problem: its g, the key's alternatives, and the numbers that it gives."""
+    """Equilibria: the forces that must be 0, the alternatives, and the numbers that the problem gives."""
 
     def __init__(
         self,
         robot: Robot,
-        gravity: Node,
+        forces: Sequence[Node],
         alternatives: Sequence[Sequence[Node]],
         numbers: Mapping[str, float],
     ) -> None:
-        self.robot, self.gravity, self.alternatives, self.numbers = robot, gravity, alternatives, numbers
+        self.robot, self.alternatives, self.numbers = robot, alternatives, numbers
+        self.forces, self._forces = forces, compile_trees(forces)
 
     def verdict(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
         """Whether a set is that of the key."""
         names = [q.name for q in self.robot.coordinates]
         theirs = [held_equations((part.node for part in one), names, self._periodic) for one in given]
-        formulas = [self.gravity, *(part.node for one in given for part in one)]
+        formulas = [*self.forces, *(part.node for one in given for part in one)]
         for number, one in enumerate(given, 1):
             points = list(self._points(tuple(part.node for part in one)))
             if not points:
@@ -64,10 +65,6 @@ class EquilibriumKey:
 
     def _is_balanced(self, q: Mapping[str, float]) -> bool:
         return is_zero(self._forces, q)
-
-    @cached_property
-    def _forces(self) -> Program:
-        return in_balance(self.robot, self.gravity)
 
     def _points(self, conditions: tuple[Node, ...]) -> Iterator[dict[str, float]]:
         """Configurations at which everything is 0; any at all where there is no condition."""
@@ -99,8 +96,7 @@ class EquilibriumKey:
 
     def _have_period(self, names: Sequence[str]) -> bool:
         """Whether the forces are the same after a turn of these angles."""
-        program = compile_trees([self.gravity])
         at = next(starts(self.robot, self.numbers))
         turned = {**at, **{name: at[name] + 2 * pi for name in names}}
-        pairs = zip(program.run(at)[0], program.run(turned)[0], strict=True)
-        return all(abs(a - b) < CLOSE for (a,), (b,) in pairs)
+        pairs = zip(self._forces.run(at), self._forces.run(turned), strict=True)
+        return all(abs(a - b) < CLOSE for a, b in pairs)

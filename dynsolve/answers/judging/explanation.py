@@ -196,6 +196,19 @@ class Explanations:
         changed = (one.used for one in led if shown(one.value) not in unchanged)
         return frozenset().union(*changed) & frozenset(unread.values())
 
+    def own_values(self, node: str) -> Iterator[PossibleValue]:
+        """The values that a student's own answers give a node, or lead to, the nearest first."""
+        return (value for value in islice(self.values.choices(node), MOST_EXPECTED) if value.used)
+
+    def before(self, node: str, unread: Mapping[str, str]) -> frozenset[str]:
+        """The answers that could not be read, of `unread`, of which a node is one, or on which it hangs."""
+        if node in unread:
+            return frozenset({unread[node]})
+        if node in self._students:
+            return frozenset()
+        inputs = {name for route in self.values.routes(node) for name in route.inputs}
+        return frozenset().union(*(self.before(name, unread) for name in inputs))
+
     def lead_elsewhere(self, compared: KeyComparison) -> bool:
         """Whether an answer is the key's although the student's own wrong answers lead to other values."""
         node, robot = compared.target.node, self.hand_in.answer_ring.robot
