@@ -22,8 +22,8 @@ from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.headed_sets import ANY
 from dynsolve.answers.reading.placed_text import placed
 from dynsolve.answers.reading.sentences import QUOTED, REJECTED, SUPPOSED
-from dynsolve.answers.reading.set_text import FOLLOWS, held_together, joined
-from dynsolve.answers.reading.set_words import AND, ANNOUNCED, DENIED, OR, SO
+from dynsolve.answers.reading.set_text import FOLLOWS, held_together, in_signs, joined
+from dynsolve.answers.reading.set_words import AND, ANNOUNCED, CASE, DENIED, OR, SAID, SO
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.span_text import space_named, span_text
 from dynsolve.answers.submission import Place
@@ -34,6 +34,15 @@ _BEFORE = 600
 
 _INLINE = r"\$[^$\n]{1,200}\$"
 _SAID = r"(?:\s{0,9}\([^()$\n]{1,60}\))?"
+_BORDER = re.compile(
+    r"[.;!?](?=\s)|(?<![\s:,])[ \t]*\n[ \t]*\n|(?m:^[ \t]*(?:#|\\(?:sub){0,2}section)[^\n]*$)"
+)
+"""Where a sentence ends: a colon leads on to what stands below it."""
+
+_JOINED = re.compile(rf"\W*(?:{AND}|{OR})\b", re.IGNORECASE)
+_GOING_ON = re.compile(r"\A[$\s]+(?=[a-zæøåäöü])")
+"""What parts a display from the sentence that it stands in."""
+
 _FORMULAS = re.compile(
     rf"(?<![$\\]){_INLINE}(?:{_SAID}(?:\s{{0,9}},|(?:\s{{0,9}},)?\s{{1,9}}(?:{OR}|{AND}|{SO}))\s{{0,9}}{_INLINE}){{0,8}}"
 )
@@ -87,6 +96,14 @@ class DisplayedSets:
             display = space
         rows = [self._without_own(display, row) for row in _rows(display.text)]
         words = self.text[max(offset - _BEFORE, 0) : offset] + _plain(display.text.partition("=")[0])
+        spoken, end = self._spoken_of(words), offset + len(display.text)
+        if (
+            spoken in SAID
+            and self._is_case(spoken, offset)
+            and not self._is_said_of_case(spoken, offset, end)
+        ):
+            self.reader.read_display(display)
+            return
         texts = [self._text(words, row) for row in rows]
         if not any(self._may_be_one(words, text) for text in texts):
             self.reader.read_display(display)
@@ -159,7 +176,9 @@ class DisplayedSets:
                 is_part = bool(given) and not self._coordinates([text]) <= given
             else:
                 words = one.place.excerpt[: one.place.column - 1].rpartition(".")[2]
-                is_denied = one.why in (SUPPOSED, REJECTED, QUOTED) or DENIED.search(words)
+                is_denied = (
+                    one.why in (SUPPOSED, REJECTED, QUOTED) or DENIED.search(words) or CASE.search(words)
+                )
                 is_part = one.place.line == place.line and not is_denied
             if is_part and self._may_belong(name, text):
                 return one.text
@@ -196,15 +215,34 @@ class DisplayedSets:
         text = ANY.sub(lambda said: " " * len(said[0]), self.text)
         for found in islice(_FORMULAS.finditer(text), _MOST_FORMULAS):
             words = text[max(found.start() - _BEFORE, 0) : found.start()].rpartition(".")[2]
-            is_announced = ANNOUNCED[name].search(words + found[0])
-            if not is_announced or DENIED.search(words.rpartition("\n\n")[2]):
+            is_case = self._is_case(name, found.start())
+            if is_case:
+                if name in self.found or not self._is_said_of_case(name, *found.span()):
+                    continue
+            elif not ANNOUNCED[name].search(words + found[0]) or DENIED.search(words.rpartition("\n\n")[2]):
                 continue
             formulas = _in_words(found[0])
             if not _IS_STATEMENT.search(formulas) and not _VANISHES.match(text, found.end()):
                 continue
             if is_set(self.reader.vocabulary, formulas):
                 self.found[name] = (self.source.place(found.start(), len(found[0])), [formulas])
-                return
+                if not is_case:
+                    return
+
+    def _is_case(self, name: str, start: int) -> bool:
+        """Whether a sentence names a case, `For $q_2 = 90°$`, before it speaks of a set."""
+        before = self._before(start)
+        goes_on = _JOINED.match(before) or SAID[name].search(before)
+        return CASE.search(before) is not None and not goes_on
+
+    def _is_said_of_case(self, name: str, start: int, end: int) -> bool:
+        """Whether the sentence says of its case, behind it, that it is one of a set."""
+        after = _BORDER.split(_GOING_ON.sub("", self.text[end : end + _BEFORE]), 1)[0]
+        return SAID[name].search(after) is not None and DENIED.search(self._before(start) + after) is None
+
+    def _before(self, start: int) -> str:
+        """What stands before an offset in its sentence."""
+        return _BORDER.split(self.text[max(start - _BEFORE, 0) : start].rstrip("$ \t\n"))[-1]
 
     def _may_be_one(self, words: str, text: str) -> bool:
         """Whether a row is part of a set, or may be when those before it are read."""
@@ -281,6 +319,6 @@ def _is_determinant(row: str) -> bool:
 
 def _determinant(row: str) -> str:
     """The `det J = l_1 l_2 s_2` of a row that goes on with `= 0`; empty for any other."""
-    first = _ARROW.split(row)[0]
+    first = _ARROW.split(in_signs(row))[0]
     value = _ZERO.sub("", first) if _DETERMINANT.match(first) else ""
     return value if "=" in value else ""

@@ -102,10 +102,10 @@ def joined(text: str) -> list[str]:
     >>> joined("q1 = atan2(y, x), q2 = 0 and q3 = pi")
     ['q1 = atan2(y, x)', 'q2 = 0', 'q3 = pi']
     """
-    return [part.strip() for part in _parts(_in_signs(text), _JOINTS)]
+    return [part.strip() for part in _parts(in_signs(text), _JOINTS)]
 
 
-def _in_signs(text: str) -> str:
+def in_signs(text: str) -> str:
     """The text with its words as words, and blanks for what only sets it."""
     return _EQUALS.sub("=", _SPACE.sub(" ", _WORD.sub(r" \1 ", text)))
 
@@ -117,7 +117,7 @@ def _with_numbers(text: str, values: Mapping[str, int]) -> str:
 
 def _spelled_out(text: str, is_value: Callable[[str], bool]) -> str:
     """The text with words for signs, behind its last arrow, and without what is said of whole numbers."""
-    text = _in_signs(text)
+    text = in_signs(text)
     text = _DETERMINANT.sub("", FOLLOWS.split(_REASON.split(text)[0])[-1], count=1)
     text = _COUNTED.sub("", _INTEGERS.sub("", _VERB.sub("", text))).strip()
     text = _BUILDER.sub(r"\1", text)
@@ -129,7 +129,7 @@ def _spelled_out(text: str, is_value: Callable[[str], bool]) -> str:
 
 def held_together(text: str) -> str:
     """`q_1 = 0, q_2 = π` with `and` for its commas, where each is an equation for something else."""
-    bare = _INTEGERS.sub("", _in_signs(text))
+    bare = _INTEGERS.sub("", in_signs(text))
     pieces = _parts(bare, _COMMA)
     lefts = {_left(piece) for piece in pieces}
     is_one = len(lefts) == len(pieces) > 1 and all("=" in piece for piece in pieces)

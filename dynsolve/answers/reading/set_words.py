@@ -1,7 +1,8 @@
 """The words around sets in English, German and Norwegian: a table each, one row per language.
 
 `HEADS` are what a set is called at the head of a line or as a heading, `ANNOUNCED` what speaks of one in the
-text before a formula, `DENIED` what takes that back.  `AND`, `OR` and `SO` join formulas, what
+text before a formula, `DENIED` what takes that back.  `CASE` makes of a formula behind it a case, of which
+its sentence has to say `SAID`.  `AND`, `OR` and `SO` join formulas, what
 stands behind `SINCE` gives the reason.  `ALL`, `ARBITRARY` and `REGARDLESS` say that a coordinate is free.
 """
 
@@ -65,10 +66,24 @@ ANNOUNCED = {
 }  # fmt: skip
 
 DENIED = _compiled((
-    r"\b(?:not|never|no|non-?singular|un(?!d\b|s\b|ser|ten\b|[dt]er\b)\w+|except|near|about|around|lineari[sz]\w*)\b",
-    r"\b(?:nicht|kein\w*|nie|außer|nahe|regulär|linearisier\w*)\b",
-    r"\b(?:ikke|ingen|aldri|unntatt|nær|rundt|regulær)\b",
+    r"\b(?:not|never|no|non-?singular|un(?!d\b|s\b|ser|ten\b|[dt]er\b)\w+|except|near|about|around|lineari[sz]\w*"
+    r"|far from|full rank|regular)\b",
+    r"\b(?:nicht|kein\w*|nie|außer|nahe|regulär|linearisier\w*|weit (?:von|weg)|volle[nr]? rang)\b",
+    r"\b(?:ikke|ingen|aldri|unntatt|nær|rundt|regulær|langt fra|full rang)\b",
 ))  # fmt: skip
+
+CASE = re.compile(
+    r"\b(?:for|at|if|when|with|für|bei|wenn|falls|mit|ved|når|hvis|med)[\s,:$]*(?:\\[\[(]\s*)?\Z",
+    re.IGNORECASE,
+)
+_IS_ZERO = r"(?:=|\$)\s*0\s*(?:\$|\\[\])])"
+SAID = {
+    "singular": _compiled((
+        r"singular|rank|invertib|vanish|\bzero\b", r"singulär|\brang\b|invertierbar|verschwind|\bnull\b",
+        r"singulær|inverterbar|forsvinn", _IS_ZERO,
+    )),
+    "equilibria": _compiled((ANNOUNCED["equilibria"].pattern, _IS_ZERO)),
+}  # fmt: skip
 
 OR = _any("or", "oder", "eller", "ou")
 AND = _any("and", "und", "og", "et", "y")
