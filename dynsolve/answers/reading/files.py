@@ -10,7 +10,7 @@ from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.limits import MAX_BYTES
 from dynsolve.answers.reading.own_coordinates import with_own_coordinates
 from dynsolve.answers.reading.reports import read_report
-from dynsolve.answers.reading.sources import Source, decoded
+from dynsolve.answers.reading.sources import Source, decoded, plain_signs
 from dynsolve.answers.reading.vocabulary import counted_from_zero, vocabulary
 from dynsolve.answers.submission import Submission
 from dynsolve.errors import Finding, ReadError
@@ -115,7 +115,7 @@ def _read_document(reader: EquationReader, content: bytes, file: str, ending: st
         text, pictures = as_report(content, ending)
     except ReadError as error:
         return [Finding(error.message, error.help, file)]
-    read_report(reader, Source(text, file))
+    read_report(reader, Source(plain_signs(text), file))
     if pictures and not reader.found.answers:
         message = "no formula stands in this document, only pictures, which a human has to read"
         return [Finding(message, "write formulas with the editor for formulas", file)]

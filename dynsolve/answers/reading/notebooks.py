@@ -12,7 +12,7 @@ from typing import Any
 
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.reports import read_report
-from dynsolve.answers.reading.sources import Source
+from dynsolve.answers.reading.sources import Source, plain_signs
 from dynsolve.answers.reading.unread_text import list_unread, picture
 from dynsolve.errors import Finding
 
@@ -78,5 +78,5 @@ def _lines(content: Any, kind: str) -> list[str]:
         if isinstance(text, list):
             text = "".join(part for part in text if isinstance(part, str))
         if isinstance(text, str):
-            lines += [*(f"{part}\n" for part in text.split("\n")), "\n"]
+            lines += [*(f"{part}\n" for part in plain_signs(text).split("\n")), "\n"]
     return lines

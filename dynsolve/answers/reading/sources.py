@@ -13,6 +13,20 @@ from dynsolve.notation.unicode import printable
 
 _LONGEST_EXCERPT = 400
 
+_WIDE = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz+-*/^=()[]{}|,.:;_"
+_SAME = {
+    **{chr(ord(sign) + 0xFEE0): sign for sign in _WIDE},
+    **{chr(code): str((code - 0x1D7CE) % 10) for code in range(0x1D7CE, 0x1D800)},
+    **dict.fromkeys("\u00a0\u2000\u2001\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a", " "),
+    **dict.fromkeys("\u202f\u205f\u3000", " "),
+    **dict.fromkeys("≈≃≅≙≐≡≜≔≝", "="),
+    "∶": ":",
+    **dict.fromkeys("\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\ufe0e\ufe0f\ufeff", ""),
+}
+"""Signs as they are typed: full-width ones, digits of other faces, blanks, equalities; the unseen goes."""
+
+_OTHERS = re.compile(f"[{''.join(_SAME)}]")
+
 
 @dataclass(frozen=True)
 class Source:
@@ -61,4 +75,13 @@ def decoded(content: str | bytes) -> str:
             content = content.decode("utf-16", errors="replace")
         else:
             content = content.decode("utf-8", errors="replace")
-    return content.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+    return plain_signs(content.replace("\r\n", "\n").replace("\r", "\n"))
+
+
+def plain_signs(text: str) -> str:
+    r"""A text in which what looks the same is the same.
+
+    >>> plain_signs("Ｋ\u200b ≈ ½\u00a0𝟐")
+    'K = ½ 2'
+    """
+    return text if text.isascii() else _OTHERS.sub(lambda sign: _SAME[sign[0]], text)

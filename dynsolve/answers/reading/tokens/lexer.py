@@ -40,12 +40,12 @@ _PRECOMPOSED = "ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏżḦḧẍẅ�
 _SCRIPT_TENSOR = "𝓘ℐ"
 """The letter of the tensor in base coordinates, which is another than the tensor I in the body's axes."""
 _GREEK = "".join(SPELLED)
-_LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳℓℝ"
+_LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℂℊℋℌℍℎℐℑℒℓℕℙℚℛℜℝℤℨℬℭℯℰℱℳℴⅆ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
 _BRACED = r"_\{[ ]?[A-Za-z0-9]{1,20}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{1,20}){0,5}[ ]?\}"
 _UNDOTTED = rf"(?!(?:_?[{_INDEX}]+|_\{{[0-9]+\}})?[\u0307\u0308])"
 _NAME_PART = (
-    rf"[{_LETTER}]{_UNDOTTED}|[{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9](?![\u0307\u0308]))|{_BRACED}"
+    rf"[{_LETTER}]{_UNDOTTED}|[{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z{_INDEX}](?![\u0307\u0308]))|{_BRACED}"
 )
 _TOKEN = re.compile(
     rf"""[ ]*(?:
@@ -57,10 +57,11 @@ _TOKEN = re.compile(
     | (?P<mathematica>\\\[[A-Z][a-z]{{1,12}}\][A-Za-z0-9]{{0,20}})
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
     | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|=:|==
-          |[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂∇∑≠∈∀⇒⟹⇔’′″■@〖〗!$≡≜≔≕≝⟨⟩])
-    | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
+          |[-+*/^_=<>(){{}}\[\],;&'|.:°º˚−–—‐‑‒―﹣·⋅∙•×∗⁎⋆÷∕⁄√∂∇∑≠∈∀⇒⟹⇔→⟶∴’′ʹ＇"”″ʺ■@〖〗!$≡≜≔≕≝⟨⟩])
+    | (?P<half>(?<![\w)\]}}\u0307\u0308])[{SUPERSCRIPT_DIGITS}]+[⁄∕/][{SUBSCRIPT_DIGITS}]+)
+    | (?P<raised>[⁻⁺]?[{SUPERSCRIPT_DIGITS}]+)
     | (?P<dotted>(?:[{_LETTER}][\u0307\u0308]{{1,2}}|[{_PRECOMPOSED}])
-          (?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*
+          (?:[{_INDEX}](?![\u0307\u0308])|_(?=[{_INDEX}])|_\{{[0-9]+\}})*
           |[{_LETTER}](?:_?[{_INDEX}]+|_\{{[0-9]+\}})[\u0307\u0308]{{1,2}})
     | (?P<percent>%pi)
     | (?P<accent>[\u0307\u0308])
@@ -74,19 +75,14 @@ _SIGNS = {
     "./": "/",
     ".^": "^",
     ".'": "'",
-    "−": "-",
-    "–": "-",
-    "·": "cdot",
-    "⋅": "cdot",
-    "∙": "cdot",
+    **dict.fromkeys("−–—‐‑‒―﹣", "-"),
+    **dict.fromkeys("·⋅∙•", "cdot"),
     "×": "times",
-    "∗": "*",
-    "⋆": "*",
-    "÷": "/",
-    "∕": "/",
-    "⁄": "/",
-    "’": "'",
-    "′": "'",
+    **dict.fromkeys("∗⁎⋆", "*"),
+    **dict.fromkeys("÷∕⁄", "/"),
+    **dict.fromkeys("’′ʹ＇", "'"),
+    **dict.fromkeys('"”″ʺ', "''"),
+    **dict.fromkeys("º˚", "°"),
     "==": "=",
     "@": "\\\\",  # Word's rows
     "〖": "{",
@@ -101,7 +97,7 @@ _SIGNS = {
 }
 _COMMANDS = {
     "∂": "partial", "∇": "nabla", "∑": "sum", "≠": "neq", "∈": "in", "∀": "forall", "⇒": "Rightarrow",
-    "⟹": "Longrightarrow", "⇔": "Leftrightarrow",
+    "⟹": "Longrightarrow", "⇔": "Leftrightarrow", "→": "rightarrow", "⟶": "rightarrow", "∴": "therefore",
 }  # fmt: skip
 """Signs that are one of LaTeX's commands."""
 _ASCII = str.maketrans(SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)})
@@ -119,7 +115,8 @@ _LAYOUT = frozenset(
     "checkmark blacksquare square Box qed".split()
 )
 SEPARATORS = frozenset(
-    "quad qquad implies Rightarrow Leftrightarrow Longrightarrow iff therefore because".split()
+    "quad qquad implies rightarrow longrightarrow Rightarrow Leftrightarrow Longrightarrow iff therefore "
+    "because".split()
 )
 """Commands that stand between two equations of one display."""
 
@@ -277,8 +274,6 @@ def _rare_token(text: str, piece: Token) -> tuple[Token | None, int]:
 def _token(piece: Token) -> Token | None:
     kind, text = piece.kind, piece.text
     if kind == "sign":
-        if text == "″":
-            return piece._replace(kind="''")
         if text in _COMMANDS:
             return piece._replace(kind="command", text=_COMMANDS[text])
         return piece._replace(kind=_SIGNS.get(text, text))
@@ -295,6 +290,10 @@ def _token(piece: Token) -> Token | None:
         return piece._replace(kind="name", text="pi")
     if kind == "fraction":
         return piece._replace(text=_FRACTIONS[text])
+    if kind == "half":  # ¹⁄₂
+        return piece._replace(
+            kind="fraction", text=unicodedata.normalize("NFKC", text).replace("\u2044", "/")
+        )
     return piece
 
 
