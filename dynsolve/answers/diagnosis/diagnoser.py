@@ -55,6 +55,9 @@ OF_OWN = "By your own answers before it: "
 _OF_A_CONSTANT = ("missing_term", "extra_term", "another_model")
 """What says no more than that a constant stands there."""
 
+_OF_GRAVITY = ("gravity_missing", "gravity_sign")
+"""What would be true of a whole matrix as it is told, and is said of one entry."""
+
 MOST_OF_IT = Fraction(1, 2)
 """An answer with at least this share of the key's terms is compared with the key."""
 
@@ -196,7 +199,10 @@ class Diagnoser:
             told = what_differs(self.words, wrong.called, case.mine, case.expected)
         of_step = found is not None and any(isinstance(mend, Redoing) for mend in found.mends)
         first = "" if of_step or case in cases[-1] else OF_OWN
-        yield from (replace(one, message=f"{first}{one.message}") for one in told)
+        for one in told:
+            is_of_entry = one.code in _OF_GRAVITY and wrong.called.startswith("Entry")
+            of_entry = f"{wrong.called}: " if is_of_entry else ""
+            yield replace(one, message=f"{first}{of_entry}{one.message}")
 
     def _of_fractions(self, wrong: WrongEntry) -> Iterator[Diagnosis]:
         """What differs above the denominator of the nearest value, where the answer's may be that one."""

@@ -48,20 +48,24 @@ class MatrixDiagnoser:
             return found
         given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
         if all(entry.is_zero for entry in given.entries):
-            return (slip("zero", yours="Your answer"),) if {d.code for d in found} == {"zero"} else found
+            codes = {d.code for d in found}
+            is_one = codes in ({"zero"}, {"gravity_missing"})
+            return (slip(*codes, yours="Your answer"),) if is_one else found
         if wrong[0].name == "C" and self._is_transposed_coriolis(compared):
             return (slip("transposed"),)
-        for value, right, diagnosis in self._of_matrix(given, wrong[0], _is_explained(found)):
+        is_shown = any(entry.mine is None or not entry.mine.is_zero for entry in wrong)
+        for value, right, diagnosis in self._of_matrix(given, wrong[0], is_shown, _is_explained(found)):
             if value == given and all(self._is_mended(entry, value, right) for entry in wrong):
                 return (diagnosis, *(d for d in found if d.code == "dimensions"))
         return found
 
     def _of_matrix(
-        self, given: Matrix, wrong: WrongEntry, is_explained: bool
+        self, given: Matrix, wrong: WrongEntry, is_shown: bool, is_explained: bool
     ) -> Iterator[tuple[Any, Any, Diagnosis]]:
         """What a matrix is under a slip, what it is without, and the slip.
 
-        Where one slip in one place explains it, what was done otherwise long before is no nearer.
+        Where one slip in one place explains it, what was done otherwise long before is no nearer; a 0 alone
+        shows no step of these.
         """
         target = wrong.target
         right = target.of(self.steps.done_right(target.node))
@@ -69,7 +73,7 @@ class MatrixDiagnoser:
             yield target.of(value), right, diagnosis
         yield from self._multiplied(given, right)
         key = target.of(self.graph.key(target.node))
-        for value, diagnosis, changed in self.steps.earlier.values(target.node):
+        for value, diagnosis, changed in self.steps.earlier.values(target.node) if is_shown else ():
             is_nearer = SLIPS[diagnosis.code].omits or not is_explained
             if is_nearer and self.steps.fits_the_rest(target.node, changed):
                 yield target.of(value), key, diagnosis
