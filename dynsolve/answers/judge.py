@@ -208,8 +208,15 @@ class Judge:
 
     def _unread(self, answers: dict[str, JudgedAnswer]) -> dict[str, str]:
         """The nodes of what could not be read, and the answers of these that stand for them."""
+        quantities, read = self.graph.quantities, {n for n, a in answers.items() if a.read_as}
         unknown = (one for one in self.submission.not_recognized if one.why not in NO_CLAIMS)
-        named = (name for one in unknown for name in one.answers)
+        named = (
+            name
+            for one in unknown
+            for name in one.answers
+            if read.isdisjoint({name, quantities.entry_of(name)[0]})
+            and not (quantities.parts(name) and read.issuperset(quantities.parts(name)))
+        )
         faulty = (name for name, answer in answers.items() if answer.verdict is Verdict.UNREADABLE)
         target, rules = self.hand_in.compare.target, self.hand_in.answer_ring.rules
         return {node: name for name in (*named, *faulty) if (node := target(name).node) in rules}

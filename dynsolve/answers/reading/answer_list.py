@@ -277,6 +277,8 @@ class AnswerList:
         """Decide what needs the whole file: indices that do not exist, and a model without torques."""
         for own, answers, refused in self.own_scalars:
             if own in self.vocabulary.used:
+                self.left_alone.append(replace(refused, answers=()))
+            elif not answers:
                 self.left_alone.append(refused)
             else:
                 self.answers += answers

@@ -43,7 +43,7 @@ from dynsolve.answers.reading.right_side import (
     read_right_side,
     why_no_value,
 )
-from dynsolve.answers.reading.sentences import CONDITION
+from dynsolve.answers.reading.sentences import CONDITION, CONSTANT
 from dynsolve.answers.reading.shapes import fitted, model_parts, shown
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.macros import Macro
@@ -58,8 +58,11 @@ from dynsolve.notation.walk import names_in
 from dynsolve.quantities.model_families import QDD_FORWARD
 from dynsolve.quantities.spelling import key
 
-_CONTROL = re.compile(r"unknown symbol `(?:[Kk]_?\{?[pPdDiI]\}?|[^`]*tilde\}?)`")
-"""What a controller's gains and errors are told as: an equation that holds them is none of the answers."""
+_CONTROL = re.compile(
+    r"unknown symbol `(?:[Kk]_?\{?[pPdDiI]\}?|[^`]*tilde\}?"
+    r"|(?:q|theta|phi|x)_?\{?[0-9,]*(?:d|des|desired|ref|soll)[0-9,]*\}?)`"
+)
+"""What a controller's gains, errors and desired motion are told as: what holds them is no answer."""
 
 _DEFINITION = "it defines an abbreviation"
 _MORE_THAN_NAME = "its left side is more than a name"
@@ -87,6 +90,9 @@ class EquationReader:
     def define(self, name: str, value: RightSide, has_arguments: bool = False) -> None:
         """Keep a name for what follows; `has_arguments` says that it is written `a(q)`."""
         if len(self.vocabulary.defined) >= MAX_DEFINITIONS or name in self.vocabulary.symbols:
+            return
+        is_number = isinstance(value.value, Node) and not names_in(value.value)
+        if is_number and self.vocabulary.similar(name):  # L_1 = 0.5 gives l_1 a value
             return
         meaning = Meaning(value.value, has_arguments=has_arguments)
         self.vocabulary.define(name, meaning)
@@ -209,11 +215,11 @@ class EquationReader:
             self._without_name(sides[0], members, read, origin)
         elif own := self._own_letter(members, sides, names, read):
             self.define(own, _values(read)[0])
-            self.found.left_alone.append(origin.of(members, _DEFINITION))
+            self.found.own_scalars.append((own, [], origin.of(members, _DEFINITION)))
         elif self._defines_scalar(members, sides[0], read, origin):
             return
         elif read and states_constant(self.vocabulary, members, names, _values(read)):
-            self.found.not_recognized.append(origin.of(members, "this says what a symbol of the problem is"))
+            self.found.not_recognized.append(origin.of(members, CONSTANT))
         else:
             self._with_names(names, members, read, origin)
 

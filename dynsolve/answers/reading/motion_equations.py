@@ -85,7 +85,10 @@ def _called(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> MotionEqu
             if (
                 isinstance(value, RightSide)
                 and forces
-                and not isinstance(read_left_side(vocabulary, members[place]), others)
+                and (
+                    not isinstance(read_left_side(vocabulary, members[place]), others)
+                    or vocabulary.similar(name) is not None  # L_2 beside l_2
+                )
             ):
                 return MotionEquation(forces, value, is_zero=False)
     return None

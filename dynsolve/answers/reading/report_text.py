@@ -34,7 +34,7 @@ def visible(text: str, latex: bool) -> str:
     if "\\iffalse" in text:
         text = _without_false(text)
     if not latex:
-        text = _STRUCK.sub(lambda found: found[0] if _cuts_formula(found) else _blank(found), text)
+        text = _STRUCK.sub(lambda found: found[0] if _cuts_formula(found) else _struck(found), text)
         text = _without_deleted(text)
         text = _SCRIPT.sub(_script, text)
         text = _EMPHASIS.sub(r"\1  \3  ", text)
@@ -44,6 +44,15 @@ def visible(text: str, latex: bool) -> str:
 
 def _blank(found: re.Match[str]) -> str:
     return _NOT_LINE_END.sub(" ", found[0])
+
+
+def _struck(found: re.Match[str]) -> str:
+    """Blanks; a formula alone on its line leaves a full stop: the words above it are of no other."""
+    text, blank = found.string, _blank(found)
+    line = (
+        text[text.rfind("\n", 0, found.start()) + 1 : found.start()] + text[found.end() :].partition("\n")[0]
+    )
+    return blank if line.strip() or "$" not in found[1] else "." + blank[1:]
 
 
 def _without(found: re.Match[str], group: int) -> str:

@@ -12,7 +12,8 @@ REJECTED = "the sentence takes it back"
 QUOTED = "it is quoted"
 IN_CASE = "it is said of one case"
 CONDITION = "it is a condition"
-NO_CLAIMS = frozenset({CONDITION, SUPPOSED, SPECIAL, REJECTED, QUOTED})
+CONSTANT = "this says what a symbol of the problem is"
+NO_CLAIMS = frozenset({CONDITION, SUPPOSED, SPECIAL, REJECTED, QUOTED, CONSTANT})
 """What is said so says nothing of what the student found."""
 
 FREE = "it is an equation of free motion, in which no generalized force stands"
@@ -61,13 +62,19 @@ _CASE = re.compile(
 )
 """A case that is no general one: `for $q_2 = 0$`, `Stretched arm, $q_2 = 0$`."""
 
+_OF_EQUATION = (
+    r"(?:[ \t\n]+\w+){0,3}?[ \t\n]+(?:coefficients?|factors?|terms?|koeffizienten|faktoren|terme?"
+    r"|koeffisient\w*|faktor\w*|ledd\w*)\b"
+)
+"""How a comparison goes on that takes a general formula apart."""
+
 _ONE_CASE = _words(
     r"\b(?:special|limiting) cases?\b|\b(?:sonder|spezial)f[aä]ll|\b(?:spesial|grense)tilfelle"
     r"|\bhorizontal position"
     r"|\bstatic(?:ally)?\b|\bstatisch\w*|\bstatisk\b|\b(?:hold|stand)\w* still\b|\bstillst\w+"
     r"|\bnothing moves\b|\bnichts bewegt\b|\bingenting beveger\b"
-    r"|\bat rest\b|\bin ruhe\b|\bi ro\b|\blinearis|\bcheck\b|\bprobe\b|\bkontroll\b|\bcompar|\bvergleich"
-    r"|\bsammenlign"
+    r"|\bat rest\b|\bin ruhe\b|\bi ro\b|\blinearis|\bcheck\b|\bprobe\b|\bkontroll\b"
+    rf"|(?<!\bby )(?<!\bdurch )(?<!\bved )\b(?:compar|vergleich|sammenlign)(?!\w*{_OF_EQUATION})"
     r"|\bwould\b|\bwürden?\b|\bwären?\b|\bville\b|\bcontributes?\b|\bwithout\b|\bohne\b|\buten\b",
     r"\b(?:for|at|if|when|bei|für|wenn|falls|ved|når|hvis)\b[^$:]{0,40}\$[^$=]{1,60}(?:=[^$=]{1,60})+\$",
     r"\\dot[^$=]{1,30}=[ \t]*0[ \t]*\$|[\u0307'][^$=]{0,10}=[ \t]*0[ \t]*\$",

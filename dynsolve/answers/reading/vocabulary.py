@@ -16,6 +16,7 @@ from functools import lru_cache
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.index_order import USUAL, in_usual_order
+from dynsolve.answers.reading.tokens.lexer import GREEK_COMMANDS
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem
@@ -70,7 +71,7 @@ class Vocabulary:
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
     `candidates` are the matrices that are to be judged; `asked` is what has to be answered, with its parts;
     `defined` is what the student defined; `from_zero` are the names whose indices count from 0;
-    `base_is_world` says that H_1 is A_1.
+    `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that have an index.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -95,6 +96,7 @@ class Vocabulary:
     missed_entries: set[str] = field(default_factory=set)
     orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
     from_zero: frozenset[str] = frozenset()
+    letters: frozenset[str] = frozenset()
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
@@ -102,7 +104,7 @@ class Vocabulary:
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
             self.asked, subscripts=self.subscripts, base_is_world=self.base_is_world,
-            from_zero=self.from_zero,
+            from_zero=self.from_zero, letters=self.letters,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -224,8 +226,8 @@ class Vocabulary:
         return Grid(tuple((Symbol(q.name, dots),) for q in self.coordinates), is_rates=dots)
 
     def is_vector(self, name: str) -> bool:
-        """Whether a bare name is the vector of coordinates."""
-        return name in _VECTORS
+        """Whether a bare name is the vector of coordinates: q, theta, or the one letter of them all."""
+        return name in _VECTORS or (len(self.coordinates) > 1 and self.letters == {name})
 
     def coordinate(self, node: Value) -> Coordinate | None:
         """The coordinate that a symbol is, with any number of dots."""
@@ -330,6 +332,7 @@ def vocabulary(problem: Problem) -> Vocabulary:
     others: dict[str, Symbol] = {"pi": Symbol("pi")}
     spoken = subscripts(coordinates)
     _add_derivatives(others, symbols, spoken)
+    _add_commands(others, symbols, coordinates)
     if robot.ring.plan.references:
         _add_references(others, symbols, coordinates)
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
@@ -348,7 +351,13 @@ def vocabulary(problem: Problem) -> Vocabulary:
         subscripts=spoken,
         base_is_world=robot.base_position.is_zero
         and (robot.base_rotation - Matrix.identity(robot.ring, 3)).is_zero,
+        letters=frozenset(_letter(q.name) for q in coordinates) - symbols.keys(),
     )
+
+
+def _letter(name: str) -> str:
+    base, _ = split(name)
+    return GREEK_COMMANDS.get(base, base)
 
 
 def _add_derivatives(
@@ -367,6 +376,18 @@ def _add_derivatives(
             for spelling, dots in spellings(name):
                 if spelling not in symbols:
                     others.setdefault(spelling, Symbol(q.name, dots))
+
+
+def _add_commands(
+    others: dict[str, Symbol], symbols: dict[str, Symbol], coordinates: tuple[Coordinate, ...]
+) -> None:
+    r"""What commands make of names that are spelled as these: `\ell_1` of ell1, `\varphi` of varphi."""
+    moving = {q.name for q in coordinates}
+    for command, letter in GREEK_COMMANDS.items():
+        for symbol in [s for s in symbols.values() if command != letter and s.name.startswith(command)]:
+            for spelling, dots in spellings(letter + symbol.name[len(command) :]):
+                if spelling not in symbols and (not dots or symbol.name in moving):
+                    others.setdefault(spelling, Symbol(symbol.name, dots))
 
 
 def _add_references(

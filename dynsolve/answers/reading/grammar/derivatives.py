@@ -99,7 +99,11 @@ def _operand(reader: Reader, written: list[Token]) -> Value:
     except ReadError:
         if reader.naming:
             raise
-    if named is not None and (reader.naming or isinstance(named, Reference)):
+    taken = written or reader.tokens[position : reader.position]
+    name = key("".join(token.text for token in taken if token.kind in ("name", "letter", "number")))
+    meaning = reader.vocabulary.symbol(name)
+    is_coordinate = meaning is not None and reader.vocabulary.coordinate(meaning.value) is not None
+    if named is not None and not is_coordinate and (reader.naming or isinstance(named, Reference)):
         return named
     after, its_references = reader.position, dict(reader.references)
     _go_back(reader, position, references)

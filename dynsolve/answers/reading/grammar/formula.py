@@ -245,6 +245,8 @@ class FormulaReader(Reader):
             value = Power(symbol, Number(int(power.text)))
             self.position += 3
             self.token = self.tokens[self.position]
+        elif names.stands_between_rates(self, token.start, self.position + 1):
+            return None
         elif kind in _AFTER_BARE_NAME or (kind == "*" and self.peek(2).kind in BEGINS):
             self.position += 1
             self.token = after

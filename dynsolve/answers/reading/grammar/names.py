@@ -47,7 +47,9 @@ def value_of(reader: Reader, form: Form) -> Value:
         return lone
     whole = "C" if _multiplies_rate(reader, form) else reader.owner
     is_entry = name not in vocabulary.defined and vocabulary.is_own_entry(name, whole)
-    if reader.naming or form.script or is_entry or _is_function_of_q(reader, name):
+    is_matrix = is_entry or _is_function_of_q(reader, name)
+    is_matrix = is_matrix or stands_between_rates(reader, form.start, reader.position)
+    if reader.naming or form.script or is_matrix:
         found = quantity(reader, form, name)
         if found is not None:
             return found
@@ -99,12 +101,28 @@ def _is_rate(meaning: Meaning | None) -> bool:
 
 
 def _is_function_of_q(reader: Reader, name: str) -> bool:
-    """Whether a letter is called with the vector of coordinates, and so is no parameter: g(q), M(q)."""
+    """Whether a letter is called with the coordinates, and so is no parameter: g(q), M(q_1, q_2)."""
+    if reader.token.kind != "(":
+        return False
     vocabulary, argument = reader.vocabulary, reader.peek(1).text
-    is_vector = reader.token.kind == "(" and vocabulary.is_vector(argument)
-    if not is_vector or vocabulary.symbol(argument) is not None:
+    is_letter = argument in vocabulary.letters and reader.peek(2).kind != "_"
+    is_vector = (is_letter or vocabulary.is_vector(argument)) and vocabulary.symbol(argument) is None
+    behind = reader.peek(4 if reader.peek(2).kind == "_" else 2)
+    if not is_vector and behind.kind != ",":  # g(q_1, q_2)
         return False
     return bool(vocabulary.named(name)) and only_coordinates(reader, reader.position)
+
+
+def stands_between_rates(reader: Reader, start: int, behind: int) -> bool:
+    """Whether the letter at `start`, and before the token `behind`, is the matrix of q̇ᵀ M q̇, and no mass."""
+    if reader.tokens[behind].text != "dot":
+        return False
+    before = [
+        t.text for t in reader.tokens[max(behind - 9, 0) : behind] if t.end <= start and t.kind not in "{}"
+    ]
+    after = [t.text for t in reader.tokens[behind + 1 : behind + 4] if t.kind not in "{}"]
+    is_row = before[-1:] in (["T"], ["top"], ["intercal"]) and reader.vocabulary.is_vector(before[-3:][0])
+    return is_row and reader.vocabulary.is_vector(after[0]) and "_" not in after[:2]
 
 
 def _called_index(reader: Reader, form: Form) -> str:
@@ -155,7 +173,12 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
     body = _OWNER_BODY.search(reader.owner)
     if body and _MOMENT.fullmatch(name) and (meaning := vocabulary.similar(name + body.group())):
         return meaning
-    return vocabulary.similar(name)
+    meaning = vocabulary.similar(name)
+    if meaning is not None and isinstance(meaning.value, Symbol) and key(meaning.value.name) != name:
+        if reader.naming and key(meaning.value.name).lower() == name.lower():
+            return None  # what a report defines is another name though it differs by its case alone
+        vocabulary.missed.add(name)
+    return meaning
 
 
 def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:

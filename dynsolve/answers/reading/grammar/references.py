@@ -161,9 +161,10 @@ def skip_arguments(reader: Reader) -> None:
 
 
 def only_coordinates(reader: Reader, position: int) -> bool:
-    """Whether the parenthesis there holds coordinates and commas alone: no factor."""
+    """Whether the parenthesis there holds coordinates and commas alone: no factor, nor the 0 of M(q_1, 0)."""
     vocabulary = reader.vocabulary
     found = False
+    before = "("
     for token in reader.tokens[position + 1 : position + 60]:
         kind = token.kind
         if kind == ")":
@@ -179,12 +180,14 @@ def only_coordinates(reader: Reader, position: int) -> bool:
             if not (
                 is_coordinate
                 or vocabulary.is_vector(name)
+                or (name in vocabulary.letters and meaning is None)
                 or name in ("t", "qdot", "dq", "qd", "theta", "L", "d", "qr", "r")
             ):
                 return False
             found = True
         elif not (
             kind in (",", "_", "number", "{", "}", "^", "*", "'") or token.text in ("dot", "ddot", "star")
-        ):
+        ) or (kind == "number" and before in ("(", ",")):
             return False
+        before = kind
     return False

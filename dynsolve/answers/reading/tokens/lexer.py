@@ -53,7 +53,8 @@ _TOKEN = re.compile(
     | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f\u2061-\u2064~]|%(?!pi\b)[^\n]*(?:\n|$)
           |\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
     | (?P<comma>[0-9]+\{{,\}}[0-9]+)
-    | (?P<number>(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
+    | (?P<number>(?<=_)[0-9]+(?=[.](?![0-9]))
+          |(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
     | (?P<mathematica>\\\[[A-Z][a-z]{{1,12}}\][A-Za-z0-9]{{0,20}})
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
     | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|=:|==
@@ -183,7 +184,7 @@ _SIGN_COMMANDS = {
     "rVert": "|",
     "vert": "|",
 }
-_GREEK_COMMANDS = {
+GREEK_COMMANDS = {
     "ell": "l",
     "vartheta": "theta",
     "varphi": "phi",
@@ -252,7 +253,7 @@ def tokenize(text: str) -> list[Token]:
 
 _FREQUENT = (
     {sign: (sign, sign) for sign in "+-*/^_=(){}[],;&|:"}
-    | {"\\" + name: ("letter", greek) for name, greek in _GREEK_COMMANDS.items()}
+    | {"\\" + name: ("letter", greek) for name, greek in GREEK_COMMANDS.items()}
     | {"\\" + name: (sign, "\\" + name) for name, sign in _SIGN_COMMANDS.items() if sign != "\\\\"}
     | {"\\" + name: ("command", name) for name in ("frac", "dot", "ddot", "sin", "cos")}
 )
@@ -363,7 +364,7 @@ def _command(piece: Token) -> Token | None:
     sign = _SIGN_COMMANDS.get(name)
     if sign is not None:
         return piece._replace(kind=sign, text="\\" + name)
-    greek = _GREEK_COMMANDS.get(name)
+    greek = GREEK_COMMANDS.get(name)
     if greek is not None:
         return piece._replace(kind="letter", text=greek)
     return piece._replace(kind="command", text=name)
