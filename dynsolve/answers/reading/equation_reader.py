@@ -194,7 +194,7 @@ class EquationReader:
             self.found.left_alone.append(origin.of(members, "it says what drives the joints"))
             return
         read = [
-            Member(index, tokens, read_right_side(self.vocabulary, tokens, owners))
+            Member(index, tokens, self._read(tokens, owners, sides[0]))
             for index, tokens in enumerate(members)
             if is_read(sides[index], bool(names))
         ]
@@ -222,6 +222,14 @@ class EquationReader:
             self.found.not_recognized.append(origin.of(members, CONSTANT))
         else:
             self._with_names(names, members, read, origin)
+
+    def _read(self, tokens: list[Token], owners: tuple[str, ...], first: LeftSide) -> RightSide | ReadError:
+        """The value of a member; what u is may be a potential energy, which knows the zero of its height."""
+        found = read_right_side(self.vocabulary, tokens, owners)
+        if isinstance(found, ReadError) and isinstance(first, UnknownSide) and first.key == "u":
+            potential = read_right_side(self.vocabulary, tokens, ("P",))
+            return potential if is_value(potential) else found
+        return found
 
     def _of_motion(self, members: list[list[Token]], names: list[tuple[str, ...]], origin: Origin) -> bool:
         """Keep an equation of motion, an acceleration, or a linear model; whether the chain is one."""

@@ -82,6 +82,9 @@ _BESIDE = re.compile(
 )
 """Another equation on the same line, with the word between the two."""
 
+_BRACE = re.compile(r"\\(?:under|over)brace[ \t]*\{")
+_UNDER = re.compile(r"[ \t]*[_^][ \t]*\{?[ \t]*([KTPVU])[ \t]*(?:\}|(?![A-Za-z_]))")
+
 _MARGIN = 400
 """So far from an equation it is seen whether it stands alone on its line."""
 
@@ -142,6 +145,8 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
             else:
                 first = reader.equations
                 sets.read_display(offset, display)
+                for part in _under_braces(display):
+                    read_aside(reader, part)
                 if display.in_case:
                     numbers = range(first + 1, reader.equations + 1)
                     reader.found.in_case.update(dict.fromkeys(numbers, display.in_case))
@@ -288,6 +293,23 @@ def _stands_alone(text: str, start: int, end: int) -> bool:
     return bool(
         at_start and _ALONE.fullmatch(_BESIDE.sub("", before[2])) and not after.strip(" \t.,;()0123456789")
     )
+
+
+def _under_braces(display: Display) -> Iterator[Display]:
+    r"""The energies that braces name in a Lagrangian: `L = \underbrace{...}_{T} - \underbrace{...}_{V}`."""
+    for found in _BRACE.finditer(display.text):
+        try:
+            end = closing_brace(display.text, found.end() - 1)
+        except ReadError:
+            return
+        if named := _UNDER.match(display.text, end):
+            text = f"{named[1]}={display.text[found.end() : end - 1]}"
+            locate = partial(_locate_behind, display, found.end() - 2)
+            yield replace(display, text=text, locate=locate, aside=IN_SENTENCE)
+
+
+def _locate_behind(display: Display, start: int, offset: int, length: int) -> Place:
+    return display.locate(start + offset, length)
 
 
 def _closing(opening: re.Match[str]) -> str:

@@ -139,3 +139,16 @@ def test_a_definition_that_is_used_waits_for_nothing() -> None:
     report = judge(read_submission(judge.problem, text, "report.md"))
     assert not report.not_recognized
     assert {a.name: a.verdict.value for a in report.answers}["P"] == "correct"
+
+
+@pytest.mark.parametrize("letters", ["TV", "KP", "TU"])
+def test_energies_that_braces_name_in_the_lagrangian(letters: str) -> None:
+    form = r"$$L=\underbrace{%s}_{%s}-\underbrace{%s}_%s$$"
+    for mass, expected in (("M", "correct"), ("2M", "wrong")):
+        found = verdicts(form % (K.format(mass), letters[0], r"mg\ell\sin Q_2", letters[1]))
+        assert (found["K"], found["P"]) == (expected, "correct")
+
+
+def test_a_potential_energy_called_u_has_a_zero_of_its_height() -> None:
+    for sine, expected in (("sin", "correct"), ("cos", "wrong")):
+        assert verdicts(rf"$$u=mg\ell\{sine} Q_2+P_0$$")["P"] == expected
