@@ -91,13 +91,9 @@ VALUES = {
     "NUL": "m1\0*g",
     "bidi override": "m1*\u202eg",
     "bidi isolate": "m1*\u2066g\u2069",
-    "zero-width space": "m1\u200b*g",
-    "zero-width joiner": "m\u200d1",
     "soft hyphen": "m\u00ad1",
-    "byte order mark": "m1*\ufeffg",
     "Cyrillic letter": "\u0430*m1",
     "Greek capital Alpha": "\u0391*m1",
-    "fullwidth letter": "\uff4d1",
     "combining letters": "m" + "\u0301" * 10_000,
     "combining dots": "q" + "\u0307" * 10_000 + "1",
     "lone surrogate": "m1*\ud800",
@@ -173,6 +169,30 @@ def test_a_hostile_equation_of_a_report_spoils_no_other(text: str, file: str) ->
         assert last["P"].node is not None
     if file != "report.html" and "K" in last:
         assert last["K"].node is None
+
+
+READ = {
+    "zero-width space": ("m1\u200b*g", "m1*g"),
+    "zero-width joiner": ("m\u200d1", "m1"),
+    "byte order mark": ("m1*\ufeffg", "m1*g"),
+    "fullwidth letter": ("\uff4d1", "m1"),
+}
+
+
+@pytest.mark.parametrize(("text", "plain"), READ.values(), ids=READ.keys())
+@pytest.mark.parametrize(
+    ("content", "file"),
+    [
+        ("answers:\n  K: {}\n  P: m1*g\n", "answer.yaml"),
+        *(("$$K = {}$$\n\n$$P = m_1 g$$\n", f"report.{ending}") for ending in ("md", "tex", "txt", "html")),
+    ],
+)
+def test_what_is_not_seen_or_looks_the_same_is_read_as_what_is_seen(
+    content: str, file: str, text: str, plain: str
+) -> None:
+    read = [(a.name, a.node) for a in hand_in(content.format(text), file).answers]
+    assert read == [(a.name, a.node) for a in hand_in(content.format(plain), file).answers]
+    assert [name for name, node in read if node is not None] == ["K", "P"]
 
 
 FILES = {

@@ -21,9 +21,12 @@ _SAME = {
     **dict.fromkeys("\u202f\u205f\u3000", " "),
     **dict.fromkeys("≈≃≅≙≐≡≜≔≝", "="),
     "∶": ":",
-    **dict.fromkeys("\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\ufe0e\ufe0f\ufeff", ""),
+    **dict.fromkeys("\u200b\u200c\u200d\u200e\u200f\u2060\ufe0e\ufe0f\ufeff", ""),
 }
-"""Signs as they are typed: full-width ones, digits of other faces, blanks, equalities; the unseen goes."""
+"""Signs as they are typed: full-width ones, digits of other faces, blanks, equalities; the unseen goes.
+
+A soft hyphen stays, and the line waits: in what is copied from a PDF it may be a minus.
+"""
 
 _OTHERS = re.compile(f"[{''.join(_SAME)}]")
 

@@ -163,10 +163,18 @@ def test_a_right_tau_beside_a_wrong_D_is_noted(tau: Text | None) -> None:
 def test_an_equation_of_names_alone_is_listed_where_it_needs_what_is_given_nowhere(
     source: str, needs: dict[str, str]
 ) -> None:
-    report = report_on(RP, source)
+    asking = Checker(replace(problem(RP), find=("K", "L", "tau"), marks={}))
+    report = asking(asking.reader(source, "report.md"))
     why = {
         name: f"{other} stands in it and is given nowhere: this is a definition"
         for name, other in needs.items()
     }
     assert [one.why for one in report.not_recognized] == list(why.values())
     assert all(a.notes == (why[a.name],) for a in report.answers if a.name in why)
+
+
+@pytest.mark.parametrize("source", [r"$$K = \frac12 \dot q^T D \dot q$$", "$$L = K - P$$"])
+def test_an_equation_of_names_alone_for_what_nobody_asks_is_set_aside(source: str) -> None:
+    report = report_on(RP, source)
+    assert not report.not_recognized
+    assert ["is given nowhere" in one.why for one in report.set_aside] == [True]

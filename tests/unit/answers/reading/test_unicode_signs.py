@@ -29,7 +29,7 @@ IN_K = [
     ("+ I1", "−(−I1) –(–I1) —(—I1) ‐(‐I1) ‑(‑I1) －(－I1) ﹣(﹣I1)"
      " ＋I1 +𝐼1 +𝐈1 +𝖨1 +𝙸1 +𝑰1 +I₁ +I_1 +I_₁ +Ｉ１"),
     ("m1", "𝑚1 𝐦1 𝗆1 𝚖1 𝒎1 m₁ m_₁ 𝑚₁ 𝑚_1 ｍ１"
-     " m\u200d1 m\u200b1 m1\u200c m1\u2060 \ufeffm1 m1\u00ad m1\ufe0e"),
+     " m\u200d1 m\u200b1 m1\u200c m1\u2060 \ufeffm1 m1\ufe0e"),
     ("l1²", "ℓ1² l1⁺² l₁² 𝑙₁² l1^2 l1**2 l1＾2 l1·l1 l1⋅l1 l1×l1"),
     (" (", "\u00a0( \u2009( \u202f( \u2003( \u205f( \u3000( \u2062( （"),
     ("q̇1", "q1′ q1’ q1ʹ q1＇ q˙1 q₁̇ 𝑞̇₁ 𝐪̇1 𝗊̇1 𝒒̇_1 q̇_1 q̇_₁ q\u0307\u200d1 (dq1∕dt) (ⅆq1/ⅆt)"),
@@ -46,6 +46,7 @@ OTHERS = [
 UNREAD = [
     ("☃", "SNOWMAN"), ("І", "CYRILLIC"), ("\u20dd", "ENCLOSING CIRCLE"), ("∮", "CONTOUR"), ("😀", "GRINNING"),
     ("\ue000", "U+E000"), ("\u202e", "RIGHT-TO-LEFT OVERRIDE"), ("\u030c", "CARON"), ("ɡ", "SCRIPT G"),
+    ("\u00ad", "SOFT HYPHEN"),
 ]  # fmt: skip
 ASIDE = {"md": "$${}$$", "txt": "{}"}
 
