@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 class DetailName(StrEnum):
     """How much is shown: the names of `explain.step.Detail`, which `--help` need not import."""
 
+    RESULTS = "results"
     BRIEF = "brief"
     NORMAL = "normal"
     FULL = "full"

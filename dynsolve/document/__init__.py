@@ -67,7 +67,8 @@ class Formula:
 
     `source` is where the textbook has it.  `label` names a result, so that it may be
     referred to.  `entries` names the entries of a matrix
-    that is too wide to be laid out: a matrix of names, of its shape.  An `optional`
+    that is too wide to be laid out: a matrix of names, of its shape.  `also` are the labels of further
+    results in the same display.  An `optional`
     formula is left out where its matrices do not fit the page side by side; `otherwise`
     stands in the place of one of which a matrix does not fit a terminal.
     """
@@ -78,6 +79,7 @@ class Formula:
     optional: bool = False
     label: str = ""
     otherwise: tuple[Formula, ...] = ()
+    also: tuple[str, ...] = ()
 
 
 DEFINITIONS = "names-"
@@ -89,12 +91,13 @@ class Equations:
     """Short equations in one display, one under another and level at their equals signs.
 
     Many that do not follow from each other are set `in_columns` where there is room.  A `label`
-    names them all, so that they may be referred to by one number.
+    names them all, so that they may be referred to by one number, and so do the labels in `also`.
     """
 
     nodes: tuple[Node, ...]
     in_columns: bool = False
     label: str = ""
+    also: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +143,7 @@ class Table:
 class Fold:
     """Blocks that belong together under a title and may be folded away.
 
-    `level` is the level of detail it belongs to: 1 is shown in the briefest account.
+    `level` is the depth from which it is shown: 1 is the briefest.
     """
 
     title: str

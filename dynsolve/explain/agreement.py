@@ -10,7 +10,7 @@ from dynsolve.derivation.agreement import agreement
 from dynsolve.document import Prose, Reference
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Line, Step
+from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
@@ -71,6 +71,8 @@ def agreement_step(context: Context) -> Step:
         source=spong("7.3"),
         lines=rows,
         concluding=why if rows else (),
+        detail=Detail.NORMAL if wrong else Detail.FULL,
+        outcome=("Read off from the forces and assembled directly: the same ", *listed(same), "."),
         uses=("christoffel", "C"),
         is_task=False,
     )
@@ -125,6 +127,8 @@ def _nothing_to_check(name: Node) -> Step:
         formula=equation(name, SKEW),
         source=spong("7.5.1"),
         result=(equation(name, zero),),
+        detail=Detail.FULL,
+        outcome=(letters.D, " is constant, and ", equation(letters.C, zero), "."),
         is_task=False,
     )
 
@@ -168,6 +172,8 @@ def skew_step(context: Context) -> Step:
         entries=letters.entries("n", robot.n) if robot.n > 1 else (),
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),
+        detail=Detail.FULL,
+        outcome=(equation(name, SKEW), " is skew-symmetric", *_by_entries(robot.n), "."),
         hint=(
             "A check at the end: with ",
             letters.C,

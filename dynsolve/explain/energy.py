@@ -24,7 +24,7 @@ from dynsolve.explain.jacobian_columns import (
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import STATED, Detail, Group, Part, Step
 from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.sums import summed
 from dynsolve.explain.writing import (
@@ -65,22 +65,25 @@ def steps(context: Context) -> Iterator[Step]:
         yield from energy_steps(context, context.robot.given)
         return
     bodies = context.robot.bodies
-    yield from potential_steps(context)
     springs, rotors = acting_steps(context)
-    yield from springs
-    yield _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
+    of_gravity = [*potential_steps(context), *springs]
+    total = _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
+    potential = Group("P", "Potential energy")
+    yield from (replace(step, group=potential) for step in (*of_gravity, total))
     told, read = False, False
     for body in bodies:
         jacobians = _jacobians(context, body) if context.robot.has_table else jacobians_step(context, body)
         if not read and (way := _read_off(context, body)):
             read, jacobians = True, replace(jacobians, why=(*jacobians.why, *way))
-        yield jacobians
-        yield _velocities(context, body)
         linear = _linear(context, body, tells=not told)
         told = told or bool(linear.notes)
-        yield linear
-        yield rotational_step(context, body)
-        yield _kinetic(context, body)
+        turning = rotational_step(context, body)
+        group = Group(f"K{body.name}", f"Kinetic energy of {name_of(body)}")
+        yield replace(jacobians, group=group, normal=STATED | (Part.WHY if body is bodies[0] else STATED))
+        yield replace(_velocities(context, body), group=group, normal=STATED)
+        yield replace(linear, group=group, normal=STATED)
+        yield replace(turning, group=group, normal=STATED if turning.formula is not None else Part.WHY)
+        yield replace(_kinetic(context, body), group=group, normal=STATED)
     yield from rotors
     yield _total(context, "K", "kinetic", letters.K, [letters.KM] * len(rotors))
 
@@ -114,6 +117,7 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         concluding=way.concluding,
         result=(equation(letter, context.form(name)),),
         detail=Detail.BRIEF,
+        normal=STATED,
     )
 
 

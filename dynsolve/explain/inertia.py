@@ -6,6 +6,7 @@ The first step of a body, its mass centre, is in `mass_centers`, how R I Rᵀ co
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
@@ -18,7 +19,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.mass_centers import mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.shapes import SHAPES, letters_of, shape_letters
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import TOLD, Detail, Group, Part, Step
 from dynsolve.explain.turned_tensors import turning_of
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
 from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side, spong
@@ -44,6 +45,9 @@ from dynsolve.robot.shapes import MASS
 
 STAGE = Stage.INERTIA
 
+CENTERS = Group("rc", "The mass centres")
+TENSORS = Group("I", "The inertia tensors")
+
 _SOURCES = {
     "box": spong("7.2.1"),
     "cylinder": LYNCH_PARK.section("8.2.1"),
@@ -64,19 +68,24 @@ def steps(context: Context) -> Iterator[Step]:
     for body in bodies:
         if body.density is not None:
             yield density_step(context, body, body.density)
-        yield (
-            center_step(context, body)
-            if placed
-            else mass_center_step(context, body, tells=body is off_origin)
-        )
-        if body.is_point:
-            yield _point(context, body)
-            continue
-        yield _tensor(context, body)
-        if is_moved(body):
-            yield _parallel_axis(context, body)
-        yield orientation_step(context, body) if placed else _rotation(context, body, tells=body is framed)
-        yield _base_tensor(context, body)
+    for body in bodies:
+        center = center_step(context, body) if placed else mass_center_step(context, body, body is off_origin)
+        yield replace(center, group=CENTERS)
+    for body in bodies:
+        for step in _of_extent(context, body, body is framed):
+            yield replace(step, group=TENSORS)
+
+
+def _of_extent(context: Context, body: Body, tells: bool) -> Iterator[Step]:
+    """The inertia tensor of a body, along its axes and those of the base."""
+    if body.is_point:
+        yield _point(context, body)
+        return
+    yield _tensor(context, body)
+    if is_moved(body):
+        yield _parallel_axis(context, body)
+    yield _rotation(context, body, tells) if context.robot.has_table else orientation_step(context, body)
+    yield _base_tensor(context, body)
 
 
 # -- the tensor ------------------------------------------------------------------------------------
@@ -114,12 +123,14 @@ def _tensor(context: Context, body: Body) -> Step:
         tensor = Letter("I", Row((letters.index_of(body.name), Words(","), Words("given"))), None, "bold")
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
     formula, working, why = _shape(context, body)
+    said = ""
     if body.density is not None:
         why = (f"The moments of {name_of(body)} were found above; by symmetry there are no others.",)
     elif body.shape is None or not body.shape.formulas:
         axes = f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes"
         why = (f"The tensor of {name_of(body)} is given, about {about}, along {axes}.",)
         why = _left_out(context, body) or (*why, *_principal(context, body))
+        said = f"tensor {_entering(context, body) or _given_as(context, body)}"
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
@@ -129,22 +140,30 @@ def _tensor(context: Context, body: Body) -> Step:
         source=spong("7.2.1") if formula is None or body.shape is None else _SOURCES[body.shape.kind],
         working=working,
         result=(equation(tensor, context.show(body.inertia)),),
+        said=said,
         uses=(),
     )
 
 
-def _left_out(context: Context, body: Body) -> Prose:
-    """What is given of a tensor that is 0 where Rᵀ J_ω has a row of zeros: the body never turns so."""
+def _entering(context: Context, body: Body) -> list[str]:
+    """The body's axes about which it turns, where its tensor is 0 for all others; none else."""
     if not context.is_short or is_moved(body) or body.inertia is None:
-        return ()
+        return []
     turning = context.values[f"R{body.name}"].T @ context.values[f"Jw{body.name}"]
     still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]
-    if not still or len(still) > 2 or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
+    if not still or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
+        return []
+    return [name for i, name in enumerate("xyz") if i not in still]
+
+
+def _left_out(context: Context, body: Body) -> Prose:
+    """What is given of a tensor that is 0 where Rᵀ J_ω has a row of zeros: the body never turns so."""
+    turning_axes = _entering(context, body)
+    if not turning_axes:
         return ()
-    turning_axes = [name for i, name in enumerate("xyz") if i not in still]
     axes = listed([_axis(context, body, name, f"its axis {name}") for name in turning_axes])
     entries, along = "what belongs to ", "has components along these axes alone"
-    if len(still) == 2:
+    if len(turning_axes) == 1:
         entries, along = "the moment about ", "is parallel to that axis"
         entries += "the axis parallel to " if isinstance(axes[0], Letter) else ""
         if isinstance(axes[0], Letter) and not _in_frame(context, body):
@@ -171,6 +190,12 @@ def _principal(context: Context, body: Body) -> Prose:
             " is taken as 0: the body is slender.",
         )
     return told
+
+
+def _given_as(context: Context, body: Body) -> tuple[bool, bool, tuple[bool, ...]]:
+    """How a tensor is given: about which point, along which axes, which of its entries are zero."""
+    assert body.inertia is not None
+    return is_moved(body), _in_frame(context, body), tuple(entry.is_zero for entry in body.inertia.entries)
 
 
 def _in_frame(context: Context, body: Body) -> bool:
@@ -280,8 +305,9 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         working=_turned_back(context, body, rotation),
         result=(equation(rotation, context.form(f"R{body.name}")),),
         notes=notes,
+        said="axes of the link" if has_link_axes(body) else "",
         uses=(),
-        detail=Detail.FULL if is_unneeded else Detail.NORMAL,
+        detail=Detail.FULL if is_unneeded or has_link_axes(body) else Detail.NORMAL,
     )
 
 
@@ -350,6 +376,7 @@ def _right_frame(context: Context, link: int) -> Iterator[Prose]:
 def _base_tensor(context: Context, body: Body) -> Step:
     name, R = letters.base_tensor(letters.index_of(body.name)), letters.of_body("R", body, "bold")
     turning, base = turning_of(context, body, R), context.form(f"I{body.name}")
+    same = (turning.same,) if turning.same else ()
     detail = _detail(context, body, base)
     leads: Prose = (R, f" leads from the body's axes to those of the {context.ground}.")
     if _is_kept(context, body):
@@ -368,12 +395,14 @@ def _base_tensor(context: Context, body: Body) -> Step:
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=(*leads, *turning.why),
-        formula=equation(name, Product((R, letters.tensor(context.robot, body), Transpose(R)))),
+        formula=equation(name, Product((R, letters.tensor(context.robot, body), Transpose(R))), *same),
         source=spong("7.2.1"),
         working=tuple(equation(name, line) for line in turning.lines),
         concluding=turning.concluding,
-        result=(equation(name, *((turning.same,) if turning.same else ()), base),),
+        result=(equation(name, *same, base),),
+        normal=Part.WHY | Part.FORMULA if same else TOLD,
         notes=turning.notes,
+        said=f"turned tensor {turning.axis}" if turning.axis else "",
         uses=(f"I_body{body.name}",) if _is_kept(context, body) else None,
         detail=detail,
     )

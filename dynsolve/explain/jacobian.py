@@ -23,7 +23,7 @@ from dynsolve.explain.jacobian_columns import (
     read_off,
     used_in_cross,
 )
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Group, Part, Step
 from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.writing import and_joined, column_of, craig, listed, side_by_side, spong, turns
@@ -50,9 +50,11 @@ STAGE = Stage.JACOBIAN
 def steps(context: Context) -> Iterator[Step]:
     """Axes and origins, a column a coordinate, and J."""
     yield _axes(context)
+    whole = _whole(context)
+    group = Group("J", whole.title, whole.why, whole.formula, whole.source)
     for q in context.robot.coordinates:
-        yield _column(context, q)
-    yield _whole(context)
+        yield replace(_column(context, q), normal=Part.WORKING | Part.CONCLUDING, group=group)
+    yield replace(whole, group=group)
 
 
 def _axes(context: Context) -> Step:
@@ -70,14 +72,11 @@ def _axes(context: Context) -> Step:
         stage=STAGE,
         title="Axes and origins of the frames",
         why=(
-            *_purpose(context),
             "In the first three rows of ",
             *_matrices_of_frames(context, told),
-            " the first three columns are the rotation ",
-            Letter("R", style="bold"),
-            ", the third of these is ",
+            " the third column is ",
             Letter("z", style="bold"),
-            ", and the fourth is ",
+            ", the fourth ",
             Letter("o", style="bold"),
             *_of_frame_0(context, moving),
             f". In the {robot.convention.value} convention joint i {_motions(robot)} ",
@@ -98,14 +97,6 @@ def _matrices_of_frames(context: Context, told: Sequence[int]) -> Prose:
     if context.is_short:
         return (Letter("H", style="bold"), Reference(tuple(f"H{i}" for i in told if i), " in "))
     return ("each ", replace(letters.H(context.robot, 0), sub=letters.COUNT))
-
-
-def _purpose(context: Context) -> Prose:
-    """What the Jacobian of the last frame is for, and what the dynamics take instead."""
-    why = f"The Jacobian takes the rates of the coordinates to the velocity of {context.end}. "
-    if context.robot.bodies:
-        why += "For the dynamics each body has its own, at its mass centre, from the same axes and origins. "
-    return (why,)
 
 
 def _moving_frames(robot: Robot) -> list[int]:

@@ -8,7 +8,7 @@ from dynsolve.document import Prose, Reference, Table
 from dynsolve.explain.base_frame import base_step, motion
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.writing import craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
@@ -32,6 +32,8 @@ from dynsolve.robot.model import Joint, JointType
 
 STAGE = Stage.KINEMATICS
 
+ROWS = Group("A", "The matrices of the rows")
+
 _ZERO, _ONE, _I = Number(0), Number(1), Symbol("i")
 
 
@@ -43,8 +45,9 @@ def steps(context: Context) -> Iterator[Step]:
     yield _general(context)
     for joint in context.robot.joints:
         yield _row(context, joint)
+    frames = Group("H", f"The frames seen from the {context.ground}", _frame_why(context, tells=True))
     for joint in context.robot.joints:
-        yield _frame(context, joint.index)
+        yield _frame(context, joint.index, frames)
 
 
 def table_of(context: Context) -> Table:
@@ -72,6 +75,7 @@ def _table(context: Context) -> Step:
         notes=tuple(_table_notes(context)),
         table=table_of(context),
         detail=Detail.BRIEF,
+        normal=Part.WHY | Part.NOTES,
         is_task=False,
     )
 
@@ -221,7 +225,8 @@ def _general(context: Context) -> Step:
         ),
         formula=equation(name, product),
         source=spong("3.2") if context.standard else craig("3.5"),
-        further=(equation(name, in_full),) if context.is_short else (),
+        working=(equation(name, in_full),) if context.is_short else (),
+        normal=STATED | Part.WHY,
         task=equation(name, product, matrix),
         result=(equation(name, matrix),),
         detail=Detail.BRIEF,
@@ -261,6 +266,8 @@ def _row(context: Context, joint: Joint) -> Step:
         working=(given, *_folded(context, joint)),
         task=given,
         result=(equation(letters.A(i), context.form(f"A{i}")),),
+        normal=Part.RESULT,
+        group=ROWS,
     )
 
 
@@ -278,7 +285,7 @@ def _folded(context: Context, joint: Joint) -> Iterator[Node]:
         yield side_by_side(shown)
 
 
-def _frame(context: Context, i: int) -> Step:
+def _frame(context: Context, i: int, frames: Group) -> Step:
     robot = context.robot
     last = i == len(robot.joints)
     start = robot.joints[i - 1].parent
@@ -294,7 +301,8 @@ def _frame(context: Context, i: int) -> Step:
             why=(f"{which} is seen from frame 0 itself, so no product is needed.",),
             source=_products(context),
             result=(equation(name, letters.A(i), H),),
-            detail=detail,
+            detail=Detail.BRIEF if last else Detail.FULL,
+            group=frames,
         )
     chain = [letters.A(joint.index) for joint in robot.path(i)]
     if letters.has_base(robot):
@@ -315,6 +323,8 @@ def _frame(context: Context, i: int) -> Step:
         result=(equation(name, H),),
         task=equation(name, working) if i > 1 else None,
         detail=detail,
+        normal=WORKED,
+        group=frames,
     )
 
 

@@ -11,7 +11,7 @@ from dynsolve.errors import ReadError
 from dynsolve.explain.citations import GEOMETRY, GIVEN
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import told_frames
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import TOLD, WORKED, Detail, Part, Step
 from dynsolve.explain.writing import block_of, is_small, name_of, spong
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
@@ -36,8 +36,10 @@ STAGE = Stage.INERTIA
 def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
     """r_c = R r + o; with `tells` it warns that the mass centre is not the frame's origin."""
     r, way = letters.rc(body), _way(context, body)
-    why: Prose = (f"The mass centre of {name_of(body)} ", *_where(context, body), ".")
+    kind, where = _where(context, body)
+    why: Prose = (f"The mass centre of {name_of(body)} ", *where, ".")
     if not any(joint.type for joint in context.robot.path(body.link)):
+        kind = ""
         why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
     return Step(
         id=f"rc{body.name}",
@@ -51,6 +53,8 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         result=(equation(r, context.form(f"rc{body.name}")),),
         notes=(_not_the_origin(body, letters.H(context.robot, body.link)),) if tells else (),
         detail=Detail.BRIEF,
+        normal=WORKED & ~Part.FURTHER | Part.WHY if way.values else TOLD,
+        said=f"center {kind}" if kind else "",
         uses=way.uses,
     )
 
@@ -111,19 +115,18 @@ def _half(near: Node, far: Node) -> Node:
     return Product((letters.HALF, Parenthesized(Sum((near, far)))))
 
 
-def _where(context: Context, body: Body) -> Prose:
+def _where(context: Context, body: Body) -> tuple[str, Prose]:
+    """How a mass centre is given: the kind of it, and in words."""
     link, written = body.link, body.center_written
     near, far = ends(context.robot, body)
     if written == "tip":
-        return (f"is at the far end of link {link}, ", letters.o(far))
-    if written == "origin":
-        return ("is at the origin ", letters.o(link), f" of frame {link}")
+        return written, (f"is at the far end of link {link}, ", letters.o(far))
     if written == "midpoint":
-        return (f"is half-way along link {link}, between ", letters.o(near), " and ", letters.o(far))
+        return written, (f"is half-way along link {link}, between ", letters.o(near), " and ", letters.o(far))
     if body.center.is_zero:
-        return ("is at the origin ", letters.o(link), f" of frame {link}")
+        return "origin", ("is at the origin ", letters.o(link), f" of frame {link}")
     if is_given_by(body, "near") and context.standard:
-        return (
+        return "near", (
             f"is given from the near end of link {link}, ",
             letters.o(near),
             f", along the axes of frame {link}, which is fixed in the link",
@@ -132,9 +135,9 @@ def _where(context: Context, body: Body) -> Prose:
         way: Prose = ("from ", letters.o(near), " to ", letters.o(far))
         fraction = part_of_the_way(body)
         if fraction is None:
-            return (f"is on link {link}, at the given part of the way ", *way)
-        return ("is ", fraction, f" of the way along link {link}, ", *way)
-    return (f"is given by its coordinates in frame {link}, which are constant",)
+            return "", (f"is on link {link}, at the given part of the way ", *way)
+        return "", ("is ", fraction, f" of the way along link {link}, ", *way)
+    return "frame", (f"is given by its coordinates in frame {link}, which are constant",)
 
 
 def is_given_by(body: Body, key: str) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import WORKED, Part, Step
 from dynsolve.explain.writing import is_small, measured, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
@@ -69,6 +69,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         ),
         working=working,
         result=(equation(P, context.form(f"P{body.name}")),),
+        normal=WORKED | Part.WHY if tells or not is_pulled or body.mass.is_zero else WORKED,
     )
 
 

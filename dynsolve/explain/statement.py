@@ -1,16 +1,19 @@
-"""What is given and what is to be found: the exercise in two paragraphs, before its solution."""
+"""What is given, a line for each symbol with its unit, and what is to be found: the exercise."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.document import Prose
+from dynsolve.document import Block, List, Prose, Text
 from dynsolve.explain import given_bodies, hypotheses
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.notation_list import problem_names
+from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.index import quantities
+from dynsolve.robot.units import node as unit_node
 
 MOST_BODIES = 4
 """Up to this number of bodies each is named."""
@@ -51,11 +54,11 @@ _CALLED = {
 """What whole answers are called; others are told by their letters."""
 
 
-def statement(forms: Forms, problem: Problem) -> Iterator[Prose]:
+def statement(forms: Forms, problem: Problem) -> Iterator[Block]:
     """Given: ...; To be found: ..., of an arm with a table; of others what is to be found."""
     if forms.robot.has_table and forms.robot.bodies:
         values = hypotheses.of_values(forms.robot, problem.written, problem.units)
-        yield (
+        yield Text((
             "Given: ",
             *_given(forms),
             ". ",
@@ -63,10 +66,19 @@ def statement(forms: Forms, problem: Problem) -> Iterator[Prose]:
             *hypotheses.of_base(forms),
             *hypotheses.of_forces(forms),
             *values,
-        )
+        ))  # fmt: skip
+    names = list(problem_names(forms.robot))
+    if names:
+        yield List(tuple(_introduced(line) for line in names))
     found = [told for name in problem.find if (told := _called(forms, name)) is not None]
     if found:
-        yield ("To be found: ", *listed(found), ".")
+        yield Text(("To be found: ", *listed(found), "."))
+
+
+def _introduced(line: Line) -> Prose:
+    """l₁, l₂: length of link i (m)"""
+    unit: Prose = (" (", unit_node(line.unit), ")") if line.unit else ()
+    return (line.sign, f": {line.meaning}", *unit)
 
 
 def _given(forms: Forms) -> Prose:

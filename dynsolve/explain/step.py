@@ -1,14 +1,14 @@
 """Steps: the derivation as data, for whoever prints it.
 
 A step says why it is taken, gives the textbook's formula and where it stands, the
-formula with this robot's matrices put in, and the result.  Every detail level
-shows the same values; a level only chooses which steps are shown.
+formula with this robot's matrices put in, and the result.  A depth is a view: every one shows the same
+values, and chooses which steps and lines are shown (`solution.depths`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import Flag, IntEnum, auto
 
 from dynsolve.document import Prose, Table
 from dynsolve.document.figures import ArmFigure, Figure
@@ -17,11 +17,49 @@ from dynsolve.quantities.stages import Stage
 
 
 class Detail(IntEnum):
-    """The level of detail from which on a step is shown."""
+    """The depth from which on a step, or a line of it, is shown."""
 
-    BRIEF = 1
-    NORMAL = 2
-    FULL = 3
+    RESULTS = 1
+    BRIEF = 2
+    NORMAL = 3
+    FULL = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Steps that are alike or lead to one thing: in full a section of its own, else one step.
+
+    `why` is said in place of what the steps say one by one, and `formula` stands in place of theirs.
+    """
+
+    id: str
+    title: str
+    why: Prose = ()
+    formula: Node | None = None
+    source: str = ""
+
+
+class Part(Flag):
+    """The parts of a step."""
+
+    WHY = auto()
+    FORMULA = auto()
+    FURTHER = auto()
+    WORKING = auto()
+    LINES = auto()
+    CONCLUDING = auto()
+    RESULT = auto()
+    NOTES = auto()
+
+
+NOTED = ~Part(0)
+"""All parts."""
+TOLD = NOTED & ~Part.NOTES
+"""All parts but the notes."""
+WORKED = TOLD & ~Part.WHY
+"""The formulas with what leads from one to the next."""
+STATED = Part.FORMULA | Part.RESULT
+"""The formula in letters and the result."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +68,8 @@ class Line:
 
     Words that end in a colon lead on; where what goes in is put in without more, there are none.
     `uses` names the earlier steps whose results go in here, and not before.  Formulas that are referred
-    to later have a `label`, and so one number; many short ones stand `in_columns`.
+    to later have a `label`, and so one number; many short ones stand `in_columns`.  `detail` is the depth
+    from which the line is shown.
     """
 
     by: Prose
@@ -38,6 +77,7 @@ class Line:
     uses: tuple[str, ...] = ()
     label: str = ""
     in_columns: bool = False
+    detail: Detail = Detail.NORMAL
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +96,10 @@ class Step:
     the page; an `optional` result says nothing new, and is left out where it does not fit;
     results that are `listed` stand in one display, those that are `together` side by side;
     a table that is `table_last` stands after the lines;
-    `detail` says from which level on; `figure` is drawn beside it where drawings can be shown.
+    `detail` says from which depth on, `normal` which of its parts a worked example has; in a `group` it
+    is one of the steps that are shown as one; `outcome` is said of it where it is not shown itself;
+    of the steps that are alike, `said` names what `why` tells, and the first alone tells it;
+    `figure` is drawn beside it where drawings can be shown.
 
     What a hint makes of it: `hint` is said in place of a `why` that tells something of the
     result, `hint_title` in place of such a title, `task` is the formula where it is not `formula`; what
@@ -83,6 +126,10 @@ class Step:
     listed: bool = False
     together: bool = False
     detail: Detail = Detail.NORMAL
+    normal: Part = TOLD
+    group: Group | None = None
+    outcome: Prose = ()
+    said: str = ""
     also: tuple[str, ...] = ()
     uses: tuple[str, ...] | None = None
     names: tuple[str, ...] = ()

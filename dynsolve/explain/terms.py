@@ -22,7 +22,7 @@ from dynsolve.explain.christoffel import equal_symbols
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import pairs
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import Letter, Node, Number, Product, Row, Sum, Symbol, equation
@@ -142,6 +142,7 @@ def terms_step(context: Context) -> Iterator[Step]:
         why=("A term", forces, " ".join(why), *(_twice(context) if Kind.CORIOLIS in kinds else ()), *checked),
         source=spong("7.3"),
         table=Table(header, tuple(rows)),
+        detail=Detail.FULL,
         is_task=False,
     )
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.document import Prose
 from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import STATED, Detail, Group, Step
 from dynsolve.explain.working import derivatives
 from dynsolve.explain.writing import listed, spong, turns
-from dynsolve.notation.tree import Negative, Node, Number, Sum, Symbol, equation, number
+from dynsolve.notation.tree import Letter, Negative, Node, Number, Sum, Symbol, equation, number
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType
@@ -25,10 +26,20 @@ def steps(context: Context) -> Iterator[Step]:
 
         yield from friction_steps(context)
     for q in context.robot.coordinates:
-        yield _momentum(context, q)
-        yield _rate(context, q)
-        yield _slope(context, q)
-        yield _force(context, q)
+        why = _held_fixed(context) if q.index == 1 else ()
+        group = Group(f"tau{q.index}", f"Coordinate {q.index}", why)
+        for step in (_momentum(context, q), _rate(context, q), _slope(context, q), _force(context, q)):
+            yield replace(step, group=group, normal=STATED)
+
+
+def _held_fixed(context: Context) -> Prose:
+    """How the three derivatives differ."""
+    coordinate = Letter("q", Symbol("i"))
+    return (
+        "In the partial derivatives everything else is held fixed, the rates in that by ",
+        coordinate,
+        " too; in d/dt all that changes with time is differentiated (product and chain rule).",
+    )
 
 
 def _momentum(context: Context, q: Coordinate) -> Step:

@@ -21,7 +21,7 @@ from dynsolve.robot.model import Body
 class Turning:
     """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result.
 
-    `same` is the tensor that it is equal to, where the rotation does not change it.
+    `same` is the tensor that it is equal to, where the rotation does not change it, being about its `axis`.
     """
 
     lines: tuple[Node, ...]
@@ -29,6 +29,7 @@ class Turning:
     concluding: Prose = ()
     notes: tuple[Prose, ...] = ()
     same: Letter | None = None
+    axis: str = ""
 
 
 def turning_of(context: Context, body: Body, R: Letter) -> Turning:
@@ -48,7 +49,7 @@ def turning_of(context: Context, body: Body, R: Letter) -> Turning:
             R,
             f" is a rotation about {axis}, and {kept}, so the tensor stays as it is.",
         )
-        return Turning((), why, same=letters.tensor(context.robot, body))
+        return Turning((), why, same=letters.tensor(context.robot, body), axis=axis)
     lines = tuple(_turned(context, body))
     is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
     notes: tuple[Prose, ...] = (("This rotation does not change the tensor.",),) if is_kept else ()

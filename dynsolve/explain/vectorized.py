@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.document import Prose
 from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
@@ -13,7 +14,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import inertia_step
 from dynsolve.explain.matrix_factors import with_factors_in_front
 from dynsolve.explain.sanity import sanity_steps
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import STATED, Detail, Part, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums, gravity_rows
 from dynsolve.explain.writing import and_joined, are_counted, listed, spong, sum_of, turns
@@ -51,15 +52,16 @@ def steps(context: Context) -> Iterator[Step]:
     yield _rest(context)
     if from_energies:
         given = context.robot.given
-        yield _inertia_direct(context) if given is None else inertia_step(context, given)
+        direct = [_inertia_direct(context) if given is None else inertia_step(context, given)]
         if _is_short(context):
             parts = (step for body in context.robot.bodies for step in part_steps(context, body))
-            yield from with_factors_in_front(parts, context)
+            direct += with_factors_in_front(parts, context)
         if context.robot.actions:
             from dynsolve.explain.actions import rotor_part_step
 
-            yield from rotor_part_step(context)
-        yield from _sum(context)
+            direct += rotor_part_step(context)
+        direct += _sum(context)
+        yield from (replace(step, detail=Detail.FULL) for step in direct)
     yield christoffel_step(context)
     yield _coriolis(context)
     if from_energies:
@@ -154,6 +156,7 @@ def _rest(context: Context) -> Step:
         result=(equation(Cqd, context.form("Cqd")), equation(letters.G, context.form("g"))),
         also=() if _from_energies(context) else ("g",),  # from the energies a step of its own gives g
         uses=(*_forces(context), "D"),
+        detail=Detail.FULL if _from_energies(context) else Detail.NORMAL,
         hint=(
             "What is left of the forces without the accelerations: the terms with rates belong to C, the "
             f"others, which remain when the {context.machine} is at rest, are ",
@@ -311,6 +314,7 @@ def _gravity(context: Context) -> Step:
         source=spong("7.3"),
         lines=gravity_rows(context),
         result=(equation(letters.G, context.form("g")),),
+        normal=STATED | Part.WHY,
         uses=("P",),
         hint=(
             "Directly, without ",

@@ -14,8 +14,10 @@ from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading
 def numbered(document: Document, level: int | None = None) -> dict[str, int]:
     """The number of each labelled display, from 1; of those alone that an account of `level` shows."""
     displays = (b for b in unfolded(document.blocks, level) if isinstance(b, Formula | Equations))
-    labels = dict.fromkeys(display.label for display in displays if display.label)
-    return {label: number for number, label in enumerate(labels, start=1)}
+    numbers: dict[str, int] = {}
+    for number, display in enumerate((d for d in displays if d.label and d.label not in numbers), start=1):
+        numbers |= dict.fromkeys((display.label, *display.also), number)
+    return numbers
 
 
 def levels(document: Document) -> tuple[int, ...]:
@@ -47,13 +49,14 @@ def running_title(title: str) -> str:
 
 
 def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
-    """Labels in the order of their numbers, three or more that follow each other together.
+    """Labels in the order of their numbers, one of each, three or more that follow each other together.
 
     >>> runs(["c", "a", "b", "e"], {"a": 1, "b": 2, "c": 3, "d": 4, "e": 5})
     [['a', 'b', 'c'], ['e']]
     """
+    first = {number: label for label, number in reversed([*numbers.items()])}
     found: list[list[str]] = []
-    for label in sorted((label for label in labels if label in numbers), key=numbers.__getitem__):
+    for label in map(first.__getitem__, sorted({numbers[label] for label in labels if label in numbers})):
         if found and numbers[label] == numbers[found[-1][-1]] + 1:
             found[-1].append(label)
         else:

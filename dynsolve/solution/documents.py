@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from functools import partial
+from itertools import groupby
+from operator import attrgetter
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import (
@@ -12,16 +13,10 @@ from dynsolve.document import (
     Document,
     Equations,
     Fold,
-    Formula,
     Heading,
-    Note,
-    Picture,
     Prose,
-    Table,
     Text,
-    Uses,
 )
-from dynsolve.document.figures import ArmFigure, Figure
 from dynsolve.errors import attempted
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import (
@@ -34,22 +29,18 @@ from dynsolve.explain.abbreviations import (
 from dynsolve.explain.citations import GAUTIER_KHALIL, KHALIL_DOMBRE, cited
 from dynsolve.explain.notation_list import notation
 from dynsolve.explain.statement import statement
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Number, Power, Relation, Row, Words, equation
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
-from dynsolve.render.page_ends import leads_on
+from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
-from dynsolve.solution.earlier_results import EarlierResults, labelled_results
+from dynsolve.solution.earlier_results import EarlierResults
 from dynsolve.solution.measured_steps import measured_steps
-from dynsolve.solution.said_once import SaidOnce
 from dynsolve.solution.summary import summary_blocks
-
-Drawn = Callable[[Figure | ArmFigure], Picture | None]
-"""What makes a picture of a drawing; none where there is no such pose of the arm."""
 
 CONVENTIONS = {
     "standard": "standard Denavit-Hartenberg (Spong)",
@@ -97,11 +88,11 @@ def _document(
     )
     stated = _part("what is given", lambda: _statement(solution, stages))
     return Document((
-        *_opening(solution, _sources(steps, detail, short)),
+        *_opening(solution),
         *stated,
-        *_part("the notation", lambda: _notation(solution, (*stated, *derivation), detail, short)),
         *derivation,
-        *_closing(solution),
+        *_closing(solution, _sources(steps, detail, short)),
+        *_part("the notation", lambda: _notation(solution, (*stated, *derivation), detail, short)),
     ))  # fmt: skip
 
 
@@ -113,18 +104,17 @@ def _part(what: str, made: Callable[[], Iterable[Block]]) -> tuple[Block, ...]:
 def _statement(solution: Dynamics, stages: Iterable[str] | None) -> Iterator[Block]:
     """The exercise, before a whole solution of it."""
     if stages is None:
-        yield from map(Text, statement(solution.forms, solution.problem))
+        yield from statement(solution.forms, solution.problem)
 
 
 def _notation(
     solution: Dynamics, shown: tuple[Block, ...], detail: Detail, short: Abbreviated | None
 ) -> Iterator[Block]:
-    """Every sign that occurs in what is shown, with its meaning and unit; in brief in one paragraph."""
+    """In full every sign that occurs in what is shown, with its meaning and unit."""
+    if detail is not Detail.FULL:
+        return
     told = notation(solution.robot, solution.style, shown, short)
     if not told.lines:
-        return
-    if detail is Detail.BRIEF:
-        yield Text(told.sentence)
         return
     yield Heading("Notation", 2)
     if told.remarks:
@@ -147,18 +137,14 @@ def _sources(steps: Iterable[Step], detail: Detail, short: Abbreviated | None) -
     yield from (step.source for step in steps if step.formula is not None and step.detail <= detail)
 
 
-def _opening(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
+def _opening(solution: Dynamics) -> Iterator[Block]:
     problem = solution.problem
     yield Heading(problem.title, 1)
-    facts = [problem.source] if problem.source else []
+    facts = [f"{problem.source.rstrip('.')}."] if problem.source else []
     if solution.robot.has_table:
         facts.append(f"Convention: {CONVENTIONS[problem.convention.value]}.")
-    facts += [
-        f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."
-        for book in cited(sources)
-    ]
-    for fact in facts:
-        yield Text((fact,))
+    if facts:
+        yield Text((" ".join(facts),))
 
 
 def _stages(
@@ -169,42 +155,18 @@ def _stages(
     drawn: Drawn | None,
 ) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
-    inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
-    steps = tuple(steps)
+    inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
+    steps = tuple(step for step in steps if step.id != closing.ID)  # it stands in the summary
     named_from = _first_in_names(steps, short)
-    earlier, said = EarlierResults(), SaidOnce()
-    stage: Stage | None = None
-    place, extra = 0, 0
-    heading: Heading | None = None
-    for step in steps:
-        if step.id == closing.ID:  # it stands in the summary
-            continue
-        if step.stage != stage:
-            if short is not None and step.stage is named_from and _defined_first(short, detail):
-                yield from definition_blocks(short, machine(solution.robot))
-            stage, place, extra = step.stage, 0, 0
-            heading = Heading(f"{numbers[stage]}. {stage.heading}", 2)
-        if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
-            extra += 1
-            number = f"{numbers[stage]}.{place}.{extra}"
-        else:
-            place, extra = place + 1, 0
-            number = f"{numbers[stage]}.{place}"
-        if step.detail <= detail:
-            if heading:  # none over a stage of which nothing is shown
-                yield heading
-                heading = None
-            uses = inputs.get(step.id, ()) if step.uses is None else step.uses
-            told = replace(step, why=said.why(step), lines=tuple(_referring(step, earlier)))
-            blocks = tuple(step_blocks(told, detail, earlier.used(step, (*uses, *step.names)), drawn))
-            yield Fold(f"{number} {step.title}", blocks, step.detail)
-        earlier.add(step)
-
-
-def _referring(step: Step, earlier: EarlierResults) -> Iterator[Line]:
-    """The lines of a step, each with the labels of the equations that it uses."""
-    return (replace(line, uses=earlier.used(step, line.uses)) for line in step.lines)
+    shown = Shown(detail, inputs, solution.style, drawn, EarlierResults())
+    for stage, of_stage in groupby(steps, attrgetter("stage")):
+        if short is not None and stage is named_from and _defined_first(short, detail):
+            yield from definition_blocks(short, machine(solution.robot))
+        folds = tuple(shown.of_stage(numbers[stage], of_stage))
+        if folds:  # no heading over a stage of which nothing is shown
+            yield Heading(f"{numbers[stage]}. {stage.heading}", 2)
+        yield from folds
 
 
 def _first_in_names(steps: Iterable[Step], short: Abbreviated | None) -> Stage:
@@ -256,82 +218,7 @@ def _defined(definition: Definition) -> Relation:
     return equation(definition.name, definition.meaning)
 
 
-def step_blocks(
-    step: Step, detail: Detail, inputs: tuple[str, ...] = (), drawn: Drawn | None = None
-) -> Iterator[Block]:
-    """A step: in brief its result and the formula that it comes from, else with all that it has.
-
-    `inputs` are the labels of what its result is computed from, as are the `uses` of its lines.
-    """
-    if detail > Detail.BRIEF and step.why and not _opens_way(step):
-        yield Text(step.why)
-    if detail > Detail.BRIEF and (figure := step.figure) and drawn:
-        picture = attempted(lambda: drawn(figure), lambda: None, f"the picture of {step.title}")
-        yield from () if picture is None else (picture,)
-    table = () if step.table is None else (Table(step.table.header, step.table.rows),)
-    yield from () if step.table_last else table
-    if detail > Detail.BRIEF:
-        yield from _way(step, inputs)
-    elif step.formula is not None:
-        yield Formula(step.formula, step.source)
-    yield from table if step.table_last else ()
-    if step.listed:
-        yield Equations(step.result, in_columns=True, label=step.id)
-    for result, label in labelled_results(step):
-        yield Formula(result, entries=step.entries, optional=step.optional, label=label)
-    if detail > Detail.BRIEF:
-        for note in step.notes:
-            yield Note(note)
-
-
-def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
-    """The way to the result: the formulas in letters, this robot's quantities in them, and what leads on.
-
-    What goes in is named where it goes in: before the working, the first line, or else the result.
-    """
-    if step.formula is not None:
-        yield Formula(step.formula, step.source)
-    for formula in step.further:
-        yield Formula(formula, optional=True)
-    following = (*((Text(step.why),) if _opens_way(step) else ()), *_leading_on(step))
-    yield from _with_uses(following, inputs) if inputs else following
-
-
-def _opens_way(step: Step) -> bool:
-    """Whether what is said of a step leads on to its first line, and so names what goes in there."""
-    opened = bool(step.lines) and not step.lines[0].by and not step.working
-    return opened and step.formula is None and step.table is None and leads_on(step.why)
-
-
-def _leading_on(step: Step) -> Iterator[Block]:
-    """What leads from the formulas in letters to the result."""
-    for working in step.working:
-        yield Formula(working, optional=True)
-    for line in step.lines:
-        lead_in = (Text(line.by),) if line.by else ()
-        yield from _with_uses(lead_in, line.uses) if line.uses else lead_in
-        yield (
-            Formula(line.formulas[0], optional=not line.label, label=line.label)
-            if len(line.formulas) == 1
-            else Equations(line.formulas, in_columns=line.in_columns, label=line.label)
-        )
-    if step.concluding:
-        yield Text(step.concluding)
-
-
-def _with_uses(blocks: tuple[Block, ...], labels: tuple[str, ...]) -> Iterator[Block]:
-    """The blocks, what goes in named before the first formula: in its lead-in, where it has one."""
-    match blocks:
-        case (Text(parts), *rest) if leads_on(parts):
-            yield Uses(labels, parts)
-        case (Text() as sentence, *rest):
-            yield from (sentence, Uses(labels))
-        case (*rest,):
-            yield Uses(labels)
-    yield from rest
-
-
-def _closing(solution: Dynamics) -> Iterator[Block]:
+def _closing(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
     verification = solution.verification
     what, how = "the results", verification.method
     if not solution.robot.has_dynamics:
@@ -350,6 +237,12 @@ def _closing(solution: Dynamics) -> Iterator[Block]:
         )
     yield Heading("Verification", 2)
     yield Text(told)
+    books = [
+        f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."
+        for book in cited(sources)
+    ]
+    if books:
+        yield Text((" ".join(books),))
 
 
 def _in_powers_of_ten(size: float) -> Prose:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from dynsolve.explain.step import Detail
     from dynsolve.notation.printing import Style
     from dynsolve.problem.model import Problem
-    from dynsolve.solution.documents import Drawn
+    from dynsolve.solution.depths import Drawn
     from dynsolve.solution.dynamics import Dynamics
 
 

@@ -29,7 +29,7 @@ say, and a record of it below.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.conserved import conserved_step, momenta_step
@@ -39,7 +39,7 @@ from dynsolve.explain.sanity.equilibrium import equilibrium_step
 from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
 from dynsolve.explain.sanity.point_masses import point_masses_step
 from dynsolve.explain.sanity.unloaded import unloaded_step
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,4 +73,4 @@ def sanity_steps(context: Context) -> Iterator[Step]:
     for check in CHECKS if context.is_short else CHECKS_OF_LONGER_ARMS:
         step = check.step(context)
         if step is not None:
-            yield step
+            yield replace(step, detail=Detail.FULL)

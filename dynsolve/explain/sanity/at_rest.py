@@ -14,8 +14,14 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
 
-def told(why: Prose, lines: Sequence[Line] = (), concluding: Prose = (), table: Table | None = None) -> Step:
-    """The step, by what is said before its lines and after them."""
+def told(
+    why: Prose,
+    lines: Sequence[Line] = (),
+    concluding: Prose = (),
+    table: Table | None = None,
+    outcome: Prose = (),
+) -> Step:
+    """The step, by what is said before its lines and after them; its `outcome` may be what it says itself."""
     return Step(
         id="equilibrium",
         stage=Stage.VECTORIZED,
@@ -26,6 +32,7 @@ def told(why: Prose, lines: Sequence[Line] = (), concluding: Prose = (), table: 
         concluding=concluding,
         table=table,
         table_last=bool(lines),
+        outcome=outcome or concluding or why,
         is_task=False,
     )
 

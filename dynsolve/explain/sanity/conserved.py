@@ -45,7 +45,7 @@ def _step(context: Context, energy: Line | None) -> Step | None:
         return None
     by: Prose = energy.by if energy else ()
     momenta = [equation(_momentum(q), _written(context, q)) for q in free if not _stands_above(context, q)]
-    of_momenta = (*_of_momenta(context, free), " conserved:" if momenta else " conserved.") if free else ()
+    of_momenta = (*_of_momenta(context, free), " conserved:") if momenta else _conserved(context, free)
     return Step(
         id="conserved",
         stage=Stage.VECTORIZED,
@@ -55,8 +55,14 @@ def _step(context: Context, energy: Line | None) -> Step | None:
         lines=(Line((), energy.formulas),) if energy else (),
         concluding=(*_of_power(context), *of_momenta) if energy else (),
         result=tuple(momenta),
+        outcome=(*(_of_power(context) if energy else ()), *_conserved(context, free)),
         is_task=False,
     )
+
+
+def _conserved(context: Context, free: list[Coordinate]) -> Prose:
+    """Which momenta are conserved, without what they are."""
+    return (*_of_momenta(context, free), " conserved.") if free else ()
 
 
 # -- the energy ------------------------------------------------------------------------------------

@@ -79,6 +79,7 @@ def definite_step(context: Context) -> Step | None:
         lines=found.lines,
         concluding=found.concluding,
         result=found.result,
+        outcome=(letters.D, " is positive definite", " for positive parameters." if assumed else "."),
         is_task=False,
     )
 

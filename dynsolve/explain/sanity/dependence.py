@@ -25,13 +25,15 @@ def dependence_step(context: Context) -> Step | None:
     entry = letters.entry("d", last.index, last.index)
     value = context.values["D"][last.index - 1, last.index - 1]
     form = context.show(value)
+    why = (*on_carried_links(), *on_last_entry(context))
     return Step(
         id="dependence",
         stage=Stage.VECTORIZED,
         title="Check: on what the inertia matrix depends",
-        why=(*on_carried_links(), *on_last_entry(context)),
+        why=why,
         source=spong("7.2"),
         result=(equation(entry, form),) if cost(form) <= LONGEST else (),
+        outcome=why,
         is_task=False,
     )
 

@@ -95,7 +95,20 @@ def _told_of_all(
         *_by_minors(context, names),
     )
     why = (*at_rest(context), *assumed(context), *_rows_of(context, rows))
-    return told(why, (*lines, *shown), concluding, Table(_header(context, names), table))
+    poses = Table(_header(context, names), table)
+    return told(why, (*lines, *shown), concluding, poses, _counted(zero, kinds))
+
+
+def _counted(zero: Sequence[Pose], kinds: Sequence[Kind]) -> Prose:
+    """In how many poses gravity is balanced, and at which the equilibrium is stable."""
+    stable = [
+        side_by_side(written(pose)) for pose, kind in zip(zero, kinds, strict=True) if kind is Kind.MINIMUM
+    ]
+    poses = "one pose" if len(zero) == 1 else f"{len(zero)} poses"
+    told: Prose = (f"Gravity is balanced in {poses} (up to full turns); the potential energy has ",)
+    if not stable:
+        return (*told, "a minimum in none.")
+    return (*told, "its minimum" if len(stable) == 1 else "minima", " at ", *listed(stable), ".")
 
 
 def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:

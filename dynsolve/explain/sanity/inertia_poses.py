@@ -57,6 +57,12 @@ def inertia_poses_step(context: Context) -> Step | None:
         why=why,
         source=spong("7.2"),
         table=_table(list(chain(*shown.values()))),
+        outcome=(
+            "In simple poses ",
+            *listed(names),
+            f" {'is the moment' if one else 'are the moments'} of inertia of all that the joint moves, ",
+            "by the parallel-axis theorem.",
+        ),
         is_task=False,
     )
 

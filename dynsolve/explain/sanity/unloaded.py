@@ -37,6 +37,7 @@ def unloaded_step(context: Context) -> Step | None:
         title=f"Check: {'a joint' if len(free) == 1 else 'joints'} that gravity does not load",
         why=why,
         source=spong("7.2.3"),
+        outcome=why,
         is_task=False,
     )
 

@@ -1,0 +1,350 @@
+"""Steps at a depth: which are shown, as how many, with which of their lines.
+
+    results   none: what is given and the summary are the whole solution
+    brief     of each step the formula that it comes from and its result
+    normal    a worked example: steps of a group as one, with the lines that need a thought; of checks the
+              outcome
+    full      every step with all that it has
+
+A number stands for the same step in every depth: 3.1 is a group or a step of its own, 3.1.2 what is shown
+in full alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain
+
+from dynsolve.document import Block, Equations, Fold, Formula, List, Note, Picture, Table, Text, Uses
+from dynsolve.document.figures import ArmFigure, Figure
+from dynsolve.errors import attempted
+from dynsolve.explain.step import Detail, Group, Line, Part, Step
+from dynsolve.explain.writing import side_by_side
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Node, Relation, Row
+from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.render.matrices import holds_matrix
+from dynsolve.render.page_ends import leads_on
+from dynsolve.render.terminal_boxes import TextBox, boxed, pieces
+from dynsolve.solution.earlier_results import EarlierResults, labelled_results
+
+Drawn = Callable[[Figure | ArmFigure], Picture | None]
+"""What makes a picture of a drawing; none where there is no such pose of the arm."""
+
+CHECKS = "Checks"
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """What has a number of its own: the steps of a group, or one step."""
+
+    steps: tuple[Step, ...]
+
+    @property
+    def is_group(self) -> bool:
+        """Whether it is several steps under one title."""
+        return len(self.steps) > 1
+
+    @property
+    def title(self) -> str:
+        """That of the group, or of the step."""
+        group = self.steps[0].group
+        return group.title if group and self.is_group else self.steps[0].title
+
+    @property
+    def detail(self) -> Detail:
+        """The depth from which it is shown."""
+        return min(step.detail for step in self.steps)
+
+
+def items(steps: Iterable[Step]) -> list[Item]:
+    """The steps of a stage, those of a group together at the place of its first, unless all are extra."""
+    found: dict[str, list[Step]] = {}
+    for step in steps:
+        key = f"group {step.group.id}" if step.group else step.id
+        found.setdefault(key, []).append(step)
+    together = [Item(tuple(each)) for each in found.values()]
+    parted = (map(Item, zip(item.steps)) if item.detail is Detail.FULL else (item,) for item in together)
+    return list(chain.from_iterable(parted))
+
+
+@dataclass(slots=True)
+class Shown:
+    """Turns the items of a solution, in their order, into what a depth shows of them."""
+
+    detail: Detail
+    inputs: dict[str, tuple[str, ...]]
+    style: Style
+    drawn: Drawn | None
+    earlier: EarlierResults
+    said: set[str] = field(default_factory=set)
+
+    def of_stage(self, number: int, steps: Iterable[Step]) -> Iterator[Block]:
+        """The folds of a stage."""
+        place, extra = 0, 0
+        outcomes: list[Step] = []
+        for item in items(steps):
+            if item.detail is Detail.FULL:
+                extra += 1
+                label = f"{number}.{place}.{extra}"
+            else:
+                place, extra = place + 1, 0
+                label = f"{number}.{place}"
+            if item.is_group and self.detail is Detail.FULL:
+                yield Fold(f"{label} {item.title}", (), item.detail)
+                for step in item.steps:
+                    extra += 1
+                    yield Fold(f"{label}.{extra} {step.title}", tuple(self.whole(step)), step.detail)
+            elif item.detail <= self.detail:
+                yield Fold(f"{label} {item.title}", tuple(self.blocks(item)), item.detail)
+            else:
+                outcomes += [step for step in item.steps if step.outcome]
+                for step in item.steps:
+                    self.earlier.add(step)
+        if outcomes and self.detail is Detail.NORMAL:
+            told = tuple(step.outcome for step in outcomes)
+            yield Fold(f"{number}.{place + 1} {CHECKS}", (List(told),), Detail.NORMAL)
+
+    def blocks(self, item: Item) -> Iterator[Block]:
+        """An item as one step."""
+        match self.detail:
+            case Detail.FULL:
+                yield from self.whole(item.steps[0])
+            case Detail.NORMAL:
+                yield from condensed(list(self.worked(item)), self.style)
+            case _:
+                yield from condensed(list(self.results(item)), self.style)
+
+    # -- full --------------------------------------------------------------------------------------
+
+    def whole(self, step: Step) -> Iterator[Block]:
+        """A step with all that it has."""
+        yield from step_blocks(self.referring(self.telling(step)), self.used(step), self.drawn)
+        self.earlier.add(step)
+
+    def telling(self, step: Step) -> Step:
+        """A step without what a step that is alike has told."""
+        is_told = step.said in self.said
+        self.said |= {step.said} - {""}
+        return replace(step, why=()) if is_told else step
+
+    def used(self, step: Step) -> tuple[str, ...]:
+        """The labels of what a step is computed from."""
+        uses = self.inputs.get(step.id, ()) if step.uses is None else step.uses
+        return self.earlier.used(step, (*uses, *step.names))
+
+    def referring(self, step: Step) -> Step:
+        """A step whose lines have the labels of the equations that they use."""
+        return replace(
+            step, lines=tuple(replace(line, uses=self.earlier.used(step, line.uses)) for line in step.lines)
+        )
+
+    # -- normal ------------------------------------------------------------------------------------
+
+    def worked(self, item: Item) -> Iterator[Block]:
+        """An item as one step of a worked example."""
+        group = item.steps[0].group if item.is_group else None
+        if group and group.why:
+            yield Text(group.why)
+        if group and group.formula is not None:
+            yield Formula(group.formula, group.source)
+        sources = {group.source} if group else set()
+        for step in item.steps:
+            if step.detail < Detail.FULL:
+                shown = normal(self.referring(self.telling(step)), group)
+                shown = replace(shown, source="") if group and step.source in sources else shown
+                yield from step_blocks(shown, () if group else self.used(step), self.drawn)
+                sources |= {step.source} if shown.formula is not None else set()
+            self.earlier.add(step)
+
+    # -- brief -------------------------------------------------------------------------------------
+
+    def results(self, item: Item) -> Iterator[Block]:
+        """The formula of an item and its results."""
+        for step in item.steps:
+            if step.detail <= self.detail:
+                if step.table is not None:
+                    yield Table(step.table.header, step.table.rows)
+                if step.formula is not None:
+                    yield Formula(step.formula, step.source)
+                yield from result_blocks(step)
+            self.earlier.add(step)
+
+
+def normal(step: Step, group: Group | None) -> Step:
+    """A step with the parts that a worked example has; what its group has is not repeated."""
+    parts = step.normal
+    if group and group.why:
+        parts &= ~Part.WHY
+    if group and group.formula is not None:
+        parts &= ~Part.FORMULA
+    lines = tuple(line for line in step.lines if line.detail < Detail.FULL)
+    return replace(
+        step,
+        why=step.why if Part.WHY in parts else (),
+        formula=step.formula if Part.FORMULA in parts else None,
+        further=step.further if Part.FURTHER in parts else (),
+        working=step.working if Part.WORKING in parts else (),
+        lines=lines if Part.LINES in parts else (),
+        concluding=step.concluding if Part.CONCLUDING in parts else (),
+        result=step.result if Part.RESULT in parts else (),
+        notes=step.notes if Part.NOTES in parts else (),
+    )
+
+
+def step_blocks(step: Step, inputs: tuple[str, ...] = (), drawn: Drawn | None = None) -> Iterator[Block]:
+    """A step with all that it has; `inputs` are the labels of what its result is computed from."""
+    if step.why and not _opens_way(step):
+        yield Text(step.why)
+    if (figure := step.figure) and drawn:
+        picture = attempted(lambda: drawn(figure), lambda: None, f"the picture of {step.title}")
+        yield from () if picture is None else (picture,)
+    table = () if step.table is None else (Table(step.table.header, step.table.rows),)
+    yield from () if step.table_last else table
+    yield from _way(step, inputs)
+    yield from table if step.table_last else ()
+    yield from result_blocks(step)
+    for note in step.notes:
+        yield Note(note)
+
+
+def result_blocks(step: Step) -> Iterator[Block]:
+    """The results of a step, each with its label."""
+    if step.listed:
+        yield Equations(step.result, in_columns=True, label=step.id)
+    for result, label in labelled_results(step):
+        yield Formula(result, entries=step.entries, optional=step.optional, label=label)
+
+
+def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
+    """The way to the result: the formulas in letters, this robot's quantities in them, and what leads on.
+
+    What goes in is named where it goes in: before the working, the first line, or else the result.
+    """
+    if step.formula is not None:
+        yield Formula(step.formula, step.source)
+    for formula in step.further:
+        yield Formula(formula, optional=True)
+    following = (*((Text(step.why),) if _opens_way(step) else ()), *_leading_on(step))
+    yield from _with_uses(following, inputs) if inputs else following
+
+
+def _opens_way(step: Step) -> bool:
+    """Whether what is said of a step leads on to its first line, and so names what goes in there."""
+    opened = bool(step.lines) and not step.lines[0].by and not step.working
+    return opened and step.formula is None and step.table is None and leads_on(step.why)
+
+
+def _leading_on(step: Step) -> Iterator[Block]:
+    """What leads from the formulas in letters to the result."""
+    for working in step.working:
+        yield Formula(working, optional=True)
+    for line in step.lines:
+        lead_in = (Text(line.by),) if line.by else ()
+        yield from _with_uses(lead_in, line.uses) if line.uses else lead_in
+        yield _line_block(line)
+    if step.concluding:
+        yield Text(step.concluding)
+
+
+def _line_block(line: Line) -> Block:
+    """The formulas of a line."""
+    if len(line.formulas) == 1:
+        return Formula(line.formulas[0], optional=not line.label, label=line.label)
+    return Equations(line.formulas, in_columns=line.in_columns, label=line.label)
+
+
+def _with_uses(blocks: tuple[Block, ...], labels: tuple[str, ...]) -> Iterator[Block]:
+    """The blocks, what goes in named before the first formula: in its lead-in, where it has one."""
+    match blocks:
+        case (Text(parts), *rest) if leads_on(parts):
+            yield Uses(labels, parts)
+        case (Text() as sentence, *rest):
+            yield from (sentence, Uses(labels))
+        case (*rest,):
+            yield Uses(labels)
+    yield from rest
+
+
+# -- several formulas as one display ---------------------------------------------------------------
+
+_ROOM = 84
+"""The cells of a terminal up to which formulas stand side by side."""
+
+
+def condensed(blocks: Sequence[Block], style: Style) -> Iterator[Block]:
+    """The blocks, formulas that follow each other without a word between them in one display.
+
+    Equations with the same left side become a chain, matrices stand side by side where there is room, and
+    equations between numbers one under another.
+    """
+    printer = UnicodePrinter(style)
+    waiting: Formula | Equations | None = None
+    for block in blocks:
+        joined = None if waiting is None else _joined(waiting, block, printer)
+        if joined is None:
+            yield from () if waiting is None else (waiting,)
+            waiting = block if isinstance(block, Formula | Equations) else None
+            yield from () if waiting is not None else (block,)
+        else:
+            waiting = joined
+    yield from () if waiting is None else (waiting,)
+
+
+def _joined(one: Formula | Equations, other: Block, printer: UnicodePrinter) -> Formula | Equations | None:
+    """Two displays as one; None where they stay apart."""
+    if isinstance(one, Formula) and isinstance(other, Formula):
+        return _chained(one, other, printer) or _beside(one, other, printer) or _listed(one, other)
+    if isinstance(one, Equations) and isinstance(other, Formula) and not one.in_columns:
+        return _listed(one, other)
+    return None
+
+
+def _chained(one: Formula, other: Formula, printer: UnicodePrinter) -> Formula | None:
+    """a = b and a = c as a = b = c."""
+    first, second = one.node, other.node
+    if one.label or not isinstance(first, Relation) or not isinstance(second, Relation):
+        return None
+    if first.parts[0] != second.parts[0] or {*first.signs, *second.signs} != {"="}:
+        return None
+    parts = (*first.parts, *(part for part in second.parts[1:] if part != first.parts[-1]))
+    if any(_cells(part, printer) > _ROOM for part in parts):
+        return None
+    node = Relation(parts, ("=",) * (len(parts) - 1))
+    return replace(other, node=node, source=one.source, optional=False)
+
+
+def _beside(one: Formula, other: Formula, printer: UnicodePrinter) -> Formula | None:
+    """Two formulas with matrices on one line."""
+    if one.source or other.source or not one.label or not other.label:
+        return None
+    if not (holds_matrix(one.node) and holds_matrix(other.node)):
+        return None
+    row = side_by_side([*_parts(one.node), *_parts(other.node)])
+    if _cells(row, printer) > _ROOM:
+        return None
+    return replace(one, node=row, also=(*one.also, other.label, *other.also))
+
+
+def _parts(node: Node) -> list[Node]:
+    """The formulas of a row without the commas between them."""
+    return list(node.parts[::2]) if isinstance(node, Row) else [node]
+
+
+def _listed(one: Formula | Equations, other: Formula) -> Equations | None:
+    """Equations without matrices one under another."""
+    nodes = one.nodes if isinstance(one, Equations) else (one.node,)
+    plain = not any(holds_matrix(node) for node in (*nodes, other.node))
+    if not plain or other.source or (isinstance(one, Formula) and one.source) or other.entries:
+        return None
+    labels = [label for label in (one.label, *one.also, other.label, *other.also) if label]
+    return Equations((*nodes, other.node), label=labels[0] if labels else "", also=tuple(labels[1:]))
+
+
+def _cells(node: Node, printer: UnicodePrinter) -> int:
+    """How wide a formula is in a terminal."""
+    return sum(
+        (piece if isinstance(piece, TextBox) else boxed(piece, printer)).width
+        for piece in pieces(node, printer)
+    )
