@@ -24,7 +24,7 @@ from dynsolve.explain.jacobian_columns import (
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
-from dynsolve.explain.step import STATED, Detail, Group, Part, Step
+from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step, outlined
 from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.sums import summed
 from dynsolve.explain.writing import (
@@ -81,7 +81,7 @@ def steps(context: Context) -> Iterator[Step]:
         group = Group(f"K{body.name}", f"Kinetic energy of {name_of(body)}")
         yield replace(jacobians, group=group, normal=STATED | (Part.WHY if body is bodies[0] else STATED))
         yield replace(_velocities(context, body), group=group, normal=STATED)
-        yield replace(linear, group=group, normal=STATED)
+        yield replace(linear, group=group, normal=WORKED if linear.working else STATED)
         yield replace(turning, group=group, normal=STATED if turning.formula is not None else Part.WHY)
         yield replace(_kinetic(context, body), group=group, normal=STATED)
     yield from rotors
@@ -300,7 +300,7 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         formula=equation(Kv, Product((letters.HALF, context.mass(body), letters.transposed_product(v)))),
         source=spong("7.2"),
         working=working if way.frame is None else (),
-        lines=way.lines,
+        lines=outlined(way.lines),
         concluding=way.concluding,
         uses=None if way.frame is None else (f"H{way.frame}", f"v{b}"),
         result=(equation(Kv, form),),

@@ -412,4 +412,5 @@ def _detail(context: Context, body: Body, base: Node) -> Detail:
     """Where the energy is worked out along the body's own axes, 𝓘 is shown only if it is asked for."""
     if along_own_axes(context, body) and f"I{body.name}" not in context.wanted:
         return Detail.FULL
-    return Detail.BRIEF if is_small(base) else Detail.NORMAL
+    is_kept = context.values[f"I{body.name}"] == context.values[f"I_body{body.name}"]
+    return Detail.BRIEF if is_small(base) and not is_kept else Detail.NORMAL

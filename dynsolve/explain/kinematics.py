@@ -219,17 +219,13 @@ def _general(context: Context) -> Step:
         id="A",
         stage=STAGE,
         title="The matrix of a row",
-        why=(
-            "The product of the four motions. It is the same for every row; the entries of each row are "
-            "put into it.",
-        ),
+        why=("The product of the four motions, into which the entries of each row are put.",),
         formula=equation(name, product),
         source=spong("3.2") if context.standard else craig("3.5"),
         working=(equation(name, in_full),) if context.is_short else (),
         normal=STATED | Part.WHY,
         task=equation(name, product, matrix),
         result=(equation(name, matrix),),
-        detail=Detail.BRIEF,
     )
 
 

@@ -7,7 +7,8 @@ values, and chooses which steps and lines are shown (`solution.depths`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from enum import Flag, IntEnum, auto
 
 from dynsolve.document import Prose, Table
@@ -78,6 +79,11 @@ class Line:
     label: str = ""
     in_columns: bool = False
     detail: Detail = Detail.NORMAL
+
+
+def outlined(lines: Sequence[Line]) -> tuple[Line, ...]:
+    """Lines of which a worked example has the last, from which the others can be found."""
+    return (*(replace(line, detail=Detail.FULL) for line in lines[:-1]), *lines[-1:])
 
 
 @dataclass(frozen=True, slots=True)

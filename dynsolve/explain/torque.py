@@ -26,19 +26,20 @@ def steps(context: Context) -> Iterator[Step]:
 
         yield from friction_steps(context)
     for q in context.robot.coordinates:
-        why = _held_fixed(context) if q.index == 1 else ()
+        why = _held_fixed() if q.index == 1 else ()
         group = Group(f"tau{q.index}", f"Coordinate {q.index}", why)
         for step in (_momentum(context, q), _rate(context, q), _slope(context, q), _force(context, q)):
             yield replace(step, group=group, normal=STATED)
 
 
-def _held_fixed(context: Context) -> Prose:
+def _held_fixed() -> Prose:
     """How the three derivatives differ."""
-    coordinate = Letter("q", Symbol("i"))
+    rate, coordinate = (
+        letters.partial_derivative(letters.L, Letter("q", Symbol("i"), dots=d)) for d in (1, 0)
+    )
     return (
-        "In the partial derivatives everything else is held fixed, the rates in that by ",
-        coordinate,
-        " too; in d/dt all that changes with time is differentiated (product and chain rule).",
+        *("In ", rate, " and ", coordinate, " everything else is held fixed; in d/dt all that changes with "),
+        "time is differentiated (product and chain rule).",
     )
 
 

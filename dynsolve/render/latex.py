@@ -282,7 +282,7 @@ class _Page(TypesetPage):
         yield sentence
 
     def list(self, items: Sequence[Prose]) -> Iterator[str]:
-        yield "\\begin{itemize}"
+        yield "\\begin{itemize}\\itemsep=0pt\\parskip=0pt"
         yield from (f"\\item {self.prose(item)}" for item in items)
         yield "\\end{itemize}"
 

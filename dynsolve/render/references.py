@@ -25,13 +25,13 @@ def levels(document: Document) -> tuple[int, ...]:
     return tuple(sorted({block.level for block in document.blocks if isinstance(block, Fold)}))
 
 
-_MANY_SECTIONS = 5
+_MANY_STEPS = 40
 _LONGEST_HEADER = 60
 
 
 def is_long(document: Document) -> bool:
-    """Whether a document wants a table of contents: from five sections on."""
-    return len(sections(document)) >= _MANY_SECTIONS
+    """Whether a document wants a table of contents: from forty steps on."""
+    return sum(isinstance(block, Fold) for block in document.blocks) >= _MANY_STEPS
 
 
 def sections(document: Document) -> tuple[Heading, ...]:

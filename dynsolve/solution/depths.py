@@ -1,7 +1,7 @@
 """Steps at a depth: which are shown, as how many, with which of their lines.
 
     results   none: what is given and the summary are the whole solution
-    brief     of each step the formula that it comes from and its result
+    brief     of each step the formula that it comes from and its result, if the summary has not that
     normal    a worked example: steps of a group as one, with the lines that need a thought; of checks the
               outcome
     full      every step with all that it has
@@ -14,9 +14,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain
+from itertools import chain, zip_longest
 
-from dynsolve.document import Block, Equations, Fold, Formula, List, Note, Picture, Table, Text, Uses
+from dynsolve.document import (
+    DEFINITIONS,
+    Block,
+    Equations,
+    Fold,
+    Formula,
+    List,
+    Note,
+    Picture,
+    Table,
+    Text,
+    Uses,
+)
 from dynsolve.document.figures import ArmFigure, Figure
 from dynsolve.errors import attempted
 from dynsolve.explain.step import Detail, Group, Line, Part, Step
@@ -24,7 +36,7 @@ from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Relation, Row
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.render.matrices import holds_matrix
+from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import leads_on
 from dynsolve.render.terminal_boxes import TextBox, boxed, pieces
 from dynsolve.solution.earlier_results import EarlierResults, labelled_results
@@ -77,11 +89,16 @@ class Shown:
     inputs: dict[str, tuple[str, ...]]
     style: Style
     drawn: Drawn | None
-    earlier: EarlierResults
+    in_summary: frozenset[str]
+    earlier: EarlierResults = field(default_factory=EarlierResults)
     said: set[str] = field(default_factory=set)
 
     def of_stage(self, number: int, steps: Iterable[Step]) -> Iterator[Block]:
-        """The folds of a stage."""
+        """What is shown of a stage: folds, in brief the formulas alone."""
+        if self.detail <= Detail.BRIEF:
+            found = (block for item in items(steps) for block in self.results(item))
+            yield from condensed(list(found), self.style)
+            return
         place, extra = 0, 0
         outcomes: list[Step] = []
         for item in items(steps):
@@ -108,13 +125,10 @@ class Shown:
 
     def blocks(self, item: Item) -> Iterator[Block]:
         """An item as one step."""
-        match self.detail:
-            case Detail.FULL:
-                yield from self.whole(item.steps[0])
-            case Detail.NORMAL:
-                yield from condensed(list(self.worked(item)), self.style)
-            case _:
-                yield from condensed(list(self.results(item)), self.style)
+        if self.detail is Detail.FULL:
+            yield from self.whole(item.steps[0])
+        else:
+            yield from condensed(list(self.worked(item)), self.style)
 
     # -- full --------------------------------------------------------------------------------------
 
@@ -154,7 +168,7 @@ class Shown:
             if step.detail < Detail.FULL:
                 shown = normal(self.referring(self.telling(step)), group)
                 shown = replace(shown, source="") if group and step.source in sources else shown
-                yield from step_blocks(shown, () if group else self.used(step), self.drawn)
+                yield from step_blocks(shown, (), self.drawn)
                 sources |= {step.source} if shown.formula is not None else set()
             self.earlier.add(step)
 
@@ -168,7 +182,8 @@ class Shown:
                     yield Table(step.table.header, step.table.rows)
                 if step.formula is not None:
                     yield Formula(step.formula, step.source)
-                yield from result_blocks(step)
+                if Part.RESULT in step.normal and step.id not in self.in_summary:
+                    yield from result_blocks(step)
             self.earlier.add(step)
 
 
@@ -179,14 +194,18 @@ def normal(step: Step, group: Group | None) -> Step:
         parts &= ~Part.WHY
     if group and group.formula is not None:
         parts &= ~Part.FORMULA
-    lines = tuple(line for line in step.lines if line.detail < Detail.FULL)
+    lines = tuple(
+        line
+        for line in step.lines
+        if line.label.startswith(DEFINITIONS) or (Part.LINES in parts and line.detail < Detail.FULL)
+    )
     return replace(
         step,
         why=step.why if Part.WHY in parts else (),
         formula=step.formula if Part.FORMULA in parts else None,
         further=step.further if Part.FURTHER in parts else (),
         working=step.working if Part.WORKING in parts else (),
-        lines=lines if Part.LINES in parts else (),
+        lines=lines,
         concluding=step.concluding if Part.CONCLUDING in parts else (),
         result=step.result if Part.RESULT in parts else (),
         notes=step.notes if Part.NOTES in parts else (),
@@ -295,24 +314,34 @@ def condensed(blocks: Sequence[Block], style: Style) -> Iterator[Block]:
 def _joined(one: Formula | Equations, other: Block, printer: UnicodePrinter) -> Formula | Equations | None:
     """Two displays as one; None where they stay apart."""
     if isinstance(one, Formula) and isinstance(other, Formula):
-        return _chained(one, other, printer) or _beside(one, other, printer) or _listed(one, other)
+        return _chained(one, other, printer) or _beside(one, other, printer) or _listed(one, other, printer)
     if isinstance(one, Equations) and isinstance(other, Formula) and not one.in_columns:
-        return _listed(one, other)
+        return _listed(one, other, printer)
     return None
 
 
 def _chained(one: Formula, other: Formula, printer: UnicodePrinter) -> Formula | None:
-    """a = b and a = c as a = b = c."""
-    first, second = one.node, other.node
-    if one.label or not isinstance(first, Relation) or not isinstance(second, Relation):
+    """a = b and a = c as a = b = c; the same of several side by side."""
+    pairs = list(zip_longest(_parts(one.node), _parts(other.node)))
+    chains = [_chain(first, second) for first, second in pairs if first is not None and second is not None]
+    found = [chain for chain in chains if chain is not None]
+    if one.label or len(found) < len(pairs):
+        return None
+    node = found[0] if len(found) == 1 else side_by_side(found)
+    widest = max(_cells(part, printer) for chain in found for part in chain.parts)
+    if widest > _ROOM or (len(found) > 1 and _cells(node, printer) > _ROOM):
+        return None
+    return replace(other, node=node, source=one.source, optional=False)
+
+
+def _chain(first: Node, second: Node) -> Relation | None:
+    """Two equations with one left side as one."""
+    if not (isinstance(first, Relation) and isinstance(second, Relation)):
         return None
     if first.parts[0] != second.parts[0] or {*first.signs, *second.signs} != {"="}:
         return None
     parts = (*first.parts, *(part for part in second.parts[1:] if part != first.parts[-1]))
-    if any(_cells(part, printer) > _ROOM for part in parts):
-        return None
-    node = Relation(parts, ("=",) * (len(parts) - 1))
-    return replace(other, node=node, source=one.source, optional=False)
+    return Relation(parts, ("=",) * (len(parts) - 1))
 
 
 def _beside(one: Formula, other: Formula, printer: UnicodePrinter) -> Formula | None:
@@ -332,14 +361,20 @@ def _parts(node: Node) -> list[Node]:
     return list(node.parts[::2]) if isinstance(node, Row) else [node]
 
 
-def _listed(one: Formula | Equations, other: Formula) -> Equations | None:
-    """Equations without matrices one under another."""
+def _listed(one: Formula | Equations, other: Formula, printer: UnicodePrinter) -> Equations | None:
+    """Equations of one line each one under another, a chain where two have the same left side."""
     nodes = one.nodes if isinstance(one, Equations) else (one.node,)
-    plain = not any(holds_matrix(node) for node in (*nodes, other.node))
-    if not plain or other.source or (isinstance(one, Formula) and one.source) or other.entries:
+    if (isinstance(one, Formula) and (one.source or one.entries)) or other.source or other.entries:
+        return None
+    if any(height(node) > 1 for node in (*nodes, other.node)):
         return None
     labels = [label for label in (one.label, *one.also, other.label, *other.also) if label]
-    return Equations((*nodes, other.node), label=labels[0] if labels else "", also=tuple(labels[1:]))
+    chain = _chain(nodes[-1], other.node)
+    if chain is not None and not (isinstance(one, Formula) and one.label) and _cells(chain, printer) <= _ROOM:
+        nodes = (*nodes[:-1], chain)
+    else:
+        nodes = (*nodes, other.node)
+    return Equations(nodes, label=labels[0] if labels else "", also=tuple(labels[1:]))
 
 
 def _cells(node: Node, printer: UnicodePrinter) -> int:

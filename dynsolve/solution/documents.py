@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import groupby
 from operator import attrgetter
@@ -38,9 +38,8 @@ from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
-from dynsolve.solution.earlier_results import EarlierResults
 from dynsolve.solution.measured_steps import measured_steps
-from dynsolve.solution.summary import summary_blocks
+from dynsolve.solution.summary import in_summary, summary_blocks
 
 CONVENTIONS = {
     "standard": "standard Denavit-Hartenberg (Spong)",
@@ -91,7 +90,7 @@ def _document(
         *_opening(solution),
         *stated,
         *derivation,
-        *_closing(solution, _sources(steps, detail, short)),
+        *_closing(solution, detail, _sources(steps, detail, short)),
         *_part("the notation", lambda: _notation(solution, (*stated, *derivation), detail, short)),
     ))  # fmt: skip
 
@@ -150,18 +149,18 @@ def _opening(solution: Dynamics) -> Iterator[Block]:
 def _stages(
     solution: Dynamics,
     detail: Detail,
-    steps: Iterable[Step],
+    steps: Sequence[Step],
     short: Abbreviated | None,
     drawn: Drawn | None,
 ) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
     numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
-    steps = tuple(step for step in steps if step.id != closing.ID)  # it stands in the summary
     named_from = _first_in_names(steps, short)
-    shown = Shown(detail, inputs, solution.style, drawn, EarlierResults())
-    for stage, of_stage in groupby(steps, attrgetter("stage")):
-        if short is not None and stage is named_from and _defined_first(short, detail):
+    shown = Shown(detail, inputs, solution.style, drawn, in_summary(steps, solution.is_short))
+    own = (step for step in steps if step.id != closing.ID)  # that stands in the summary
+    for stage, of_stage in groupby(own, attrgetter("stage")):
+        if short is not None and stage is named_from and not short.at_symbols and detail > Detail.RESULTS:
             yield from definition_blocks(short, machine(solution.robot))
         folds = tuple(shown.of_stage(numbers[stage], of_stage))
         if folds:  # no heading over a stage of which nothing is shown
@@ -174,11 +173,6 @@ def _first_in_names(steps: Iterable[Step], short: Abbreviated | None) -> Stage:
     names = frozenset() if short is None else frozenset(one.name for one in short.definitions)
     found = (step.stage for step in steps if not names.isdisjoint(walk(*step.result)))
     return next(found, Stage.VECTORIZED)
-
-
-def _defined_first(short: Abbreviated, detail: Detail) -> bool:
-    """Whether names are defined in a section: those of a short model are where they are first used."""
-    return not short.at_symbols or detail is Detail.BRIEF
 
 
 def definition_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
@@ -218,7 +212,7 @@ def _defined(definition: Definition) -> Relation:
     return equation(definition.name, definition.meaning)
 
 
-def _closing(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
+def _closing(solution: Dynamics, detail: Detail, sources: Iterable[str]) -> Iterator[Block]:
     verification = solution.verification
     what, how = "the results", verification.method
     if not solution.robot.has_dynamics:
@@ -235,7 +229,8 @@ def _closing(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
             " What only this exercise asks agrees with computations on numbers that share no formula "
             "with it.",
         )
-    yield Heading("Verification", 2)
+    if detail is Detail.FULL:
+        yield Heading("Verification", 2)
     yield Text(told)
     books = [
         f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."

@@ -5,6 +5,7 @@ Everything in it is the result of a step, taken from there, so that it cannot di
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from dynsolve.document import Block, Equations, Formula, Heading, Prose, Reference, Text
@@ -21,6 +22,13 @@ from dynsolve.robot.model import Robot
 TITLE = "Summary"
 
 _MATRICES = ("D", "C", "friction", "g")
+
+
+def in_summary(steps: Sequence[Step], is_short: bool) -> frozenset[str]:
+    """The steps whose results stand in the summary as well."""
+    if not is_short or all(step.id != closing.ID for step in steps):
+        return frozenset()
+    return frozenset(step.id for step in steps if step.id in _MATRICES or re.fullmatch(r"tau\d+", step.id))
 
 
 def summary_blocks(
@@ -42,7 +50,8 @@ def summary_blocks(
     if model is None:
         return
     yield Heading(TITLE, 2, closing=True)
-    yield Text(model.why)
+    if detail is Detail.FULL:
+        yield Text(model.why)
     assert model.formula is not None
     yield Formula(model.formula, source=model.source)
     if not is_short:
