@@ -53,7 +53,7 @@ class Checker:
     """
 
     def __init__(self, problem: Problem, key: Derivation | None = None) -> None:
-        if problem.robot.questions.state_is_reached:
+        if problem.robot.questions.state_is_open:
             from dynsolve.solution.reached_state import with_reached_state
 
             problem = with_reached_state(problem)

@@ -40,6 +40,7 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
             title=f"The matrix {candidate.name}",
             why=(f"{found.why[0].upper()}{found.why[1:]}.",),
             result=(equation(name, context.show(candidate.matrix)),),
+            outcome=(name, f": {found.why}."),
             detail=Detail.BRIEF,
         )
     minors = [
@@ -64,6 +65,7 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
             f" {_CONCLUSIONS[found.answer]}",
         ),
         notes=notes,
+        outcome=(name, f": {_CONCLUSIONS[found.answer].removeprefix('So ')}"),
         hint=("Look at its entries first, then at its leading minors.",),
         detail=Detail.BRIEF,
     )

@@ -6,12 +6,14 @@ A drawing or the text of an exercise says it; here it is said in the words of th
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import chain
 
 from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.given_actions import of_actions
 from dynsolve.explain.potential import leads_with_minus
 from dynsolve.explain.roles import roles
-from dynsolve.explain.writing import and_joined, listed, measured
+from dynsolve.explain.writing import listed, measured
 from dynsolve.notation.tree import Letter, Negative, Node, Number, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.robot import units
@@ -66,18 +68,12 @@ def _of_world(axis: str) -> Node:
 
 def of_forces(forms: Forms) -> Prose:
     """Gravity g acts along -𝐲₀, and there is no friction; what else the problem gives."""
-    kinds = forms.robot.actions.kinds
-    also = [words for kind, words in _ALSO.items() if kind in kinds]
     told = _gravity(forms)
-    if "friction" not in kinds:
+    if "friction" not in forms.robot.actions.kinds:
         told += (" and no friction." if forms.robot.gravity.is_zero else "; there is no friction.",)
     else:
         told += (".",)
-    return (*told, f" {and_joined(also).capitalize()} are given too.") if also else told
-
-
-_ALSO = {"friction": "coefficients of friction", "springs": "springs", "motors": "the rotors of motors"}
-"""What may act beside gravity, by the kinds of `Actions`."""
+    return tuple(chain(told, *((" ", *each) for each in of_actions(forms))))
 
 
 def _gravity(forms: Forms) -> Prose:

@@ -43,7 +43,7 @@ def orientation_step(context: Context, body: Body) -> Step:
         id=f"R{body.name}",
         stage=Stage.INERTIA,
         title=f"Orientation of {name_of(body)}",
-        why=_turned(body),
+        why=turned(body),
         formula=equation(R, Product(_factors(body))) if len(body.turns) > 1 else None,
         source=spong("2.5.3"),
         working=tuple(
@@ -56,7 +56,7 @@ def orientation_step(context: Context, body: Body) -> Step:
     )
 
 
-def _turned(body: Body) -> Prose:
+def turned(body: Body) -> Prose:
     """By which angles a body turns, about which axes."""
     if not body.turns:
         return (f"{name_of(body).capitalize()} does not turn.",)

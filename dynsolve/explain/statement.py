@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
 from dynsolve.document import Block, List, Prose, Text
 from dynsolve.explain import given_bodies, hypotheses
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.given_actions import of_actions
+from dynsolve.explain.given_questions import of_axes, of_model, of_questions
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import listed, machine
@@ -20,7 +23,7 @@ MOST_BODIES = 4
 
 _COUNTS = {2: "two", 3: "three", 4: "four"}
 
-_CALLED = {
+CALLED = {
     "K": "the kinetic energy",
     "P": "the potential energy",
     "L": "the Lagrangian",
@@ -55,24 +58,37 @@ _CALLED = {
 
 
 def statement(forms: Forms, problem: Problem) -> Iterator[Block]:
-    """Given: ...; To be found: ..., of an arm with a table; of others what is to be found."""
-    if forms.robot.has_table and forms.robot.bodies:
-        values = hypotheses.of_values(forms.robot, problem.written, problem.units)
-        yield Text((
-            "Given: ",
-            *_given(forms),
-            ". ",
-            *(given_bodies.of_tensors(forms) if len(forms.robot.bodies) <= MOST_BODIES else ()),
-            *hypotheses.of_base(forms),
-            *hypotheses.of_forces(forms),
-            *values,
-        ))  # fmt: skip
+    """Given: the arm or the mechanism, what acts on it, what is asked of it; its symbols; To be found."""
+    given = [sentence for sentence in _sentences(forms, problem) if sentence]
+    if given:
+        yield Text(("Given: ", *chain.from_iterable((*sentence, " ") for sentence in given)))
     names = list(problem_names(forms.robot))
     if names:
         yield List(tuple(_introduced(line) for line in names))
-    found = [told for name in problem.find if (told := _called(forms, name)) is not None]
+    found = [called for name in problem.find if (called := _called(forms, name)) is not None]
     if found:
         yield Text(("To be found: ", *listed(found), "."))
+
+
+def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
+    """What is given, sentence by sentence."""
+    robot = forms.robot
+    if problem.normals is not None:
+        yield ("the axes of the arm as they are drawn.",)
+        yield from of_axes(problem.normals)
+    elif robot.has_table:
+        yield (*_given(forms), ".")
+    else:
+        yield from of_model(forms)
+    if robot.has_table and 0 < len(robot.bodies) <= MOST_BODIES:
+        yield given_bodies.of_tensors(forms)
+    yield hypotheses.of_base(forms)
+    if robot.has_dynamics and robot.given is None:
+        yield hypotheses.of_forces(forms)
+    elif robot.has_dynamics:
+        yield from of_actions(forms)
+    yield from of_questions(forms)
+    yield hypotheses.of_values(robot, problem.written, problem.units)
 
 
 def _introduced(line: Line) -> Prose:
@@ -85,6 +101,8 @@ def _given(forms: Forms) -> Prose:
     """The table, and what has mass."""
     robot = forms.robot
     what = f"the table of the {machine(robot)}{hypotheses.joints(robot)} (section 1.1)"
+    if not robot.bodies:
+        return (what,)
     if len(robot.bodies) > MOST_BODIES:
         return (f"{what}, and mass, mass centre and inertia tensor of {len(robot.bodies)} rigid bodies",)
     told = [given_bodies.of_body(forms, body) for body in robot.bodies]
@@ -97,7 +115,7 @@ def _given(forms: Forms) -> Prose:
 
 def _called(forms: Forms, name: str) -> Prose | None:
     """the inertia matrix D; None for what has neither words nor a letter"""
-    words = _CALLED.get(name, "")
+    words = CALLED.get(name, "")
     letter = None if name == "DH" else _letter(forms, name)
     if not words and letter is None:
         return None

@@ -163,8 +163,9 @@ class Questions:
     `velocity` and `acceleration` (m×1) what the task is to have there.  `reach` are the names of
     the values of r(q) in the inverse kinematics, as the file has them; `all_branches` says that an
     answer must have them all.  `target` is what r(q) is to be where the file gives numbers for it,
-    `limits` are the ranges of coordinates.  `state_is_reached` says that the state is still to be the one
-    configuration within the limits that reaches the target.  `weights` (n×n) are those of the rates where
+    `limits` are the ranges of coordinates.  `state_is_reached` says that the state is the
+    one configuration within the limits that reaches the target, `state_is_open` that it is still to be
+    found.  `weights` (n×n) are those of the rates where
     many do, `weighs_by_inertia` says that they are D.  `method` is the way to τ.  `model` is what is
     asked of the equations of motion, `constraints` are what every motion keeps at 0,
     `candidates` matrices that are to be judged.
@@ -189,6 +190,11 @@ class Questions:
     weighs_by_inertia: bool = False
     model: ModelQuestions = NO_MODEL_QUESTIONS
     candidates: tuple[Candidate, ...] = ()
+
+    @property
+    def state_is_open(self) -> bool:
+        """Whether the state that reaches the target is not known yet."""
+        return self.state_is_reached and not self.state
 
     @property
     def reached(self) -> tuple[str, ...]:

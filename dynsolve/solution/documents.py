@@ -126,7 +126,7 @@ def _numbers(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -
     if solution.numbers is not None:
         from dynsolve.solution.numbers.blocks import blocks
 
-        yield from blocks(solution.numbers, detail, stages)
+        yield from blocks(solution.numbers, detail, solution.problem.find, stages)
 
 
 def _sources(steps: Iterable[Step], detail: Detail, short: Abbreviated | None) -> Iterator[str]:
@@ -157,7 +157,13 @@ def _stages(
     numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     named_from = _first_in_names(steps, short)
-    shown = Shown(detail, inputs, solution.style, drawn, in_summary(steps, solution.is_short))
+    shown = Shown(
+        detail,
+        inputs,
+        solution.style,
+        drawn,
+        in_summary(solution.robot, steps, solution.problem.find, solution.is_short),
+    )
     own = (step for step in steps if step.id != closing.ID)  # that stands in the summary
     for stage, of_stage in groupby(own, attrgetter("stage")):
         if short is not None and stage is named_from and not short.at_symbols and detail > Detail.RESULTS:
@@ -225,10 +231,7 @@ def _closing(solution: Dynamics, detail: Detail, sources: Iterable[str]) -> Iter
     )
     told += (*_in_powers_of_ten(verification.max_relative_error), ").")
     if solution.robot.questions.asked:
-        told += (
-            " What only this exercise asks agrees with computations on numbers that share no formula "
-            "with it.",
-        )
+        told += (" The other results that are asked for agree with independent computations in numbers.",)
     if detail is Detail.FULL:
         yield Heading("Verification", 2)
     yield Text(told)

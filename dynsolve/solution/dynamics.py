@@ -203,7 +203,7 @@ class Dynamics:
 
 def _with_state(problem: Problem) -> Problem:
     """The problem, its state being that of its target where the file says so."""
-    if not problem.robot.questions.state_is_reached:
+    if not problem.robot.questions.state_is_open:
         return problem
     from dynsolve.solution.reached_state import with_reached_state
 

@@ -32,7 +32,7 @@ def with_reached_state(problem: Problem) -> Problem:
             "the configuration that reaches the target is known in decimals alone",
             "give the state itself: state: {q1: 90deg}",
         ) from None
-    questions = replace(robot.questions, state=state, state_is_reached=False)
+    questions = replace(robot.questions, state=state)
     return replace(problem, robot=robot_with(replace(robot, questions=questions), {}, needed))
 
 

@@ -5,17 +5,18 @@ Everything in it is the result of a step, taken from there, so that it cannot di
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from dynsolve.document import Block, Equations, Formula, Heading, Prose, Reference, Text
+from dynsolve.document import Block, Equations, Formula, Heading, List, Prose, Reference, Table, Text
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.named_steps import labels_of_names
+from dynsolve.explain.statement import CALLED
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed
-from dynsolve.notation.tree import equation
+from dynsolve.notation.tree import Relation, equation
 from dynsolve.quantities import letters
+from dynsolve.quantities.index import quantities
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.robot.model import Robot
 
@@ -24,11 +25,10 @@ TITLE = "Summary"
 _MATRICES = ("D", "C", "friction", "g")
 
 
-def in_summary(steps: Sequence[Step], is_short: bool) -> frozenset[str]:
+def in_summary(robot: Robot, steps: Sequence[Step], asked: Sequence[str], is_short: bool) -> frozenset[str]:
     """The steps whose results stand in the summary as well."""
-    if not is_short or all(step.id != closing.ID for step in steps):
-        return frozenset()
-    return frozenset(step.id for step in steps if step.id in _MATRICES or re.fullmatch(r"tau\d+", step.id))
+    has_model = is_short and any(step.id == closing.ID for step in steps)
+    return (frozenset(asked) - in_model(robot)) | (in_model(robot) if has_model else frozenset())
 
 
 def summary_blocks(
@@ -40,62 +40,107 @@ def summary_blocks(
     asked: Sequence[str] = (),
     is_short: bool = True,
 ) -> Iterator[Block]:
-    """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
-
-    Of arms that are not short D, C, g and the forces are not written again, but for one row.  The
-    names in C, or in all of them, are repeated beside them, and the rows are in these.
-    """
+    """D q̈ + C q̇ + g = τ with D, C and g, then every force, and whatever else the exercise asks for."""
     by_id = {step.id: step for step in steps}
     model = by_id.get(closing.ID)
-    if model is None:
+    of_model = in_model(robot) if model else frozenset()
+    others = [block for name in asked if name not in of_model for block in _asked_for(name, robot, steps)]
+    if model is None and not others:
         return
     yield Heading(TITLE, 2, closing=True)
+    if model is not None and is_short:
+        yield from _model(robot, model, by_id, detail, short)
+    elif model is not None:
+        yield from _long_model(robot, model, by_id, detail)
+    yield from others
+
+
+def in_model(robot: Robot) -> frozenset[str]:
+    """The names of what stands in the model and its rows."""
+    return frozenset(("tau", *_MATRICES, *(f"tau{q.index}" for q in robot.coordinates)))
+
+
+def _model(
+    robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail, short: Abbreviated | None
+) -> Iterator[Block]:
+    """The equation of motion in letters and in matrices, and row by row; the names in it."""
     if detail is Detail.FULL:
         yield Text(model.why)
     assert model.formula is not None
     yield Formula(model.formula, source=model.source)
-    if not is_short:
-        number = list(stages_of(robot)).index(model.stage) + 1
-        with_symbols = by_id["christoffel"].detail <= detail
-        yield Text(_where_they_are(f" are those of section {number}", with_symbols))
-        if with_symbols:
-            yield from _lines(model)
-        return
     found = Reference(_MATRICES, ", ")
+    matrices = tuple(_results(by_id, [name for name in _MATRICES if name in by_id]))
+    yield Text(("With the matrices" if model.result else "The matrices", " of this robot", found, ":"))
     if model.result:
-        yield Text(("With the matrices of this robot", found, ":"))
-        matrices = tuple(_results(by_id, [name for name in _MATRICES if name in by_id]))
-        for result in model.result:
-            yield Formula(result, entries=model.entries, otherwise=matrices)
+        yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
     else:
-        yield Text(("The matrices of this robot", found, ":"))
-        yield from _results(by_id, [name for name in _MATRICES if name in by_id])
+        yield from matrices
     if short is not None and short.at_symbols:
-        where: Prose = ("these",) if short.inertias and short.inertias.definitions else (letters.C,)
-        below: Prose = ("In ", *where, " and in the rows below")
-        defined = Reference(labels_of_names(steps, short), ", by ")
-        meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
-        if short.single is not None and len(meanings) == 1:
-            yield Text((*below, " ", *meanings, defined, "."))
-        else:
-            yield Text((*below, defined, ":"))
-            yield Equations(meanings)
+        yield from _names(by_id, short)
     yield from _lines(model)
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if not model.lines and all(name in by_id for name in forces):
         lead = "Row by row" if len(forces) > 1 else "Multiplied out"
         yield Text((lead, Reference(tuple(forces), ", "), ":"))
         yield Equations(tuple(by_id[name].result[0] for name in forces))
-    yield from _asked_for(asked, by_id)
 
 
-def _asked_for(asked: Sequence[str], by_id: Mapping[str, Step]) -> Iterator[Block]:
-    """Where the energies and the Lagrangian are, where the exercise asks for them."""
-    found = [name for name in ("P", "K", "L") if name in asked and name in by_id]
-    if found:
-        stand = " stands above" if len(found) == 1 else " stand above"
-        where = Reference(tuple(found), ", ")
-        yield Text((*listed([getattr(letters, name) for name in found]), stand, where, "."))
+def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
+    """What the names in C, or in all of the matrices, stand for."""
+    where: Prose = ("these",) if short.inertias and short.inertias.definitions else (letters.C,)
+    below: Prose = ("In ", *where, " and in the rows below")
+    defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
+    meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
+    if short.single is not None and len(meanings) == 1:
+        yield Text((*below, " ", *meanings, defined, "."))
+    else:
+        yield Text((*below, defined, ":"))
+        yield Equations(meanings)
+
+
+def _long_model(robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail) -> Iterator[Block]:
+    """Of a long model where D, C and g are; these themselves where no stage shows them."""
+    if detail is Detail.RESULTS:
+        assert model.formula is not None
+        yield Formula(model.formula, source=model.source)
+        for name in ("D", "christoffel", "g"):
+            step = by_id[name]
+            yield from (Formula(result, entries=step.entries) for result in step.result)
+        return
+    yield Text(model.why)
+    assert model.formula is not None
+    yield Formula(model.formula, source=model.source)
+    number = list(stages_of(robot)).index(model.stage) + 1
+    with_symbols = by_id["christoffel"].detail <= detail
+    yield Text(_where_they_are(f" are those of section {number}", with_symbols))
+    if with_symbols:
+        yield from _lines(model)
+
+
+def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+    """A result that the exercise asks for: the equation of its letter, else what its step gives."""
+    quantity = quantities(robot).get(name)
+    letter = quantity.letter(robot) if quantity is not None and quantity.family.has_letter else None
+    by_letter = [
+        Formula(result, entries=step.entries if len(step.result) == 1 else ())
+        for step in steps
+        for result in step.result
+        if isinstance(result, Relation) and result.parts[0] == letter
+    ]
+    if by_letter:
+        yield by_letter[-1]
+        return
+    step = next((step for step in steps if name in (step.id, *step.also)), None)
+    if step is None:
+        return
+    called = CALLED.get(name, step.title)
+    yield Text((f"{called[0].upper()}{called[1:]}:",))
+    if step.table is not None:
+        yield Table(step.table.header, step.table.rows)
+    elif step.result:
+        yield Equations(step.result)
+    else:
+        yield List(tuple(one.outcome for one in steps if one.stage is step.stage and one.outcome))
 
 
 def _lines(step: Step) -> Iterator[Block]:

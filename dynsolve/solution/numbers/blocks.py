@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 
 from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
 from dynsolve.explain.step import Detail
@@ -23,13 +23,20 @@ _WIDEST = 50
 """A matrix that is wider, in characters, has its unit by itself."""
 
 
-def blocks(numbers: Numbers, detail: Detail, stages: Iterable[str] | None = None) -> Iterator[Block]:
-    """The values, the results with them, and what holds at a state."""
+def blocks(
+    numbers: Numbers, detail: Detail, asked: Collection[str] = (), stages: Iterable[str] | None = None
+) -> Iterator[Block]:
+    """The values, the results with them, those that are asked for where no other is shown, and the state."""
     chosen = None if stages is None else set(stages)
     if numbers.given.entries:
         yield from _values(numbers)
     if numbers.valued is not None:
-        yield from _results(numbers.robot, main_results(numbers.robot), numbers.valued.shown, chosen)
+        found = main_results(numbers.robot)
+        if detail is Detail.RESULTS:
+            names = {"tau": {f"tau{q.index}" for q in numbers.robot.coordinates}}
+            wanted = set().union(*(names.get(name, {name}) for name in asked))
+            found = {stage: [one for one in shown if one[0] in wanted] for stage, shown in found.items()}
+        yield from _results(numbers.robot, found, numbers.valued.shown, chosen)
     if numbers.state is not None:
         yield from _state(numbers, numbers.state, detail, chosen)
 
