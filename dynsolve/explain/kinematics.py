@@ -85,7 +85,7 @@ def _four_motions(context: Context) -> Prose:
     theta, d, a, alpha = letters.columns(context.robot, _I)
     if context.standard:
         return (
-            "Each row takes frame i-1 to frame i by four motions: a rotation by ",
+            "In the standard convention (Spong) row i leads from frame i-1 to frame i by a rotation by ",
             theta,
             " about ",
             letters.bold("z", letters.BEFORE),
@@ -100,7 +100,7 @@ def _four_motions(context: Context) -> Prose:
             " about that. ",
         )
     return (
-        "Each row takes frame i-1 to frame i by four motions: a rotation by ",
+        "In the modified convention (Craig) row i leads from frame i-1 to frame i by a rotation by ",
         alpha,
         " about ",
         letters.bold("x", letters.BEFORE),

@@ -202,7 +202,7 @@ def _moments(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
                 if i != j:
                     yield Role.PRODUCT, name, Meaning("products of inertia of body {body}", body=body.name)
                 elif _is(entry, name):
-                    words = f"moment of inertia of body {{body}} about its {{axes}} through {point}"
+                    words = f"moment of inertia of body {{body}} about {{axes}} through {point}"
                     yield Role.INERTIA, name, Meaning(words, body=body.name, axes=(AXES[i],))
 
 

@@ -41,11 +41,6 @@ from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.measured_steps import measured_steps
 from dynsolve.solution.summary import in_summary, summary_blocks
 
-CONVENTIONS = {
-    "standard": "standard Denavit-Hartenberg (Spong)",
-    "modified": "modified Denavit-Hartenberg (Craig)",
-}
-
 
 def solution_document(
     solution: Dynamics,
@@ -139,11 +134,8 @@ def _sources(steps: Iterable[Step], detail: Detail, short: Abbreviated | None) -
 def _opening(solution: Dynamics) -> Iterator[Block]:
     problem = solution.problem
     yield Heading(problem.title, 1)
-    facts = [f"{problem.source.rstrip('.')}."] if problem.source else []
-    if solution.robot.has_table:
-        facts.append(f"Convention: {CONVENTIONS[problem.convention.value]}.")
-    if facts:
-        yield Text((" ".join(facts),))
+    if problem.source:
+        yield Text((f"{problem.source.rstrip('.')}.",))
 
 
 def _stages(
