@@ -151,7 +151,6 @@ def notation(
     )
     remarks = (
         *_counting(occurring - own),
-        *_numbers(style),
         *_units_of_entries(robot, occurring),
         *_bold(occurring),
         *_of_craig(robot, occurring),
@@ -244,16 +243,6 @@ def _counting(occurring: set[Kind]) -> Iterator[Inline]:
         yield from ("A dot is the derivative with respect to the time ", Symbol("t"), ". ")
     if TRANSPOSED in occurring:
         yield "A superscript T denotes the transpose. "
-
-
-def _numbers(style: Style) -> Iterator[Inline]:
-    """How numbers are shown."""
-    if not style.digits:
-        return
-    yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
-    yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands "
-    yield "behind a result that is a number other than 0, or a matrix of which all entries have it; any "
-    yield "other formula has that of its left side. "
 
 
 def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:

@@ -19,7 +19,7 @@
     measured_steps  ≈ before what is rounded, and units, in a model in numbers
     remarks         what the problem's author says of results, as notes
     earlier_results which of the equations before it a step uses
-    said_once       what holds for several bodies alike, said of the first
+    depths          what a depth shows of the steps
     summary         its closing section: the model, its matrices, the forces row by row
     reports         that document as text, LaTeX, PDF, HTML or Markdown
 

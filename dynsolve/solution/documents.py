@@ -136,6 +136,13 @@ def _opening(solution: Dynamics) -> Iterator[Block]:
     yield Heading(problem.title, 1)
     if problem.source:
         yield Text((f"{problem.source.rstrip('.')}.",))
+    if digits := solution.style.digits:
+        yield Text((
+            f"Numbers are exact, in SI units (m, kg, s, N). One with more than {digits} significant digits "
+            "is rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands behind "
+            "a result that is a number other than 0, or a matrix of which all entries have it; any other "
+            "formula has that of its left side.",
+        ))  # fmt: skip
 
 
 def _stages(

@@ -11,7 +11,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.errors import ExplanationWarning
 from dynsolve.explain import energy, vectorized
 from dynsolve.explain.abbreviations import Abbreviate
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.build import times
 from dynsolve.notation.tree import Node
 from dynsolve.render.formats import Format
@@ -32,8 +32,8 @@ def fails(*_: object, **__: object) -> Iterator[Step]:
     raise LookupError("planted")
 
 
-def page(abbreviate: str = "auto") -> str:
-    return report(dynsolve.solve(PENDULUM), Format.TEXT, abbreviate=abbreviate).decode()
+def page(abbreviate: str = "auto", detail: Detail = Detail.NORMAL) -> str:
+    return report(dynsolve.solve(PENDULUM), Format.TEXT, detail=detail, abbreviate=abbreviate).decode()
 
 
 def test_a_form_that_is_another_function_gives_way_to_the_plain_polynomial(
@@ -83,7 +83,7 @@ def test_a_stage_that_fails_half_way_keeps_what_was_shown(monkeypatch: pytest.Mo
 def test_a_part_of_the_document_that_fails_is_left_out(part: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(documents, part, fails)
     with pytest.warns(ExplanationWarning):
-        assert "Verified" in page()
+        assert "Verified" in page(detail=Detail.FULL)
 
 
 def test_names_that_fail_leave_the_results_in_full(monkeypatch: pytest.MonkeyPatch) -> None:

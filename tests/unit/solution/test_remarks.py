@@ -30,8 +30,8 @@ STEPS = {
 
 
 def noted(steps: tuple[Step, ...], text: str) -> list[str]:
-    """The steps with a note of these words."""
-    return [step.id for step in steps if (text,) in step.notes]
+    """The steps with a remark of these words."""
+    return [step.id for step in steps if (text,) in step.remarks]
 
 
 @pytest.mark.parametrize("name", STEPS)
