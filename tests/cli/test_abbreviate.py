@@ -30,7 +30,9 @@ def test_never_writes_everything_out() -> None:
 
 
 def test_always_names_what_recurs_in_a_short_model() -> None:
-    ran = dynsolve("solve", "planar-2r", "--abbreviate", "always", "--stage", "vectorized")
+    ran = dynsolve(
+        "solve", "planar-2r", "--abbreviate", "always", "--stage", "vectorized", "--detail", "full"
+    )
     assert "    h = -m₂ l₁ l_c2 s₂" in ran.out.splitlines()
     assert "    𝐂 𝐪̇ = ⎡h (2q̇₁ q̇₂ + q̇₂²)⎤" in ran.out
     assert "m₂ l₁ l_c2 s₂ q̇" not in ran.out

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 import dynsolve
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Cross, Relation
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
@@ -148,7 +148,7 @@ def test_all_bodies_of_an_arm_are_worked_out_along_the_same_axes() -> None:
 def test_what_a_line_needs_is_referred_to_where_it_goes_in() -> None:
     found = step("elbow-3r", "Kw2")
     assert found.uses == ("v2", "R2") and [line.uses for line in found.lines[:2]] == [(), ("I_body2",)]
-    text = report(solved("elbow-3r"), Format.MARKDOWN).decode()
+    text = report(solved("elbow-3r"), Format.MARKDOWN, detail=Detail.FULL).decode()
     of_rotation = re.findall(r"With \(\d+\) and \(\d+\), along the body's own axes", text)
     of_tensor = re.findall(r"With \(\d+\), the tensor along the body's own axes put in:", text)
     assert len(of_rotation) == 6, "R and what is turned first"
