@@ -41,6 +41,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     hypotheses  what it rests on: joints, gravity, friction, values
     given_bodies
                 what is given of each body: mass, dimensions, mass centre, moments of inertia
+    given_actions, given_questions
+                what is given of springs, friction and motors; of the task, the state, the constraints
     shapes      what uniform shapes and their dimensions are called
     style       how a robot's formulas look: s_1 for sin θ_1
     short_arms  which arms are worked out line by line

@@ -171,7 +171,9 @@ def test_whatever_a_line_uses_has_its_equation_named(problem: str) -> None:
         results += [(node, line.label) for line in step.lines if line.label for node in line.formulas]
         own = {left for node, _ in results for left in left_sides(node)}
         labels = cited_anywhere(step, problem)
-        if step.id not in IN_LETTERS and "whatever " not in "".join(map(str, step.why)):
+        if step.id not in IN_LETTERS and not any(
+            "whatever " in str(part) for part in step.why if isinstance(part, str)
+        ):
             for node in (part for formula in worked_with(step) for part in quantities_in(formula, told)):
                 wanted = {own_entries[node]} if node in own_entries else told[node]
                 if node not in own and not wanted & labels:
