@@ -188,14 +188,13 @@ def _report(solution: Solution, output: Output, view: _View) -> bytes:
     from dynsolve.explain.step import Detail
     from dynsolve.solution.reports import rendered, report, report_style
 
-    detail = Detail[view.detail.name]
     if view.hint:
         style = report_style(solution, view.star)
-        return rendered(solution.hint(view.hint), style, output.format, detail, view.fragment)
+        return rendered(solution.hint(view.hint), style, output.format, view.fragment)
     return report(
         solution,
         output.format,
-        detail=detail,
+        detail=Detail[view.detail.name],
         stages=view.stages,
         star=view.star,
         fragment=view.fragment,

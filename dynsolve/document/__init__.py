@@ -45,12 +45,14 @@ Prose = tuple[Inline, ...]
 class Heading:
     """A heading; level 1 is the document's title.
 
-    From one that is `closing` to the end is one page, where all of that fits one.
+    From one that is `closing` to the end is one page, where all of that fits one; an `appendix` may be
+    folded away.
     """
 
     text: str
     level: int = 2
     closing: bool = False
+    appendix: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,14 +143,10 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Fold:
-    """Blocks that belong together under a title and may be folded away.
-
-    `level` is the depth from which it is shown: 1 is the briefest.
-    """
+    """Blocks that belong together under a title and may be folded away, further folds among them."""
 
     title: str
     blocks: tuple[Block, ...]
-    level: int = 2
 
 
 Block = Heading | Text | Formula | Equations | Uses | List | Note | Table | Picture | Fold

@@ -184,7 +184,7 @@ def _tasks(context: Context, stage: Stage) -> Iterator[Block]:
         blocks += [Formula(node, source) for node, source in task.formulas]
         if task.likewise:
             blocks.append(Text((f"Likewise: {'; '.join(task.likewise)}.",)))
-        yield Fold(f"{number}. {task.title}", tuple(blocks), 1)
+        yield Fold(f"{number}. {task.title}", tuple(blocks))
 
 
 def _grouped(steps: Iterable[Step]) -> Iterator[_Task]:

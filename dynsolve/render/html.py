@@ -8,7 +8,7 @@ that no page shows whole is given entry by entry.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from html import escape
@@ -16,8 +16,6 @@ from importlib.resources import files
 from itertools import chain
 
 from dynsolve.document import (
-    DEFINITIONS,
-    Block,
     Document,
     Equations,
     Fold,
@@ -26,16 +24,13 @@ from dynsolve.document import (
     Inline,
     Picture,
     Prose,
-    Reference,
     Table,
     Text,
-    Uses,
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.mathml import MINUS
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import NAMED, Matrix, Node, Relation, Row, Words, equation
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
 from dynsolve.render.html_pieces import (
     LINE,
     PAGE,
@@ -50,7 +45,7 @@ from dynsolve.render.line_breaking import FormulaSplitter, together
 from dynsolve.render.matrices import entry_equations, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.prose import typographic, visible
-from dynsolve.render.references import levels, numbered, with_results
+from dynsolve.render.references import numbered, with_results
 from dynsolve.render.typesetting import listed
 
 _SHORT_CELL = 6
@@ -65,7 +60,6 @@ _WHOLE = 13.0
 _FEWEST, _FEW, _COLUMN = 4, 12, 20.0
 """From how many equations on columns are made: of narrow ones, of any; and what a column holds, in em."""
 
-_LEVELS = ("brief", "normal", "full")
 _COMMA, _AND_SO_ON = Words(","), Words(", …, ")
 _SIGN = re.compile(r"(?:([<>=]) )?([-\u2212])?(\d+)")
 """A cell of a table that is a number, or what one is compared with."""
@@ -74,11 +68,28 @@ _DOUBLE_NAME = re.compile(r"\b[A-Z][a-z]+-[A-Z][a-z]+\b")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
 
 
-def render(document: Document, style: Style = PLAIN, level: str = "normal") -> str:
-    """A page that is complete in itself; `level` is the level of detail that it opens with."""
-    page = _Page(style, document)
+def render(document: Document, style: Style = PLAIN) -> str:
+    """A page that is complete in itself."""
+    return _file(document, f"<main>\n{_Page(_Formulas(style), document).all()}</main>")
+
+
+def render_choice(documents: Mapping[str, Document], style: Style, chosen: str) -> str:
+    """A page that shows one of several documents, by style alone: first the one named `chosen`."""
+    formulas = _Formulas(style)
+    inputs = "".join(
+        f'<input type="radio" name="depth" id="{name}"{" checked" if name == chosen else ""}>'
+        f'<label for="{name}">{name.capitalize()}</label>'
+        for name in documents
+    )
+    pages = "".join(
+        f'<article class="{name}">\n{_Page(formulas, document, f"{name}-").all()}</article>\n'
+        for name, document in documents.items()
+    )
+    return _file(documents[chosen], f'<div class="depths">{inputs}</div>\n<main>\n{pages}</main>')
+
+
+def _file(document: Document, body: str) -> str:
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
-    opening, mark, sections = "".join(page.document(document.blocks)).partition("<section ")
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
@@ -86,8 +97,7 @@ def render(document: Document, style: Style = PLAIN, level: str = "normal") -> s
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
         f"<title>{escape(title)}</title>\n<style>\n{stylesheet()}</style>\n</head>\n<body>\n"
-        f"{_switch(level) if len(page.levels) > 1 else ''}"
-        f"<main>\n{opening}{page.contents()}{mark}{sections}</main>\n</body>\n</html>\n"
+        f"{body}\n</body>\n</html>\n"
     )
 
 
@@ -97,51 +107,55 @@ def stylesheet() -> str:
     return (files("dynsolve.render") / "report.css").read_text(encoding="utf-8")
 
 
-def _switch(level: str) -> str:
-    """The choice of the level of detail, by style alone."""
-    inputs = "".join(
-        f'<input type="radio" name="level" id="{name}"{" checked" if name == level else ""}>'
-        f'<label for="{name}">{name.capitalize()}</label>'
-        for name in _LEVELS
-    )
-    return f"{inputs}\n"
-
-
 @dataclass(slots=True)
 class _Entry:
     """A line of the table of contents."""
 
     anchor: str
     text: str
-    steps: list[tuple[str, str, int]] = field(default_factory=list)
+    steps: list[tuple[str, str]] = field(default_factory=list)
+
+
+class _Formulas:
+    """Formulas in MathML, each printed once however often a page has it."""
+
+    def __init__(self, style: Style) -> None:
+        self.printer = PagePrinter(style)
+        self.ruler = Ruler(style)
+        self.text = cache(self.printer.text)
+        self.pieces = cache(FormulaSplitter(html_notation(self.printer), self.ruler, _FINE, _FRACTION).pieces)
 
 
 class _Page(MarkupPage):
-    """Turns blocks into HTML, and remembers what the contents and the styles need."""
+    """Turns a document into HTML, with `prefix` before its anchors, and remembers what the contents need."""
 
-    def __init__(self, style: Style, document: Document) -> None:
-        printer = PagePrinter(style)
-        super().__init__(printer, numbered(document))
-        self.levels = range(1, len(_LEVELS) + 1) if len(levels(document)) > 1 else range(1)
-        self.numbers = {level: numbered(document, level or None) for level in self.levels}
-        self.level = 0  # of the fold that is being written
-        self.ruler = Ruler(style)
-        self.splitter = FormulaSplitter(html_notation(printer), self.ruler, _FINE, _FRACTION)
+    def __init__(self, formulas: _Formulas, document: Document, prefix: str = "") -> None:
+        super().__init__(formulas.printer, numbered(document))
+        self.formulas, self.ruler = formulas, formulas.ruler
+        self.prefix = prefix
+        self.document = document
         self.entries: list[_Entry] = []
-        self.definitions: list[Node] = []  # in the folds before that a page in brief does not show
 
-    def document(self, blocks: Iterable[Block]) -> Iterator[str]:
-        """The blocks, those under a heading in a section."""
-        is_open = False
-        for block in blocks:
+    def all(self) -> str:
+        """The document, its contents before the first section."""
+        opening, mark, sections = "".join(self.sections()).partition("<section ")
+        return f"{opening}{self.contents()}{mark}{sections}"
+
+    def sections(self) -> Iterator[str]:
+        """The blocks, those under a heading in a section; of an appendix they are folded away."""
+        end = ""
+        for block in self.document.blocks:
             if isinstance(block, Heading) and block.level > 1:
-                yield "</section>\n" if is_open else ""
-                anchor = f"part-{len(self.entries) + 1}"
+                anchor = f"{self.prefix}part-{len(self.entries) + 1}"
                 self.entries.append(_Entry(anchor, self.title(block.text)))
-                yield f'<section id="{anchor}">\n'
-                is_open = True
+                yield f'{end}<section id="{anchor}">\n'
+                end = "</section>\n"
+                if block.appendix:
+                    yield f"<details><summary>{''.join(self.block(block))}</summary>\n"
+                    end = f"</details>\n{end}"
+                    continue
             yield from self.block(block)
-        yield "</section>\n" if is_open else ""
+        yield end
 
     def heading(self, heading: Heading) -> Iterator[str]:
         level = heading.level
@@ -163,36 +177,19 @@ class _Page(MarkupPage):
         lines = "".join(self.broken(node, room) for node in equations.nodes)
         columns = " columns" if equations.in_columns and self.fit_columns(equations.nodes) else ""
         label = equations.label
-        kind, anchor = ("result", f' id="eq-{label}"') if label else ("work", "")
-        number = self.number(label) if label else ""
-        yield f'<div class="formula {kind}"{anchor}><div class="box{columns}">{lines}</div>{number}</div>\n'
+        kind = "result" if label else "work"
+        yield f'<div class="formula {kind}"{self.anchor(label)}><div class="box{columns}">{lines}</div>'
+        yield f"{self.number(label)}</div>\n"
+
+    def anchor(self, label: str) -> str:
+        """Where references to a display lead."""
+        return f' id="{self.prefix}eq-{label}"' if label else ""
 
     def reference(self, label: str, number: int) -> str:
-        return f'<a href="#eq-{label}">{super().reference(label, number)}</a>'
+        return f'<a href="#{self.prefix}eq-{label}">{super().reference(label, number)}</a>'
 
-    def by_level(self, write: Callable[[Mapping[str, int]], str]) -> Iterator[tuple[str, str]]:
-        """What is written with the numbers of each level of detail, and the classes that show it there."""
-        shown = [level for level in self.levels if level >= self.level]
-        texts = {level: write(self.numbers[level]) for level in shown}
-        for text in dict.fromkeys(texts.values()):
-            at = [level for level in shown if texts[level] == text]
-            if text:
-                yield text, "" if at == shown else " ".join(["in", *(f"in{level}" for level in at)])
-
-    def referred(self, reference: Reference, numbers: Mapping[str, int]) -> str:
-        """References among words, with the numbers of each level."""
-        texts = list(self.by_level(lambda numbers: super(_Page, self).referred(reference, numbers)))
-        return "".join(
-            f'<span class="{classes}">{text}</span>' if classes else text for text, classes in texts
-        )
-
-    def used(self, uses: Uses) -> Iterator[str]:
-        """The results used in the next formula, with the numbers of each level."""
-        for sentence, classes in self.by_level(lambda numbers: self.leading_on(uses, numbers)):
-            yield from self.uses(sentence, classes)
-
-    def uses(self, sentence: str, classes: str = "") -> Iterator[str]:
-        yield f'<p class="{f"uses {classes}".strip()}" dir="auto">{sentence}</p>\n'
+    def uses(self, sentence: str) -> Iterator[str]:
+        yield f'<p class="uses" dir="auto">{sentence}</p>\n'
 
     def list(self, items: Sequence[Prose]) -> Iterator[str]:
         yield "<ul>" + "".join(f"<li>{self.prose(item)}</li>" for item in items) + "</ul>\n"
@@ -235,26 +232,12 @@ class _Page(MarkupPage):
 
     def fold(self, fold: Fold) -> Iterator[str]:
         title = self.words(fold.title)
-        anchor = f"step-{sum(len(entry.steps) for entry in self.entries) + 1}"
+        anchor = f"{self.prefix}step-{sum(len(entry.steps) for entry in self.entries) + 1}"
         if self.entries:
-            self.entries[-1].steps.append((anchor, title, fold.level))
-        yield f'<details open class="step l{int(fold.level)}" id="{anchor}"><summary>{title}</summary>\n'
-        self.level = fold.level
-        if fold.level == self.levels[0]:
-            yield from self.defined_in_brief(fold)
-        else:
-            self.definitions += _definitions(fold)
+            self.entries[-1].steps.append((anchor, title))
+        yield f'<details open class="step" id="{anchor}"><summary>{title}</summary>\n'
         yield from self.blocks(with_results(fold.blocks))
-        self.level = 0
         yield "</details>\n"
-
-    def defined_in_brief(self, fold: Fold) -> Iterator[str]:
-        """What the names in a fold mean, where the step that defines them is not seen."""
-        names = {node.parts[0] for node in self.definitions if isinstance(node, Relation)}
-        if names & set(walk(*(node for _, node in _displayed(fold)))):
-            lines = "".join(map(self.broken, self.definitions))
-            self.definitions = []
-            yield f'<div class="formula in in1"><div class="box">{lines}</div></div>\n'
 
     def escaped(self, text: str) -> str:
         return escape(typographic(text))
@@ -266,11 +249,11 @@ class _Page(MarkupPage):
         """A formula in a sentence; a long one may be broken."""
         if self.ruler.width(node) <= 0.8 * PHONE:
             return self.whole(node)
-        return "<wbr>".join(in_sentence(together(self.splitter.pieces(node), _WHOLE, "".join)))
+        return "<wbr>".join(in_sentence(together(self.formulas.pieces(node), _WHOLE, "".join)))
 
     def whole(self, node: Node) -> str:
         """A formula that is not broken."""
-        return math(self.printer.text(node))
+        return math(self.formulas.text(node))
 
     # -- displayed formulas ------------------------------------------------------------------------
 
@@ -281,18 +264,16 @@ class _Page(MarkupPage):
         kind = "result" if label else "law" if formula.source else "work"
         is_wide = self.ruler.width(formula.node) > PHONE and self.widest(formula.node) > PHONE
         kind += " wide" * is_wide
-        anchor = f' id="eq-{label}"' if label else ""
-        beside = self.number(label) if label else ""
+        beside = self.number(label)
         if formula.source:
             beside = f"<cite>{self.words(formula.source)}</cite>{beside}"
-        yield f'<div class="formula {kind}"{anchor}><div class="box">'
+        yield f'<div class="formula {kind}"{self.anchor(label)}><div class="box">'
         yield from self.lines(formula.node, formula, LINE if is_wide or not beside else PHONE)
         yield f"</div>{beside}</div>\n"
 
     def number(self, label: str) -> str:
-        """The number beside a formula, at each level of detail its own."""
-        numbers = self.by_level(lambda numbers: f"({numbers[label]})")
-        return "".join(f'<span class="{f"n {classes}".strip()}">{text}</span>' for text, classes in numbers)
+        """The number beside a formula that has a label."""
+        return f'<span class="n">({self.labels[label]})</span>' if label else ""
 
     def lines(self, node: Node, formula: Formula, room: float) -> Iterator[str]:
         """A formula on the page: whole, or in pieces; a matrix that no page shows whole, entry by entry.
@@ -301,7 +282,7 @@ class _Page(MarkupPage):
         """
         width = self.ruler.width(node)
         if width <= PHONE:
-            yield f'<div class="line">{math(self.printer.text(node), display=True)}</div>'
+            yield f'<div class="line">{math(self.formulas.text(node), display=True)}</div>'
             return
         matrix = _lone_matrix(node)
         widest = self.widest(node)
@@ -320,7 +301,7 @@ class _Page(MarkupPage):
 
     def widest(self, node: Node) -> float:
         """The width of the widest part that cannot be broken."""
-        return max(piece.width for piece in self.splitter.pieces(node))
+        return max(piece.width for piece in self.formulas.pieces(node))
 
     def broken(self, node: Node, room: float = PHONE) -> str:
         """A formula in pieces; of several side by side each is broken only where a line cannot hold it."""
@@ -336,7 +317,7 @@ class _Page(MarkupPage):
 
     def in_pieces(self, node: Node, room: float) -> str:
         """A formula between whose pieces a line may end."""
-        return laid_out(together(self.splitter.pieces(node), _WHOLE, "".join), room)
+        return laid_out(together(self.formulas.pieces(node), _WHOLE, "".join), room)
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None
@@ -356,10 +337,7 @@ class _Page(MarkupPage):
         """The table of contents, where there is more than one part."""
         items = []
         for entry in self.entries:
-            steps = "".join(
-                f'<li class="l{int(level)}"><a href="#{anchor}">{title}</a></li>'
-                for anchor, title, level in entry.steps
-            )
+            steps = "".join(f'<li><a href="#{anchor}">{title}</a></li>' for anchor, title in entry.steps)
             link = f'<a href="#{entry.anchor}">{entry.text}</a>'
             inner = f"<details><summary>{link}</summary><ul>{steps}</ul></details>" if steps else link
             items.append(f"<li>{inner}</li>")
@@ -368,24 +346,6 @@ class _Page(MarkupPage):
             if len(items) > 1
             else ""
         )
-
-
-def _displayed(fold: Fold) -> Iterator[tuple[str, Node]]:
-    """The displayed formulas of a fold, each with its label."""
-    for block in fold.blocks:
-        if isinstance(block, Formula | Equations):
-            nodes = (block.node,) if isinstance(block, Formula) else block.nodes
-            yield from ((block.label, node) for node in nodes)
-
-
-def _definitions(fold: Fold) -> Iterator[Node]:
-    """What names stand for that a fold introduces."""
-    for label, node in _displayed(fold):
-        if label.startswith(DEFINITIONS):
-            yield node
-        elif isinstance(node, Relation) and node.signs[-1] == NAMED:
-            *_, meaning, name = node.parts
-            yield equation(name, meaning)
 
 
 def _between_commas(cell: Node) -> list[Node]:

@@ -96,27 +96,27 @@ class Page(ABC, Generic[_Piece]):
     def equations(self, equations: Equations) -> Iterator[_Piece]:
         """Equations in one display."""
 
-    def leading_on(self, uses: Uses, numbers: Mapping[str, int]) -> str:
+    def leading_on(self, uses: Uses) -> str:
         """With (3) and (7), term by term: the numbered results that are used in the next formula."""
-        references = self.numbers_of(uses.labels, numbers)
+        references = self.numbers_of(uses.labels)
         if not references:
             return self.prose(uses.parts)
         named = f"With {references}"
         return f"{named}{self.prose(after_references(uses.parts))}" if uses.parts else f"{named}:"
 
-    def numbers_of(self, labels: Iterable[str], numbers: Mapping[str, int]) -> str:
+    def numbers_of(self, labels: Iterable[str]) -> str:
         """References to formulas: (3), (7) to (9) and (12); none to those without a number."""
-        references = [self.references(run, numbers) for run in runs(labels, numbers)]
+        references = list(map(self.references, runs(labels, self.labels)))
         return ", ".join(references[:-1]) + " and " * (len(references) > 1) + "".join(references[-1:])
 
-    def referred(self, reference: Reference, numbers: Mapping[str, int]) -> str:
+    def referred(self, reference: Reference) -> str:
         """References among words, with the words that lead to them."""
-        found = self.numbers_of(reference.labels, numbers)
+        found = self.numbers_of(reference.labels)
         return f"{self.words(reference.before)}{found}" if found else ""
 
-    def references(self, run: Sequence[str], numbers: Mapping[str, int]) -> str:
+    def references(self, run: Sequence[str]) -> str:
         """References to formulas whose numbers follow each other: (3) to (7)."""
-        first, last = (self.reference(label, numbers[label]) for label in (run[0], run[-1]))
+        first, last = (self.reference(label, self.labels[label]) for label in (run[0], run[-1]))
         return first if len(run) == 1 else f"{first} to {last}"
 
     def reference(self, label: str, number: int) -> str:
@@ -125,7 +125,7 @@ class Page(ABC, Generic[_Piece]):
 
     def used(self, uses: Uses) -> Iterator[_Piece]:
         """The results used in the next formula, where they have numbers."""
-        if sentence := self.leading_on(uses, self.labels):
+        if sentence := self.leading_on(uses):
             yield from self.uses(sentence)
 
     @abstractmethod
@@ -164,7 +164,7 @@ class Page(ABC, Generic[_Piece]):
             case Verbatim(text):
                 return self.verbatim(text)
             case Reference():
-                return self.referred(part, self.labels)
+                return self.referred(part)
         return self.inline(in_line(part))
 
     @abstractmethod

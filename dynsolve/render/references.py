@@ -11,18 +11,13 @@ from textwrap import shorten
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Prose, Text, Uses
 
 
-def numbered(document: Document, level: int | None = None) -> dict[str, int]:
-    """The number of each labelled display, from 1; of those alone that an account of `level` shows."""
-    displays = (b for b in unfolded(document.blocks, level) if isinstance(b, Formula | Equations))
+def numbered(document: Document) -> dict[str, int]:
+    """The number of each labelled display, from 1."""
+    displays = (b for b in unfolded(document.blocks) if isinstance(b, Formula | Equations))
     numbers: dict[str, int] = {}
     for number, display in enumerate((d for d in displays if d.label and d.label not in numbers), start=1):
         numbers |= dict.fromkeys((display.label, *display.also), number)
     return numbers
-
-
-def levels(document: Document) -> tuple[int, ...]:
-    """The levels of detail of its folds."""
-    return tuple(sorted({block.level for block in document.blocks if isinstance(block, Fold)}))
 
 
 _MANY_STEPS = 40
@@ -64,18 +59,15 @@ def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
     return [part for run in found for part in ([run] if len(run) > 2 else [[label] for label in run])]
 
 
-def formulas(blocks: Iterable[Block], level: int | None = None) -> Iterator[Formula]:
-    """The displayed formulas, those in folds too; in folds of up to `level` alone."""
-    return (block for block in unfolded(blocks, level) if isinstance(block, Formula))
+def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
+    """The displayed formulas, those in folds too."""
+    return (block for block in unfolded(blocks) if isinstance(block, Formula))
 
 
-def unfolded(blocks: Iterable[Block], level: int | None = None) -> Iterator[Block]:
-    """The blocks, in place of a fold those in it, or nothing where it belongs to a higher level."""
+def unfolded(blocks: Iterable[Block]) -> Iterator[Block]:
+    """The blocks, in place of a fold those in it."""
     for block in blocks:
-        if not isinstance(block, Fold):
-            yield block
-        elif level is None or block.level <= level:
-            yield from unfolded(block.blocks, level)
+        yield from unfolded(block.blocks) if isinstance(block, Fold) else (block,)
 
 
 def after_references(parts: Prose) -> Prose:

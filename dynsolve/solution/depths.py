@@ -34,8 +34,9 @@ from dynsolve.errors import attempted
 from dynsolve.explain.step import Detail, Group, Line, Part, Step
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Relation, Row
+from dynsolve.notation.tree import NAMED, Node, Relation, Row, equation
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.walk import walk
 from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import leads_on
 from dynsolve.render.terminal_boxes import TextBox, boxed, pieces
@@ -92,6 +93,7 @@ class Shown:
     in_summary: frozenset[str]
     earlier: EarlierResults = field(default_factory=EarlierResults)
     said: set[str] = field(default_factory=set)
+    named: list[Relation] = field(default_factory=list)  # names that nothing shown has so far
 
     def of_stage(self, number: int, steps: Iterable[Step]) -> Iterator[Block]:
         """What is shown of a stage: folds, in brief the formulas alone."""
@@ -109,19 +111,17 @@ class Shown:
                 place, extra = place + 1, 0
                 label = f"{number}.{place}"
             if item.is_group and self.detail is Detail.FULL:
-                yield Fold(f"{label} {item.title}", (), item.detail)
-                for step in item.steps:
-                    extra += 1
-                    yield Fold(f"{label}.{extra} {step.title}", tuple(self.whole(step)), step.detail)
+                yield Fold(f"{label} {item.title}", tuple(self.members(item, label)))
+                extra = len(item.steps)
             elif item.detail <= self.detail:
-                yield Fold(f"{label} {item.title}", tuple(self.blocks(item)), item.detail)
+                yield Fold(f"{label} {item.title}", tuple(self.blocks(item)))
             else:
                 outcomes += [step for step in item.steps if step.outcome]
                 for step in item.steps:
                     self.earlier.add(step)
         if outcomes and self.detail is Detail.NORMAL:
             told = tuple(step.outcome for step in outcomes)
-            yield Fold(f"{number}.{place + 1} {CHECKS}", (List(told),), Detail.NORMAL)
+            yield Fold(f"{number}.{place + 1} {CHECKS}", (List(told),))
 
     def blocks(self, item: Item) -> Iterator[Block]:
         """An item as one step."""
@@ -131,6 +131,11 @@ class Shown:
             yield from condensed(list(self.worked(item)), self.style)
 
     # -- full --------------------------------------------------------------------------------------
+
+    def members(self, group: Item, label: str) -> Iterator[Fold]:
+        """The steps of a group one by one, their numbers after that of the group."""
+        for place, step in enumerate(group.steps, 1):
+            yield Fold(f"{label}.{place} {step.title}", tuple(self.whole(step)))
 
     def whole(self, step: Step) -> Iterator[Block]:
         """A step with all that it has."""
@@ -175,16 +180,30 @@ class Shown:
     # -- brief -------------------------------------------------------------------------------------
 
     def results(self, item: Item) -> Iterator[Block]:
-        """The formula of an item and its results."""
+        """The formula of an item and its results, names defined where they first occur in one."""
         for step in item.steps:
+            self.named += definitions(step)
             if step.detail <= self.detail:
                 if step.table is not None:
                     yield Table(step.table.header, step.table.rows)
                 if step.formula is not None:
                     yield Formula(step.formula, step.source)
                 if Part.RESULT in step.normal and step.id not in self.in_summary:
+                    if {node.parts[0] for node in self.named} & set(walk(*step.result)):
+                        yield Equations(tuple(self.named))
+                        self.named = []
                     yield from result_blocks(step)
             self.earlier.add(step)
+
+
+def definitions(step: Step) -> Iterator[Relation]:
+    """What names stand for that a step introduces."""
+    for line in (*step.lines, Line((), step.result)):
+        for node in line.formulas:
+            if isinstance(node, Relation) and node.signs[-1] == NAMED:
+                yield equation(node.parts[-1], node.parts[-2])
+            elif isinstance(node, Relation) and line.label.startswith(DEFINITIONS):
+                yield node
 
 
 def normal(step: Step, group: Group | None) -> Step:

@@ -54,22 +54,47 @@ def solution_document(
     `abbreviate` says whether long results are written in names, which are defined first; `drawn`
     makes the pictures of steps that have one, where there can be any.
     """
+    (document,) = solution_documents(solution, (detail,), stages, abbreviate, drawn)
+    return document
+
+
+def solution_documents(
+    solution: Dynamics,
+    details: Sequence[Detail],
+    stages: Iterable[str] | None = None,
+    abbreviate: Abbreviate = Abbreviate.AUTO,
+    drawn: Drawn | None = None,
+) -> tuple[Document, ...]:
+    """The same in several depths, of steps that are made once."""
     stages = None if stages is None else tuple(stages)
-    made = partial(_document, solution, detail, stages, drawn)
+    made = partial(_documents, solution, details, stages, drawn)
     names = "what is written in names"
     short = attempted(lambda: solution.abbreviated(abbreviate), lambda: None, names)
     return made(None) if short is None else attempted(lambda: made(short), lambda: made(None), names)
+
+
+def _documents(
+    solution: Dynamics,
+    details: Sequence[Detail],
+    stages: tuple[str, ...] | None,
+    drawn: Drawn | None,
+    short: Abbreviated | None,
+) -> tuple[Document, ...]:
+    steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
+    stated = _part("what is given", lambda: _statement(solution, stages))
+    return tuple(_document(solution, detail, stages, steps, stated, drawn, short) for detail in details)
 
 
 def _document(
     solution: Dynamics,
     detail: Detail,
     stages: tuple[str, ...] | None,
+    steps: Sequence[Step],
+    stated: Sequence[Block],
     drawn: Drawn | None,
     short: Abbreviated | None,
 ) -> Document:
     robot = solution.robot
-    steps = tuple(measured_steps(solution.explain(stages, short), robot, solution.style))
     derivation = (
         *_stages(solution, detail, steps, short, drawn),
         *_part("the numbers", lambda: _numbers(solution, detail, stages)),
@@ -80,7 +105,6 @@ def _document(
             ),
         ),
     )
-    stated = _part("what is given", lambda: _statement(solution, stages))
     return Document((
         *_opening(solution),
         *stated,
@@ -110,7 +134,7 @@ def _notation(
     told = notation(solution.robot, solution.style, shown, short)
     if not told.lines:
         return
-    yield Heading("Notation", 2)
+    yield Heading("Notation", appendix=True)
     if told.remarks:
         yield Text(told.remarks)
     yield told.table
@@ -186,9 +210,9 @@ def definition_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
         return
     yield Heading("Abbreviations", 2)
     if short.constants:
-        yield Fold("Inertial constants", tuple(_constant_blocks(short, what)), Detail.BRIEF)
+        yield Fold("Inertial constants", tuple(_constant_blocks(short, what)))
     if short.sums:
-        yield Fold("Recurring terms", tuple(_recurring_blocks(short)), Detail.BRIEF)
+        yield Fold("Recurring terms", tuple(_recurring_blocks(short)))
 
 
 def _constant_blocks(short: Abbreviated, what: str) -> Iterator[Block]:

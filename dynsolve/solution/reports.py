@@ -47,7 +47,7 @@ def report(
     """
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
-    from dynsolve.solution.documents import solution_document
+    from dynsolve.solution.documents import solution_documents
 
     detail = detail or Detail.NORMAL
     if format is Format.JSON:
@@ -57,13 +57,18 @@ def report(
 
         return (dumps(to_json(solution, abbreviate), ensure_ascii=False) + "\n").encode()
     style = report_style(solution, star)
-    shown = Detail.FULL if format is Format.HTML else detail
+    details = tuple(Detail) if format is Format.HTML else (detail,)
     drawn = _drawn(solution.problem, style) if format in PICTURED else None
-    document = solution_document(solution, shown, stages, Abbreviate(abbreviate), drawn)
+    documents = solution_documents(solution, details, stages, Abbreviate(abbreviate), drawn)
     if solution.robot.has_table and format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
-        plain = document
-        document = attempted(lambda: _with_picture(plain, solution, star), lambda: plain, "the picture")
-    return rendered(document, style, format, detail, fragment)
+        plain = documents
+        documents = attempted(lambda: _with_picture(plain, solution, star), lambda: plain, "the picture")
+    if format is Format.HTML:
+        from dynsolve.render import html
+
+        named = dict(zip((each.name.lower() for each in details), documents, strict=True))
+        return html.render_choice(named, style, detail.name.lower()).encode()
+    return rendered(documents[0], style, format, fragment)
 
 
 _SHOWN_IN = {Stage.FRAMES, Stage.KINEMATICS}
@@ -86,14 +91,19 @@ def _drawn(problem: Problem, style: Style) -> Drawn:
     return picture
 
 
-def _with_picture(document: Document, solution: Dynamics, star: bool) -> Document:
-    """The document with the manipulator drawn before its first section."""
+def _with_picture(documents: Iterable[Document], solution: Dynamics, star: bool) -> tuple[Document, ...]:
+    """The documents with the manipulator drawn before the first section."""
     from dynsolve.document import Heading
 
-    blocks = document.blocks
-    sections = (k for k, block in enumerate(blocks) if isinstance(block, Heading) and block.level > 1)
-    place = next(sections, len(blocks))
-    return replace(document, blocks=(*blocks[:place], solution.picture(star), *blocks[place:]))
+    picture = solution.picture(star)
+
+    def pictured(document: Document) -> Document:
+        blocks = document.blocks
+        sections = (k for k, block in enumerate(blocks) if isinstance(block, Heading) and block.level > 1)
+        place = next(sections, len(blocks))
+        return replace(document, blocks=(*blocks[:place], picture, *blocks[place:]))
+
+    return tuple(map(pictured, documents))
 
 
 def report_style(solution: Dynamics, star: bool = False) -> Style:
@@ -103,7 +113,7 @@ def report_style(solution: Dynamics, star: bool = False) -> Style:
     return replace(solution.style, stars=frozenset(q.name for q in solution.robot.coordinates))
 
 
-def rendered(document: Document, style: Style, format: Format, detail: Detail, fragment: bool) -> bytes:
+def rendered(document: Document, style: Style, format: Format, fragment: bool) -> bytes:
     """A document in a form other than JSON."""
     match format:
         case Format.LATEX:
@@ -117,7 +127,7 @@ def rendered(document: Document, style: Style, format: Format, detail: Detail, f
         case Format.HTML:
             from dynsolve.render import html
 
-            return html.render(document, style, detail.name.lower()).encode()
+            return html.render(document, style).encode()
         case Format.MARKDOWN:
             from dynsolve.render import markdown
 

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from dynsolve.solution.reports import Format
+from dynsolve.explain.step import Detail
+from dynsolve.solution.reports import Format, report
 from tests.reports.browser import Page, chromium
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made
-from tests.support import ALL_PROBLEMS, LIBRARY
+from tests.support import ALL_PROBLEMS, LIBRARY, solved
 
 pytestmark = pytest.mark.browser
 
 LONGEST = 5_000_000
 WIDTHS = (400, 1200)
+DEPTHS = ("results", "brief", "normal", "full")
 CONSTRAINTS = Path(__file__).parents[1] / "golden" / "constraints"
 
 # Elements without width or height, those in hidden parts apart.
@@ -66,7 +67,7 @@ def test_everything_is_seen_and_nothing_overflows(problem: Path, page: Page, tmp
 
 def test_a_long_fraction_is_broken_on_a_phone(page: Page, tmp_path: Path) -> None:
     page.open(saved(CONSTRAINTS / "sapienza-2013-01-line.yaml", tmp_path), 400)
-    assert page.ask("document.querySelectorAll('#eq-lambda .line math').length") > 2
+    assert page.ask("document.querySelectorAll('#normal-eq-lambda .line math').length") > 2
     assert page.ask(OVERFLOWING) == []
 
 
@@ -118,14 +119,14 @@ def test_matrices_accents_and_fractions_are_set(page: Page, tmp_path: Path) -> N
     page.open(saved(next(p for p in LIBRARY if p.stem == "in3140-rp"), tmp_path), 1200)
     # a matrix is as high as its rows, a dot stands over its letter, a fraction is higher than a digit
     heights = page.ask(
-        "['#eq-A1 mtable', '#eq-A1 mtr', '#eq-K mfrac', '#eq-K mn'].map("
-        "s => document.querySelector(s).getBoundingClientRect().height)"
+        "['A1 mtable', 'A1 mtr', 'K mfrac', 'K mn'].map("
+        "s => document.querySelector(`#normal-eq-${s}`).getBoundingClientRect().height)"
     )
     table, row, fraction, digit = heights
     assert table > 3.5 * row > 0
     assert fraction > 1.6 * digit > 0
     letter, dot = page.ask(
-        "[...document.querySelector('#eq-K mover').children].map(e => e.getBoundingClientRect()).map("
+        "[...document.querySelector('#normal-eq-K mover').children].map(e => e.getBoundingClientRect()).map("
         "r => ({top: r.top, left: r.left, right: r.right}))"
     )
     assert dot["top"] < letter["top"] + 3
@@ -134,7 +135,8 @@ def test_matrices_accents_and_fractions_are_set(page: Page, tmp_path: Path) -> N
 
 def test_a_matrix_stays_one_on_a_phone_and_is_scrolled(page: Page, tmp_path: Path) -> None:
     page.open(saved(next(p for p in LIBRARY if p.stem == "elbow-3r"), tmp_path), 400)
-    box = "document.querySelector('#eq-J .box')"
+    page.ask("document.querySelector('label[for=full]').click()")
+    box = "document.querySelector('#full-eq-J .box')"
     assert page.ask(f"{box}.querySelectorAll('mtr').length") == 3
     assert page.ask(f"{box}.scrollWidth > {box}.clientWidth && getComputedStyle({box}).overflowX") == "auto"
 
@@ -185,27 +187,50 @@ def test_light_and_dark_differ_and_can_be_read(page: Page, tmp_path: Path) -> No
     assert brightness["dark"][0] - brightness["dark"][1] > 150
 
 
-def test_levels_of_detail_and_folds_work_without_a_script(page: Page, tmp_path: Path) -> None:
+def test_depths_and_folds_work_without_a_script(page: Page, tmp_path: Path) -> None:
     page.open(saved(next(p for p in LIBRARY if p.stem == "in3140-rp"), tmp_path), 1200)
     shown = "[...document.querySelectorAll('details.step')].filter(e => e.checkVisibility()).length"
     reasons = "[...document.querySelectorAll('.step .why')].filter(e => e.checkVisibility()).length"
-    normal = page.ask(shown)
-    assert page.ask(reasons) > 20
-    page.ask("document.querySelector('label[for=brief]').click()")
-    assert 0 < page.ask(shown) < normal
-    assert page.ask(reasons) == 0
-    page.ask("document.querySelector('label[for=full]').click()")
-    assert page.ask(shown) >= normal
-    page.ask("document.querySelector('details.step summary').click()")
-    assert page.ask("document.querySelector('details.step').open") is False
+    steps, said = [], []
+    for depth in DEPTHS:
+        page.ask(f"document.querySelector('label[for={depth}]').click()")
+        seen = "[...document.querySelectorAll('h1')].filter(e => e.checkVisibility())"
+        assert page.ask(f"{seen}.map(e => e.closest('article').className)") == [depth]
+        steps.append(page.ask(shown))
+        said.append(page.ask(reasons))
+    assert 0 == steps[0] == steps[1] < steps[2] < steps[3]
+    assert 0 == said[0] == said[1] < 10 < said[2] < said[3]
+    for fold in (".full .step", ".full section:last-of-type > details"):
+        closed = f"document.querySelector('{fold}')"
+        page.ask(f"[...document.querySelectorAll('{fold}')].forEach(e => e.open = true)")
+        page.ask(f"{closed}.firstElementChild.click()")
+        assert page.ask(f"{closed}.open") is False
     assert page.ask("document.querySelectorAll('script').length") == 0
+
+
+def test_the_list_of_notation_is_folded(page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "in3140-rp"), tmp_path), 1200)
+    page.ask("document.querySelector('label[for=full]').click()")
+    folded = "document.querySelector('.full section:last-of-type > details:not([open])')"
+    assert page.ask(f"{folded}.querySelector('summary').textContent.trim()") == "Notation"
+    assert page.ask(f"{folded}.querySelector('table').checkVisibility()") is False
+    assert page.ask(f"{folded}.querySelector('summary').click(), {folded} === null")
+    assert page.ask("document.querySelector('.full section:last-of-type table').checkVisibility()")
+
+
+@pytest.mark.parametrize("depth", list(Detail))
+def test_the_page_opens_at_the_depth_that_was_asked_for(depth: Detail, page: Page, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    path.write_bytes(report(solved("in3140-rp"), Format.HTML, detail=depth))
+    page.open(path, 1200)
+    assert page.ask("document.querySelector(':checked').id") == depth.name.lower()
 
 
 SEEN_NUMBERS = """
 [...document.querySelectorAll('.n')].filter(e => e.checkVisibility()).map(e => e.textContent)
 """
 SEEN_REFERENCES = """
-[...document.querySelectorAll('.uses a')].filter(e => e.checkVisibility()).map(e => {
+[...document.querySelectorAll('article a:not(nav a)')].filter(e => e.checkVisibility()).map(e => {
   const target = document.querySelector(e.getAttribute('href'));
   const beside = [...target.querySelectorAll('.n')].filter(n => n.checkVisibility());
   return [e.textContent, beside.map(n => n.textContent).join()] })
@@ -213,39 +238,21 @@ SEEN_REFERENCES = """
 
 
 @pytest.mark.parametrize("name", ["planar-2r", "inf3480-rpr"])
-def test_at_each_level_numbers_have_no_gaps_and_references_are_to_what_is_seen(
+def test_at_each_depth_numbers_have_no_gaps_and_references_are_to_what_is_seen(
     name: str, page: Page, tmp_path: Path
 ) -> None:
     page.open(saved(next(p for p in ALL_PROBLEMS if p.stem == name), tmp_path), 1200)
-    counts = []
-    for level in ("brief", "normal", "full"):
-        page.ask(f"document.querySelector('label[for={level}]').click()")
+    counts, referred = [], []
+    for depth in DEPTHS:
+        page.ask(f"document.querySelector('label[for={depth}]').click()")
         numbers = page.ask(SEEN_NUMBERS)
         assert numbers == [f"({k})" for k in range(1, len(numbers) + 1)]
         counts.append(len(numbers))
         references = page.ask(SEEN_REFERENCES)
         assert [said for said, beside in references if said != beside] == []
-        assert (len(references) > 10) is (level != "brief")
-    assert 5 < counts[0] < counts[1] <= counts[2]
-
-
-@pytest.mark.parametrize("name, letter", [("planar-2r", "h"), ("elbow-3r", "σ"), ("spherical-rrp", "σ")])
-def test_in_brief_each_name_is_defined_before_it_is_used(
-    name: str, letter: str, page: Page, tmp_path: Path
-) -> None:
-    page.open(saved(next(p for p in LIBRARY if p.stem == name), tmp_path), 1200)
-    page.ask("document.querySelector('label[for=brief]').click()")
-    lines = page.ask("""[...document.querySelectorAll('.step .line')].filter(e => e.checkVisibility())
-      .map(e => [...e.querySelectorAll('mi, mn, mo')].map(e => e.textContent).join(''))""")
-    using = [line for line in lines if letter in line]
-    assert len(using) > 1
-    assert using[0].startswith(letter)
-    seen: set[str] = set()
-    for line in using:
-        names = re.findall(rf"{letter}[1-9]?", line)
-        if re.match(rf"{letter}\d*=", line):
-            seen.add(names[0])
-        assert set(names) <= seen
+        referred.append(len(references))
+    assert 0 == counts[0] < counts[1] < counts[2] < counts[3] and counts[2] > 5
+    assert 0 == referred[0] == referred[1] < referred[2] and referred[3] > 10
 
 
 def test_every_link_leads_somewhere_on_the_page(page: Page, tmp_path: Path) -> None:
@@ -283,7 +290,9 @@ def test_a_hostile_title_is_text(page: Page, tmp_path: Path) -> None:
 
 def test_the_title_is_above_the_contents_and_these_above_the_sections(page: Page, tmp_path: Path) -> None:
     page.open(saved(next(p for p in LIBRARY if p.stem == "in3140-rp"), tmp_path), 1000)
-    tops = page.ask("['h1', 'figure', 'nav', 'section'].map(s => document.querySelector(s).offsetTop)")
+    tops = page.ask(
+        "['h1', 'figure', 'nav', 'section'].map(s => document.querySelector(`.normal ${s}`).offsetTop)"
+    )
     assert tops == sorted(tops)
     assert len(set(tops)) == 4
 

@@ -94,7 +94,7 @@ def _results(
             formulas = [
                 block for name, letter in results for block in _shown(robot, name, letter, tree(name))
             ]
-            yield Fold(stage.heading, (*_remark(robot, stage), *formulas), Detail.BRIEF)
+            yield Fold(stage.heading, (*_remark(robot, stage), *formulas))
 
 
 def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:
@@ -178,5 +178,5 @@ def _state(numbers: Numbers, state: State, detail: Detail, stages: set[str] | No
     free = needed(state.robot)
     if free:
         yield Text((*_names("Parameters without a value stay symbols: ", free), "."))
-    shown = main_results(robot) if detail is Detail.BRIEF else all_results(robot)
+    shown = main_results(robot) if detail <= Detail.BRIEF else all_results(robot)
     yield from _results(robot, shown, state.shown, stages)

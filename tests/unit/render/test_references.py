@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dynsolve.document import Document, Equations, Fold, Formula, Reference, Text
 from dynsolve.explain.step import Detail
+from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Symbol, equation
 from dynsolve.render import html, markdown, terminal
 from dynsolve.render.references import numbered
@@ -25,16 +26,16 @@ def test_a_list_of_equations_has_one_number() -> None:
 
 
 def test_the_lists_of_a_long_model_are_referred_to() -> None:
-    text = markdown.render(solution_document(solved("stanford-6"), stages=["vectorized"]))
+    document = solution_document(solved("stanford-6"), Detail.FULL, stages=["vectorized"])
     for name in ("constants", "recurring", "christoffel"):
-        assert name in numbered(solution_document(solved("stanford-6"), stages=["vectorized"]))
-    assert "With (1) and (2):" in text
+        assert name in numbered(document)
+    assert "With (1) and (2):" in markdown.render(document)
 
 
 REFERRED = Document((
-    Fold("In brief", (Formula(ONE, label="first"),), 1),
-    Fold("In full", (Formula(ONE, label="second"),), 3),
-    Fold("In brief", (Formula(ONE, label="third"),), 1),
+    Fold("In brief", (Formula(ONE, label="first"),)),
+    Fold("In full", (Formula(ONE, label="second"),)),
+    Fold("In brief", (Formula(ONE, label="third"),)),
     Text(("It is the same", Reference(("third", "first", "nowhere"), " in "), ".")),
 ))  # fmt: skip
 
@@ -46,13 +47,14 @@ def test_results_are_referred_to_among_words() -> None:
     ]  # where formulas have no numbers
 
 
-def test_each_level_of_detail_refers_by_its_own_numbers() -> None:
-    page = html.render(REFERRED)
-    assert '<a href="#eq-third">(2)</a>' in page and '<a href="#eq-third">(3)</a>' in page
+def test_each_of_several_documents_on_a_page_refers_to_its_own_numbers() -> None:
+    fewer = Document((REFERRED.blocks[0], *REFERRED.blocks[2:]))
+    page = html.render_choice({"brief": fewer, "full": REFERRED}, PLAIN, "full")
+    assert '<a href="#brief-eq-third">(2)</a>' in page and '<a href="#full-eq-third">(3)</a>' in page
 
 
 def test_both_ways_and_the_summary_say_which_equations_they_speak_of() -> None:
-    document = solution_document(solved("in3140-rp"))
+    document = solution_document(solved("in3140-rp"), Detail.FULL)
     number, text = numbered(document), markdown.render(document)
     for one, other in (("D", "D_sum"), ("Cqd", "Cqd-rows"), ("Cqd-2", "g")):
         assert f" in ({number[one]}) and ({number[other]})" in text
@@ -61,7 +63,7 @@ def test_both_ways_and_the_summary_say_which_equations_they_speak_of() -> None:
 
 
 def test_the_summary_of_a_long_model_refers_to_its_matrices() -> None:
-    document = solution_document(solved("stanford-6"))
+    document = solution_document(solved("stanford-6"), Detail.FULL)
     number, text = numbered(document), markdown.render(document)
     for id, before in (("D", "$"), ("christoffel", "symbols"), ("g", "$")):
         assert f"{before} ({number[id]})" in text.split("Summary")[-1]
