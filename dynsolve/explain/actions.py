@@ -14,7 +14,7 @@ from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.citations import siciliano
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import NOTED, Detail, Step
 from dynsolve.explain.writing import listed, side_by_side, sum_of
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import (
@@ -100,7 +100,7 @@ def rotor_steps(context: Context) -> Iterator[Step]:
     )
     why += (", times the ratio of its gear",) if geared else ()
     why += ("; one that rides on a link is carried round by that link, too",) if carried else ()
-    why += (". Half its moment of inertia times the square of that; what its mass does is told of a body.",)
+    why += (". The energy of its turning is half its moment of inertia times the square of that.",)
     yield Step(
         id="Km",
         stage=Stage.ENERGY,
@@ -111,6 +111,7 @@ def rotor_steps(context: Context) -> Iterator[Step]:
         working=(equation(letters.KM, sum_of([_energy(context, motor) for motor in motors])),),
         result=(equation(letters.KM, context.form("Km")),),
         notes=tuple(_carriers(context)),
+        normal=NOTED,
         hint=("Half the moment of inertia of each rotor times the square of all that it turns with.",),
     )
 

@@ -77,7 +77,7 @@ class Context:
     @property
     def end(self) -> str:
         """The point that the last H and the Jacobian are of, in words."""
-        if self.robot.ends_in_a_joint:
+        if self.robot.ends_in_a_joint or self.robot.is_tree:
             return f"the origin of frame {len(self.robot.joints)}"
         return "the end of the arm"
 

@@ -12,7 +12,7 @@ from dynsolve.derivation.smallest import Extreme
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import NOTED, Detail, Step
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters
@@ -66,6 +66,7 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
         ),
         notes=notes,
         outcome=(name, f": {_CONCLUSIONS[found.answer].removeprefix('So ')}"),
+        normal=NOTED,
         hint=("Look at its entries first, then at its leading minors.",),
         detail=Detail.BRIEF,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.algebra.minors import determinant
 from dynsolve.derivation import linearization
@@ -14,7 +15,7 @@ from dynsolve.explain import steady as moving
 from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
 from dynsolve.explain.writing import is_small, listed, side_by_side
 from dynsolve.notation.tree import (
     Degrees,
@@ -48,11 +49,12 @@ def steps(context: Context) -> Iterator[Step]:
     """The equilibria with their stability; A and B of the motion near one."""
     wanted = context.wanted
     if "equilibria" in wanted:
-        yield from _equilibria(context)
+        group = Group("equilibria", "Where nothing moves, and how stable that is")
+        yield from (replace(step, group=group, normal=NOTED) for step in _equilibria(context))
     if "balance" in wanted:
-        yield _balance(context)
+        yield replace(_balance(context), normal=NOTED)
     if "linear_A" in wanted:
-        yield _state_matrix(context)
+        yield replace(_state_matrix(context), normal=NOTED)
     if "linear_B" in wanted:
         yield _input_matrix(context)
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Inline, Prose, Table
 from dynsolve.explain.context import Context
 from dynsolve.explain.kinematics import table_of
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.writing import craig, listed, side_by_side, spong
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Symbol, equation
@@ -21,6 +22,8 @@ from dynsolve.robot.drawing.procedure import Normals, frames
 from dynsolve.robot.model import Convention
 
 STAGE = Stage.FRAMES
+
+FRAMES = Group("frames", "The frames")
 
 _HINT: Prose = (
     "See how the two axes lie, the one of the joint and the next one. Skew axes have one common normal: x "
@@ -52,7 +55,7 @@ def steps(context: Context) -> Iterator[Step]:
     explained = _Explained(context, context.normals)
     yield explained.axes()
     for i in range(len(explained.frames)):
-        yield explained.frame(i)
+        yield replace(explained.frame(i), group=FRAMES)
     yield explained.table()
 
 
@@ -147,7 +150,8 @@ class _Explained:
         if i == n and self.drawing.hand.z is None:
             return self._why_hand(normal, n)
         following = f"the axis of joint {i + 1}" if i < n else "the z of the hand"
-        return _of_two(normal.relation, i, following, "i" if self.modified else "next")
+        is_told = any(each.relation is normal.relation for each in self.normals.all[1:i])
+        return _of_two(normal.relation, i, following, "i" if self.modified else "next", is_told)
 
     def _why_base(self, normal: Normal) -> str:
         start = (
@@ -174,16 +178,15 @@ class _Explained:
     def table(self) -> Step:
         """The rows, measured from frame to frame."""
         why = f"{_MEASURED[self.drawing.convention]} {self._zero()}"
-        notes: tuple[Prose, ...] = ((_VERIFIED,),)
         if len(self.context.robot.joints) > len(self.drawing.axes):
-            notes = (("One row more, without a joint, takes the last frame to the hand.",), *notes)
+            why += " One row more, without a joint, takes the last frame to the hand."
         return Step(
             id="DH",
             stage=STAGE,
             title="The Denavit-Hartenberg table",
             why=self._prose(why),
             source=self.source,
-            notes=notes,
+            notes=((_VERIFIED,),),
             table=table_of(self.context),
             detail=Detail.BRIEF,
             hint=("Measure from frame to frame: about z, along z, along x, about x.",),
@@ -193,9 +196,9 @@ class _Explained:
         if self.drawing.zero_is_drawn:
             return (
                 "Turning joints are at 0 as drawn, so that θ_i is the coordinate plus the angle that is "
-                "drawn."
+                "drawn. The star marks the joint variables."
             )
-        return "The coordinates are the variables of the table, so that nothing is added to them."
+        return "The coordinates are the variables of the table, marked by a star: nothing is added to them."
 
     def _prose(self, text: str) -> Prose:
         """A sentence with its letters set: o_1, x_{i-1}, and θ_i as the columns of the table are called."""
@@ -214,14 +217,22 @@ class _Explained:
         return letters.bold(base, index)
 
 
+_LIE = {
+    Relation.SKEW: "are skew",
+    Relation.INTERSECTING: "meet",
+    Relation.PARALLEL: "are parallel",
+    Relation.COINCIDENT: "lie on one line",
+}
 _COUNTS = {"i": letters.COUNT, "i-1": letters.BEFORE}
 _COLUMNS = "θdaα"
 _LETTER = re.compile(r"(?<![A-Za-z])([oxzda]|θ|α)_(\{[^}]*\}|[0-9i])")
 
 
-def _of_two(relation: Relation, i: int, following: str, side: str) -> str:
-    """How two axes lie that follow each other, and what is chosen."""
+def _of_two(relation: Relation, i: int, following: str, side: str, is_told: bool) -> str:
+    """How two axes lie that follow each other, and what is chosen; of the second that lie so, how alone."""
     both = f"The axis of joint {i} and {following}"
+    if is_told:
+        return f"{both} {_LIE[relation]}, too."
     foot = f"the axis of joint {i}" if side == "i" else following
     match relation:
         case Relation.SKEW:

@@ -112,6 +112,7 @@ def _point(context: Context, body: Body) -> Step:
         ),
         source=spong("7.2.1"),
         result=(equation(tensor, letters.bold("0")),),
+        said="point mass",
     )
 
 

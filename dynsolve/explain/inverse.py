@@ -19,7 +19,7 @@ from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.explain.inverse_pose import introduction, pose_task, wrist_notes
 from dynsolve.explain.inverse_target import given_numbers, target_steps
 from dynsolve.explain.inverse_way import InverseWay
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import NOTED, RESUMED, Detail, Step
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.build import cost, negated
 from dynsolve.notation.tree import (
@@ -97,6 +97,7 @@ def _unsolved(forms: ConfigurationForms) -> Step:
         ),
         detail=Detail.BRIEF,
         notes=tuple(_of_pieper(forms.robot)),
+        normal=NOTED,
         uses=(),
     )
 
@@ -157,6 +158,7 @@ class _Explainer:
             result=results,
             figure=figure_of(self.formulas, step),
             notes=tuple(self._notes(step, part)),
+            normal=NOTED if way.starts_anew or not lines else RESUMED,
             uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
         )
 
@@ -225,6 +227,7 @@ class _Explainer:
                  "that stands in a formula is that of the same line."),
             table=table,
             notes=(*self._conditions(), *self._free_coordinates()),
+            normal=NOTED,
             detail=Detail.BRIEF,
             uses=tuple(f"inverse_{name}" for name in names),
             hint=("Put every choice among these into ", self._task,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from itertools import groupby
 from math import degrees
@@ -10,7 +11,7 @@ from math import degrees
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.document import Prose, Table
 from dynsolve.explain.branch_values import decimal
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import NOTED, Detail, Group, Step
 from dynsolve.explain.target import Configuration, Lost, TargetForms
 from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost
@@ -41,10 +42,11 @@ _REAL = {
 
 def target_steps(forms: TargetForms) -> Iterator[Step]:
     """A step for each configuration, and the table of all."""
-    found = forms.configurations
-    for number, one in enumerate(found, 1):
-        yield _configuration(forms, one, number)
-    yield _all(forms)
+    whole = _all(forms)
+    group = Group("inverse", whole.title)
+    for number, one in enumerate(forms.configurations, 1):
+        yield replace(_configuration(forms, one, number), group=group, normal=NOTED)
+    yield replace(whole, group=group, normal=NOTED)
 
 
 def given_numbers(forms: TargetForms) -> tuple[Node, ...]:

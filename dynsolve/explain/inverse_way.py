@@ -77,6 +77,11 @@ class InverseWay:
             yield e
 
     @property
+    def starts_anew(self) -> bool:
+        """Whether an equation that it starts from was in no earlier step."""
+        return any(e.expr not in self._shown for e in self._first)
+
+    @property
     def _first(self) -> tuple[Equation, ...]:
         return tuple(e for e in self._needed if self._is_first(e))
 

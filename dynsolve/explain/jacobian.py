@@ -79,9 +79,7 @@ def _axes(context: Context) -> Step:
             ", the fourth ",
             Letter("o", style="bold"),
             *_of_frame_0(context, moving),
-            f". In the {robot.convention.value} convention joint i {_motions(robot)} ",
-            letters.bold("z", letters.BEFORE if context.standard else letters.COUNT),
-            *_whose(context),
+            *_about(context),
             *_same_origins(context, moving),
             *_wrist(context),
             *_read_off(context),
@@ -164,10 +162,19 @@ def _wrist(context: Context) -> Prose:
     return ()
 
 
-def _whose(context: Context) -> Prose:
+def _about(context: Context) -> Prose:
+    """About or along whose axis a joint moves."""
+    robot = context.robot
+    z = letters.bold("z")
+    if robot.is_tree:
+        frame = "the frame that its row starts from" if context.standard else "its own frame"
+        return (". A joint ", f"{_motions(robot)} the ", z, f" of {frame}.")
+    before = letters.bold("z", letters.BEFORE if context.standard else letters.COUNT)
+    told: Prose = (f". In the {robot.convention.value} convention joint i {_motions(robot)} ", before)
     if context.standard:
-        return (", the axis of the frame before it.",)
+        return (*told, ", the axis of the frame before it.")
     return (
+        *told,
         ", the axis of its own frame: where Spong, in the standard convention, has ",
         letters.bold("z", letters.BEFORE),
         " and ",
@@ -180,10 +187,10 @@ def _whose(context: Context) -> Prose:
     )
 
 
-def _plain_joint(robot: Robot, k: int) -> Joint | None:
-    """The one joint that coordinate k (from 0) moves, at its own rate; None for several, or scaled."""
-    moved = [(joint, rate) for joint in robot.joints for i, rate in joint.rates if i == k]
-    return moved[0][0] if len(moved) == 1 and moved[0][1] == 1 else None
+def _plain_joint(context: Context, k: int) -> Joint | None:
+    """The one joint up to the end that coordinate k (from 0) moves, at its own rate; None for several."""
+    moved = joints_moved(context, k, len(context.robot.joints))
+    return moved[0][1] if len(moved) == 1 and moved[0][0] == 1 else None
 
 
 def _column(context: Context, q: Coordinate) -> Step:
@@ -194,7 +201,7 @@ def _column(context: Context, q: Coordinate) -> Step:
         return _still_column(context, q)
     linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
     name = Letter("J", Number(q.index), style="bold")
-    joint = _plain_joint(robot, k)
+    joint = _plain_joint(context, k)
     return Step(
         id=f"J{q.index}",
         stage=STAGE,
@@ -225,13 +232,17 @@ def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:
 
 
 def _still_column(context: Context, q: Coordinate) -> Step:
-    """The column of a coordinate that moves no joint: the angle of a motor behind an elastic joint."""
+    """The column of a coordinate that does not move the end: the angle of a motor, or of another branch."""
+    moved = context.robot.joints_of(q)
+    why = f" does not move {context.end}: its column is zero."
+    if not moved and any(motor.turns == q.index - 1 for motor in context.robot.actions.motors):
+        why = " turns a rotor alone and moves no link: its column is zero."
     name = Letter("J", Number(q.index), style="bold")
     return Step(
         id=f"J{q.index}",
         stage=STAGE,
         title=f"Column {q.index} of the Jacobian",
-        why=(Symbol(q.name), " turns a rotor alone and moves no link: its column is zero."),
+        why=(Symbol(q.name), why),
         source=spong("4.6.3"),
         result=(equation(name, ZERO),),
         uses=("axes",),
@@ -248,47 +259,45 @@ def _turning_named(context: Context, joint: Joint | None) -> Prose:
 
 def _read_off(context: Context) -> Prose:
     """How a product with an axis of the base is read off: told once, as the mass centres have such too."""
-    joint = _told_read_off(context)
-    if joint is None:
-        return ()
-    return (" ", *how_read_off(context, joint), ".")
+    told = _told_read_off(context)
+    return (" ", *how_read_off(context, told[1]), ".") if told else ()
 
 
-def _told_read_off(context: Context) -> Joint | None:
-    """The joint of whose column it is told how it is read off."""
+def _told_read_off(context: Context) -> tuple[int, Joint] | None:
+    """The coordinate (from 0) of whose column it is told how it is read off, and the joint that it moves."""
     robot = context.robot
     if not (context.is_short and robot.has_table and robot.bodies):
         return None
     joint = read_off(context, len(robot.joints), end_of(context))
-    alone = [_plain_joint(robot, k) for k in range(robot.n)]
-    return joint if joint in alone else None
+    alone = [_plain_joint(context, k) for k in range(robot.n)]
+    return (alone.index(joint), joint) if joint and joint in alone else None
 
 
 def where_told_read_off(context: Context) -> str:
     """The column that tells how a product with an axis of the base is read off; "" where none does."""
-    joint = _told_read_off(context)
-    return "" if joint is None else next(f"J{i + 1}" for i, _ in joint.rates)
+    told = _told_read_off(context)
+    return f"J{told[0] + 1}" if told else ""
 
 
 def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
     robot = context.robot
     if joint is None:
-        joints = [j for j in robot.joints if any(i == q.index - 1 for i, _ in j.rates)]
-        where = listed([str(j.index) for j in joints])
-        if len(joints) > 1:
+        moved = joints_moved(context, q.index - 1, len(robot.joints))
+        where = listed([str(j.index) for _, j in moved])
+        if len(moved) > 1:
             return (
                 " moves the joints of rows ",
                 *where,
+                *((f" on the way to {context.end}",) if robot.is_tree else ()),
                 "; its column is the sum of theirs, each times the rate at which that joint moves with ",
                 Symbol(q.name),
                 ".",
             )
-        (rate,) = (rate for joint in joints for i, rate in joint.rates if i == q.index - 1)
         return (
             " moves the joint of row ",
             *where,
             " at ",
-            number(rate),
+            number(moved[0][0]),
             " times its own rate, and so its column.",
         )
     if turns(q):
@@ -348,5 +357,5 @@ def _still(context: Context) -> Prose:
 def _columns_in_letters(context: Context) -> Matrix:
     """[z × (o_n - o) ...; z ...], a column a coordinate."""
     last = len(context.robot.joints)
-    columns = [coordinate_column(context, k, last, letters.o(last)) for k in range(context.robot.n)]
-    return Matrix(tuple(zip(*(column for column in columns if column), strict=True)))
+    columns = (coordinate_column(context, k, last, letters.o(last)) for k in range(context.robot.n))
+    return Matrix(tuple(zip(*(column or (ZERO, ZERO) for column in columns), strict=True)))

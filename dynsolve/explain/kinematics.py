@@ -74,7 +74,7 @@ def _table(context: Context) -> Step:
         result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
         notes=tuple(_table_notes(context)),
         table=table_of(context),
-        detail=Detail.BRIEF,
+        detail=Detail.FULL if context.normals else Detail.BRIEF,
         normal=Part.WHY | Part.NOTES,
         is_task=False,
     )
@@ -83,6 +83,8 @@ def _table(context: Context) -> Step:
 def _four_motions(context: Context) -> Prose:
     """How a row leads from a frame to the next, in the order of its convention."""
     theta, d, a, alpha = letters.columns(context.robot, _I)
+    if context.robot.is_tree:
+        return _four_motions_of_branches(context)
     if context.standard:
         return (
             "In the standard convention (Spong) row i leads from frame i-1 to frame i by a rotation by ",
@@ -122,6 +124,20 @@ def _four_motions(context: Context) -> Prose:
     )
 
 
+def _four_motions_of_branches(context: Context) -> Prose:
+    """How a row leads to its frame where links branch."""
+    theta, d, a, alpha = letters.columns(context.robot, _I)
+    x, z = letters.bold("x"), letters.bold("z")
+    begun: Prose = (
+        "The links branch: a row takes the frame in the column `from` to frame i by four motions, ",
+    )
+    about_z: Prose = ("a rotation by ", theta, " about ", z, " and a translation by ", d, " along it")
+    about_x: Prose = ("a rotation by ", alpha, " about ", x, " and a translation by ", a, " along it")
+    if context.standard:
+        return (*begun, *about_z, ", both of the frame that it starts from, then ", *about_x, " of frame i. ")
+    return (*begun, *about_x, " of the frame that it starts from, then ", *about_z, " of frame i. ")
+
+
 def _kinds(context: Context) -> Prose:
     """Which coordinates are angles, which lengths."""
     robot = context.robot
@@ -139,11 +155,6 @@ def _kinds(context: Context) -> Prose:
 
 def _table_notes(context: Context) -> Iterator[Prose]:
     robot = context.robot
-    if robot.is_tree:
-        yield (
-            "The links branch: a row starts from the frame in the column `from`, which takes the place of "
-            "frame i-1.",
-        )
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
     if len(fixed) == 1:
         yield (f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the frame before it.",)
@@ -347,7 +358,7 @@ def _frame_why(context: Context, tells: bool) -> Prose:
     why: Prose = (f"The fourth column is where {context.end} is, the first three ",)
     why = (*OUTWARDS, " ", *why) if tells else why
     if not context.robot.ends_in_a_joint:
-        return (*why, "how it is turned.")
+        return (*why, "how that frame is turned." if context.robot.is_tree else "how it is turned.")
     return (
         *why,
         "how that frame is turned. In the modified convention it lies in the last joint: the end of the arm "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.fraction_matrix import FractionMatrix
@@ -14,7 +14,7 @@ from dynsolve.derivation.regressor import combinations, known_names
 from dynsolve.document import Prose
 from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
 from dynsolve.explain.writing import listed
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Entry, Letter, Node, Number, Product, Row, Sum, Symbol, Words, equation
@@ -56,10 +56,12 @@ def steps(context: Context) -> Iterator[Step]:
             why: Prose = (linear.forces, " is 0 in every state, so that there are no parameters in it.")
             yield Step(linear.a, STAGE, _title(linear), why, detail=Detail.BRIEF)
             continue
+        formula = equation(linear.forces, Product((linear.Y_letter, linear.a_letter)))
+        group = Group(linear.a, f"{_title(linear)} and the regressor", (), formula, _SOURCE)
         if linear.a in wanted:
-            yield _parameters(context, linear)
+            yield replace(_parameters(context, linear), group=group, normal=NOTED)
         if linear.Y in wanted:
-            yield _regressor(context, linear)
+            yield replace(_regressor(context, linear), group=group)
     if "Yr" in wanted and not context.values["tau"].is_zero:
         yield _with_references(context)
 
@@ -126,7 +128,7 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
     if not 0 < len(found) <= MOST_SHOWN:
         return
     by: Prose = (
-        "The coefficients that occur, without numbers and known factors that all terms of one share",
+        "The coefficients that occur, without numbers and known factors that all terms of one share:",
     )
     yield Line(by, tuple(context.show(coefficient) for coefficient, _ in found))
     names = [Entry(linear.a_letter, Number(k)) for k in range(1, len(parameters.rows) + 1)]
@@ -136,7 +138,7 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
         if coefficient not in parameters.entries
     ]
     if dependent:
-        yield Line(("What is a combination of others needs no entry of its own",), tuple(dependent))
+        yield Line(("What is a combination of others needs no entry of its own:",), tuple(dependent))
 
 
 def _sum(context: Context, names: Sequence[Node], factors: tuple[RationalExpr, ...]) -> Node:

@@ -20,14 +20,15 @@ from dynsolve.robot.model import Body
 def center_step(context: Context, body: Body) -> Step:
     """r_c, which the problem gives."""
     moves = any(map(context.robot.ring.depends_on_coordinates, body.center.entries))
-    why = f"The position of {name_of(body)} is given by the problem"
-    why += ", as a function of the coordinates." if moves else ": it does not move."
+    why = f"The position of {name_of(body)} is given"
+    why += " as a function of the coordinates." if moves else ": it does not move."
     return Step(
         id=f"rc{body.name}",
         stage=Stage.INERTIA,
         title=f"Mass centre of {name_of(body)}",
         why=(why,),
         result=(equation(letters.rc(body), context.form(f"rc{body.name}")),),
+        said="given position" if moves else "",
         uses=(),
         detail=Detail.BRIEF,
     )

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.writing import is_small, listed, spong
@@ -35,6 +36,12 @@ _POINTS = spong("4.6")
 
 def point_steps(context: Context, point: NamedPoint, wanted: frozenset[str]) -> Iterator[Step]:
     """Its position, its Jacobians and its velocity, as far as they are wanted."""
+    p = point.name
+    group = Group(f"point{p}", f"The point {p}")
+    yield from (replace(step, group=group) for step in _steps(context, point, wanted))
+
+
+def _steps(context: Context, point: NamedPoint, wanted: frozenset[str]) -> Iterator[Step]:
     p = point.name
     if f"p{p}" in wanted:
         yield _position(context, point)

@@ -71,17 +71,16 @@ def determinant_step(context: Context) -> Step:
         )  # fmt: skip
     shown = context.show(square)
     letter = Row((Words("det "), of))
-    working = (equation(letter, Row((Words("det "), shown))),) if is_small(shown) else ()
     return Step(
         id="det",
         stage=Stage.TASK,
         title="The determinant of the Jacobian",
         why=why,
-        formula=letter,
+        formula=equation(letter, Row((Words("det "), shown))) if is_small(shown) else None,
         source=spong("4.9"),
-        working=working,
         result=(equation(letter, context.form("det")),),
         detail=Detail.BRIEF,
+        task=letter,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
@@ -10,7 +11,7 @@ from dynsolve.explain.citations import spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
 from dynsolve.explain.singular_figures import figure_of
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
 from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Transpose, Words, equation
@@ -22,6 +23,8 @@ _SOURCE = spong("4.9")
 _LOST = spong("4.10")
 
 _TITLE = "The singular configurations"
+_SETS = Group("singular", _TITLE)
+_W = letters.bold("w")
 _CASES = ("A product is 0 where one of its factors is. Constant lengths are not 0.",)
 """What a hint says of them, however many there are."""
 _SIMPLER = (
@@ -40,10 +43,11 @@ def steps(context: Context) -> Iterator[Step]:
     if found is None:
         yield _skipped()
         return
-    yield _rank(context, forms, found)
-    yield _alternatives(forms, found)
+    yield replace(_rank(context, forms, found), group=_SETS)
+    yield replace(_alternatives(forms, found), group=_SETS, normal=NOTED)
+    lost = Group("singular_lost", "What is lost", (), _in_general(context), _LOST)
     for case in range(len(found.losses)):
-        yield _loss(context, forms, found, case)
+        yield replace(_loss(context, forms, found, case), group=lost if all(forms.lost) else None)
 
 
 def _skipped() -> Step:
@@ -90,6 +94,7 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
         working=working,
         result=results,
         listed=len(results) > 1,
+        normal=TOLD & ~Part.RESULT if len(results) == 1 and "det" in context.wanted else TOLD,
         uses=(_matrix(context),),
     )
 
@@ -132,26 +137,22 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
     general = "" if loss.rank_holds else "in general "
     where: Prose = ("Where ", *_equations(forms.singular[case]), f", the rank is {general}",
                     f"{loss.rank} instead of {found.rank}.")  # fmt: skip
-    w = Letter("w", style="bold")
-    names = [w] if len(lost) == 1 else [Letter("w", Number(k), style="bold") for k in range(1, len(lost) + 1)]
+    names = (
+        [_W] if len(lost) == 1 else [Letter("w", Number(k), style="bold") for k in range(1, len(lost) + 1)]
+    )
     generic: Prose = ()
     if not loss.are_independent:
         generic = (" In general ", *listed(names), " are independent." if len(names) > 1 else " is not 0.")
     exact = all(condition.keeps_values for condition in found.alternatives[case])
     form = forms.compactor(loss.jacobian.ring).form
     there = tree.Matrix(tuple(tuple(map(form, row)) for row in loss.jacobian.rows))
-    formula = Relation(
-        (
-            equation(Row((Transpose(w), J)), letters.bold("0")),
-            equation(letters.TAU, Row((Transpose(J), w)), letters.bold("0")),
-        ),
-        ("⇒",),
-    )
+    formula = _in_general(context)
+    told = lost and not any(forms.lost[:case])
     return Step(
         id=f"singular_{case + 1}",
         stage=STAGE,
         title=f"{what} in case {case + 1}" if several else f"{what} there",
-        why=(*where, *(_lost_words(context) if lost else ()), *generic),
+        why=(*where, *(_lost_words(context) if told else ()), *generic),
         formula=formula if lost else None,
         source=_LOST if lost else "",
         working=(equation(J, there),) if lost and exact else (),
@@ -168,13 +169,19 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
     )
 
 
+def _in_general(context: Context) -> Node:
+    """wᵀ J = 0 ⇒ τ = Jᵀ w = 0"""
+    J, zero = _letter(context), letters.bold("0")
+    still = equation(letters.TAU, Row((Transpose(J), _W)), zero)
+    return Relation((equation(Row((Transpose(_W), J)), zero), still), ("⇒",))
+
+
 def _lost_words(context: Context) -> Prose:
-    w = Letter("w", style="bold")
     task = context.robot.questions.task
     is_force = _matrix(context) != "J" and (task is None or task.is_default)
-    what = "A force" if is_force else "A force and a moment"
-    return (" Every velocity that the joints can give is orthogonal to ", w, ": motion along ", w,
-            f" is lost. {what} along ", w, " needs no torque of the joints.")  # fmt: skip
+    needs = "A force along it needs" if is_force else "A force and a moment along it need"
+    return (" Every velocity that the joints can give is orthogonal to ", _W,
+            f": that motion is lost. {needs} no torque of the joints.")  # fmt: skip
 
 
 def _together(conditions: tuple[Node, ...]) -> Node:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.derivation import statics
 from dynsolve.derivation.kinematics import frame_names
@@ -10,7 +11,7 @@ from dynsolve.derivation.static_rules import jacobians
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import NOTED, Detail, Group, Step
 from dynsolve.explain.writing import is_small, side_by_side, sum_of
 from dynsolve.notation.tree import (
     Letter,
@@ -29,6 +30,8 @@ from dynsolve.robot.questions import TIP, Load
 
 STAGE = Stage.STATICS
 
+HELD = Group("Q", "The sum, and the torques that hold it")
+
 
 def steps(context: Context) -> Iterator[Step]:
     """Force by force what it does to the joints, the sum, and what holds it at rest."""
@@ -37,9 +40,9 @@ def steps(context: Context) -> Iterator[Step]:
         if f"load{index}" in wanted:
             yield _load(context, index, load)
     if "Q" in wanted:
-        yield _total(context)
+        yield replace(_total(context), group=HELD)
     if "tau_static" in wanted:
-        yield _holding(context)
+        yield replace(_holding(context), group=HELD)
 
 
 def state_prose(context: Context) -> Prose:
@@ -70,6 +73,7 @@ def _load(context: Context, index: int, load: Load) -> Step:
         working=tuple(_working(context, index, load)),
         result=(equation(Q, context.form(f"load{index}")),),
         notes=tuple(_notes(load)),
+        normal=NOTED,
     )  # fmt: skip
 
 

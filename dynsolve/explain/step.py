@@ -55,6 +55,8 @@ class Part(Flag):
 
 NOTED = ~Part(0)
 """All parts."""
+RESUMED = NOTED & ~Part.WORKING
+"""All but this robot's quantities in the formula, which an earlier step has."""
 TOLD = NOTED & ~Part.NOTES
 """All parts but the notes."""
 WORKED = TOLD & ~Part.WHY

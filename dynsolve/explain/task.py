@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.points import point_steps
 from dynsolve.explain.rates import determinant_step
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.tree import (
     BigSum,
@@ -31,6 +32,8 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.questions import TIP, Task, points_of
 
 STAGE = Stage.TASK
+
+TASK = Group("r", "The task and its Jacobian")
 
 _POINTS, _TASK, _RATES = spong("4.6"), spong("4.8"), spong("4.11")
 
@@ -55,9 +58,9 @@ def steps(context: Context) -> Iterator[Step]:
 
 def _task(context: Context, task: Task, wanted: frozenset[str]) -> Iterator[Step]:
     if "r" in wanted:
-        yield _map(context, task)
+        yield replace(_map(context, task), group=TASK)
     if "Jr" in wanted:
-        yield _twist(context) if task.is_twist else _jacobian(context, task)
+        yield replace(_twist(context) if task.is_twist else _jacobian(context, task), group=TASK)
     if "Jr_dot" in wanted:
         yield _rate(context, "Jr", letters.J_TASK)
     if "det" in wanted:
@@ -67,10 +70,10 @@ def _task(context: Context, task: Task, wanted: frozenset[str]) -> Iterator[Step
 def _map(context: Context, task: Task) -> Step:
     entries = column(*(mapped(entry, with_letters) for entry in task.entries))
     points = ["the tip" if point == TIP else point for point in points_of(task)]
-    where: Prose = ("The coordinates of ", *listed(points), " are put in.") if points else ()
-    why: Prose = ("The components of the task as functions of the joint variables. ", *where)
+    where: Prose = (" The coordinates of ", *listed(points), " are put in.") if points else ()
+    why: Prose = ("The components of the task as functions of the joint variables.", *where)
     if task.is_default:
-        why = ("The task is the position of the tip, of which these are the coordinates that move. ", *where)
+        why = ("The task is the position of the tip, of which these are the coordinates that move.",)
     return Step(
         id="r",
         stage=STAGE,

@@ -35,7 +35,7 @@ from dynsolve.explain.step import Detail, Group, Line, Part, Step
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import NAMED, Node, Relation, Row, equation
-from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.notation.walk import walk
 from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import leads_on
@@ -276,8 +276,10 @@ def _opens_way(step: Step) -> bool:
 
 def _leading_on(step: Step) -> Iterator[Block]:
     """What leads from the formulas in letters to the result."""
+    results = set(map(to_unicode, step.result))
     for working in step.working:
-        yield Formula(working, optional=True)
+        if to_unicode(working) not in results:
+            yield Formula(working, optional=True)
     for line in step.lines:
         lead_in = (Text(line.by),) if line.by else ()
         yield from _with_uses(lead_in, line.uses) if line.uses else lead_in
@@ -359,7 +361,8 @@ def _chain(first: Node, second: Node) -> Relation | None:
         return None
     if first.parts[0] != second.parts[0] or {*first.signs, *second.signs} != {"="}:
         return None
-    parts = (*first.parts, *(part for part in second.parts[1:] if part != first.parts[-1]))
+    last = to_unicode(first.parts[-1])
+    parts = (*first.parts, *(part for part in second.parts[1:] if to_unicode(part) != last))
     return Relation(parts, ("=",) * (len(parts) - 1))
 
 

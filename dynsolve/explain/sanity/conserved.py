@@ -166,7 +166,8 @@ def _named(context: Context, q: Coordinate) -> Prose:
     if robot.actions.motors:
         return ()
     if not robot.has_table:
-        return (", the total linear momentum,",) if _shifts_all(context, q) else ()
+        shift = _shifts_all(context, q)
+        return (f" (the total linear momentum along {shift})",) if shift else ()
     moved = robot.joints_of(q)
     if len(moved) != 1 or moved[0][1] != 1:
         return ()
@@ -175,18 +176,20 @@ def _named(context: Context, q: Coordinate) -> Prose:
     is_first = not robot.is_tree and all(body.link >= joint.index for body in robot.bodies)
     axis = letters.z(joint_frame(robot, joint))
     if is_first:
-        return (f", the {kind} momentum of the {context.machine} {where} ", axis, ",")
-    return (f", the {kind} momentum {where} ", axis, f" of all that joint {joint.index} moves,")
+        return (f" (the {kind} momentum of the {context.machine} {where} ", axis, ")")
+    return (f" (the {kind} momentum {where} ", axis, f" of all that joint {joint.index} moves)")
 
 
-def _shifts_all(context: Context, q: Coordinate) -> bool:
-    """Whether a coordinate moves every body along the same fixed direction, and turns none."""
+def _shifts_all(context: Context, q: Coordinate) -> str:
+    """The axis of the world along which a coordinate shifts every body by as much, turning none; else ''."""
     ring, values, k = context.robot.ring, context.values, q.index - 1
     names = [body.name for body in context.robot.bodies]
     shifts = {tuple(row[k] for row in values[f"Jv{name}"].rows) for name in names}
     turned = [row[k] for name in names if f"Jw{name}" in values.rules for row in values[f"Jw{name}"].rows]
-    fixed = not any(ring.depends_on_coordinates(entry) for shift in shifts for entry in shift)
-    return len(shifts) == 1 and fixed and all(entry.is_zero for entry in turned)
+    if len(shifts) > 1 or not all(entry.is_zero for entry in turned):
+        return ""
+    units = {tuple(ring.one if i == j else ring.zero for i in range(3)): "xyz"[j] for j in range(3)}
+    return units.get(next(iter(shifts)), "")
 
 
 def _stands_above(context: Context, q: Coordinate) -> bool:

@@ -101,14 +101,18 @@ def _told_of_all(
 
 def _counted(zero: Sequence[Pose], kinds: Sequence[Kind]) -> Prose:
     """In how many poses gravity is balanced, and at which the equilibrium is stable."""
+    poses = "one pose" if len(zero) == 1 else f"{len(zero)} poses"
+    return (f"Gravity is balanced in {poses} (up to full turns); ", *_minima(zero, kinds))
+
+
+def _minima(zero: Sequence[Pose], kinds: Sequence[Kind]) -> Prose:
+    """In which poses P has a minimum."""
     stable = [
         side_by_side(written(pose)) for pose, kind in zip(zero, kinds, strict=True) if kind is Kind.MINIMUM
     ]
-    poses = "one pose" if len(zero) == 1 else f"{len(zero)} poses"
-    told: Prose = (f"Gravity is balanced in {poses} (up to full turns); the potential energy has ",)
     if not stable:
-        return (*told, "a minimum in none.")
-    return (*told, "its minimum" if len(stable) == 1 else "minima", " at ", *listed(stable), ".")
+        return ("the potential energy has a minimum in none.",)
+    return ("the potential energy has a minimum at ", *listed(stable), ".")
 
 
 def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:
@@ -133,7 +137,8 @@ def _by_minors(context: Context, names: Sequence[str]) -> Prose:
         where += ("a maximum where det alone is (Sylvester's criterion), ",)
         where += ("a saddle point where det is negative",)
     else:
-        where = ("there what the minors of its second derivatives tell (Sylvester's criterion)",)
+        where = ("a minimum where all the leading minors of its second derivatives are positive (Sylvester's "
+                 "criterion)",)  # fmt: skip
     stable: Prose = ("; at a minimum the equilibrium is stable",)
     if len(names) < context.robot.n:  # nothing holds the others
         stable += (" in ", *listed([Symbol(name) for name in names]))
@@ -201,16 +206,15 @@ def _stable_in(pose: Pose) -> Row:
 
 def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
     """The poses in which P surely has a minimum or a maximum."""
-    rows = [
-        (side_by_side(written(pose)), *_told(context, pose, kind))
-        for pose in zero
-        if (kind := _kind(context, pose)) in (Kind.MINIMUM, Kind.MAXIMUM)
-    ]
-    if not rows:
+    found = [(pose, kind) for pose in zero if (kind := _kind(context, pose)) in (Kind.MINIMUM, Kind.MAXIMUM)]
+    if not found:
         return None
+    rows = [(side_by_side(written(pose)), *_told(context, pose, kind)) for pose, kind in found]
     why = (*assumed(context), equation(letters.G, letters.bold("0")))
+    outcome = ("Of the poses in which gravity is balanced, ", *_minima(*zip(*found, strict=True)))
     why += (" in this pose" if len(rows) == 1 else " in these poses", *free(context, zero[0]), ":")
-    return told(why, table=Table(("pose", "potential energy", "equilibrium"), tuple(rows)))
+    poses = Table(("pose", "potential energy", "equilibrium"), tuple(rows))
+    return told(why, table=poses, outcome=outcome)
 
 
 def _kind(context: Context, pose: Pose) -> Kind | None:

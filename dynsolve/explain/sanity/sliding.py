@@ -81,15 +81,17 @@ def at_one_length(context: Context) -> Step | None:
     name = robot.coordinates[slid].name
     why = (*at_rest(context), *assumed(context), "The rows of ", letters.G, Reference(("g",), " in "))
     why += ("; what ", equation(letters.entry("g", slid + 1), ZERO), " says is put into the other:")
-    concluding: Prose = (
-        "So ",
-        equation(Symbol(name), *lengths),
-        " in both. ",
-        in_no_others("this pose" if len(values) == 1 else "these poses"),
-    )
+    balanced = equation(Symbol(name), *lengths)
+    only = in_no_others("this pose" if len(values) == 1 else "these poses")
+    concluding: Prose = ("So ", balanced, " in both. ", only)
     concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned))
     concluding += _not_extended(context, name, *lengths)
-    return told(why, (Line((), rows),), concluding)
+    outcome = (
+        "Gravity is balanced in two poses, with ",
+        balanced,
+        ": saddle points of the potential energy.",
+    )
+    return told(why, (Line((), rows),), concluding, outcome=outcome)
 
 
 @dataclass(frozen=True, slots=True)

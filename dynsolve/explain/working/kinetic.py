@@ -81,6 +81,8 @@ def _energy(context: Context, body: Body, factor: squares.Shared | None, added: 
         return Product((letters.HALF, mass, added))
     taken = [(context.show(part), 2) for part in (factor.length, factor.rate) if part != one]
     front = number_in_front(times(Fraction(1, 2), [(mass, 1), *taken]))
+    if added == Power(Number(1), Number(2)):  # nothing is left in the squares
+        return front
     return Product((*factors_of(front), added))
 
 

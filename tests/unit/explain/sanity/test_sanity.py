@@ -46,9 +46,9 @@ def test_a_moment_of_inertia_in_letters_is_told_body_by_body() -> None:
 @pytest.mark.parametrize(
     ("problem", "told"),
     [
-        ("in3140-rp", "the momentum ∂ℒ/∂θ̇₁, the angular momentum of the arm about z₀, is conserved."),
-        ("scara-rrpr", "∂ℒ/∂θ̇₄, the angular momentum about z₃ of all that joint 4 moves, are conserved:"),
-        ("cart-pole", ", the total linear momentum, is conserved."),
+        ("in3140-rp", "the momentum ∂ℒ/∂θ̇₁ (the angular momentum of the arm about z₀) is conserved."),
+        ("scara-rrpr", "∂ℒ/∂θ̇₄ (the angular momentum about z₃ of all that joint 4 moves) are conserved:"),
+        ("cart-pole", " (the total linear momentum along x) is conserved."),
         ("planar-2r", "The energy changes by the power of τ alone: as long as τ = 0 it is conserved. "),
         (
             "planar-2r-friction",

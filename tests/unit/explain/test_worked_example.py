@@ -1,0 +1,79 @@
+"""What a worked example tells beside the chain of the course: every answer, each once, true of this robot."""
+
+from __future__ import annotations
+
+import pytest
+
+import dynsolve
+from dynsolve.explain.step import Detail
+from dynsolve.render.formats import Format
+from dynsolve.solution.reports import report
+from tests.support import ROOT, solved
+from tests.unit.explain.told import everything_said
+
+FINGERS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {from: 1, theta: q2*, a: l2}, {from: 1, theta: q3*, a: l3}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
+"""
+"""Two fingers on one link: the last frame does not see q2."""
+GOLDEN = ROOT / "tests" / "golden"
+
+
+def normal(problem: str) -> str:
+    """The worked example, in one line."""
+    path = GOLDEN / problem
+    solution = solved(path if path.exists() else problem)
+    return " ".join(report(solution, Format.TEXT, detail=Detail.NORMAL).decode().split())
+
+
+@pytest.mark.parametrize(
+    ("problem", "told"),
+    [
+        ("crane", "At q₂ = 0: stable, but for q₁"),
+        ("asked/goldstein-2-18-hoop.yaml", "stable where"),
+        ("planar-2r-reach", "There are solutions where -1 ≤"),
+        ("planar-2r-reach", "q₂ is beyond the limits."),
+        ("rp-parameters", "Fewer than 3 entries are not enough"),
+        ("planar-2r-motors", "Motor 2 rides on link 1"),
+    ],
+)
+def test_what_answers_a_question_or_is_needed_for_a_line_is_shown(problem: str, told: str) -> None:
+    assert told in normal(problem)
+
+
+@pytest.mark.parametrize("problem", ["cart-pole", "knife-edge", "rp-parameters", "in3140-rp", "crane"])
+def test_the_outcome_of_a_check_is_a_sentence_of_its_own(problem: str) -> None:
+    outcomes = [step.outcome for step in solved(problem).explain() if step.outcome]
+    assert outcomes
+    for outcome in outcomes:
+        told = "".join(part if isinstance(part, str) else "·" for part in outcome).strip()
+        assert told.endswith(".") and not told.startswith("So ") and ",," not in told
+
+
+def test_a_momentum_along_one_axis_is_not_the_whole() -> None:
+    assert everything_said("knife-edge").count("(the total linear momentum along x)") == 1
+    assert "(the total linear momentum along y)" in everything_said("knife-edge")
+
+
+@pytest.mark.parametrize("problem", ["planar-rrp-task", "inf3480-rrp-drawn", "spatial-3r-acceleration"])
+def test_what_is_alike_is_said_once(problem: str) -> None:
+    text = normal(problem)
+    for sentence in (
+        "Every velocity that the joints can give",
+        "𝐰ᵀ𝐉_r = 𝟎",
+        "and 𝐱₁ is perpendicular to both",
+    ):
+        assert text.count(sentence) <= 1
+
+
+def test_a_coordinate_of_another_branch_has_a_column_of_zeros() -> None:
+    steps = {step.id: step for step in dynsolve.solve(FINGERS).explain(["jacobian"])}
+    whole = steps["J"].formula
+    assert whole is not None
+    rows = whole.parts[-1].rows  # type: ignore[attr-defined]
+    assert [len(row) for row in rows] == [3, 3]
+    assert "".join(part for part in steps["J2"].why if isinstance(part, str)) == (
+        " does not move the origin of frame 3: its column is zero."
+    )
+    assert "the frame that its row starts from" in "".join(p for p in steps["axes"].why if isinstance(p, str))
