@@ -186,7 +186,7 @@ def _shifts_all(context: Context, q: Coordinate) -> str:
     names = [body.name for body in context.robot.bodies]
     shifts = {tuple(row[k] for row in values[f"Jv{name}"].rows) for name in names}
     turned = [row[k] for name in names if f"Jw{name}" in values.rules for row in values[f"Jw{name}"].rows]
-    if len(shifts) > 1 or not all(entry.is_zero for entry in turned):
+    if len(shifts) != 1 or not all(entry.is_zero for entry in turned):
         return ""
     units = {tuple(ring.one if i == j else ring.zero for i in range(3)): "xyz"[j] for j in range(3)}
     return units.get(next(iter(shifts)), "")
