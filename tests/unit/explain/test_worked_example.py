@@ -42,7 +42,9 @@ def test_what_answers_a_question_or_is_needed_for_a_line_is_shown(problem: str, 
     assert told in normal(problem)
 
 
-@pytest.mark.parametrize("problem", ["cart-pole", "knife-edge", "rp-parameters", "in3140-rp", "pr-factorizations"])
+@pytest.mark.parametrize(
+    "problem", ["cart-pole", "knife-edge", "rp-parameters", "in3140-rp", "pr-factorizations"]
+)
 def test_the_outcome_of_a_check_is_a_sentence_of_its_own(problem: str) -> None:
     outcomes = [step.outcome for step in solved(problem).explain() if step.outcome]
     assert outcomes
