@@ -55,7 +55,7 @@ def spring_steps(context: Context) -> Iterator[Step]:
     if not springs:
         return
     laws = [spring.law for spring in springs if spring.law]
-    why: Prose = ("A linear spring stores half its stiffness times the square of how far it is stretched.",)
+    why: Prose = ("A linear spring stores half its stiffness times the square of its deflection from rest.",)
     if not laws:
         why = ("The energy of the spring is given." if len(springs) == 1 else "The energies are given.",)
     elif len(laws) < len(springs):
@@ -71,7 +71,7 @@ def spring_steps(context: Context) -> Iterator[Step]:
         formula=equation(letters.PS, sum_of(terms)) if laws else None,
         source=siciliano("7.1.2"),
         result=(equation(letters.PS, context.form("Ps")),),
-        hint=("Half the stiffness times the square of how far each spring is stretched from its rest.",)
+        hint=("Half the stiffness times the square of the deflection of each spring from its rest.",)
         if laws
         else (),
     )

@@ -78,20 +78,23 @@ def _equilibria(context: Context) -> Iterator[Step]:
     elif not cases[0]:
         notes = (("Nothing is left to be 0: every configuration is an equilibrium.",),)
     else:
-        free = any({q.name for q in robot.coordinates} - names_in(*one) for one in cases)
-        told: tuple[Prose, ...] = (("Coordinates that do not occur are free.",),) if free else ()
+        names = [q.name for q in robot.coordinates if q.name not in dict(robot.questions.model.steady)]
+        free = [Symbol(name) for name in names if any(name not in names_in(*one) for one in cases)]
+        where = " where it does not occur" if len(cases) > 1 else ""
+        told: tuple[Prose, ...] = ((*listed(free), f" may have any value{where}."),) if free else ()
         notes = (*told, *shown.existence("equilibria", found.exist))
     steady = bool(robot.questions.model.steady)
     forces: Node = moving.FORCES if steady else letters.G
-    at_rest = (equation(letters.G, context.form("g")),) if is_small(context.form("g")) else ()
+    task = equation(forces, Number(0))
+    values = moving.working(context) if steady else _at_rest(context)
     yield Step(
         id="equilibria",
         stage=STAGE,
         title="Where nothing else moves" if steady else "Where nothing moves",
         why=(*(moving.why(context) if steady else _AT_REST), *_held(context), *_assumed(context, shown)),
-        formula=equation(forces, Number(0)),
+        formula=equation(forces, *values, Number(0)),
+        task=task,
         source=moving.SOURCE if steady else SLOTINE_LI.section("3.1"),
-        working=moving.working(context) if steady else at_rest,
         lines=lines,
         result=result,
         listed=len(result) > 1,
@@ -100,6 +103,12 @@ def _equilibria(context: Context) -> Iterator[Step]:
     )
     if any(points for points in found.points):
         yield _stability(context, shown, found)
+
+
+def _at_rest(context: Context) -> tuple[Node, ...]:
+    """The entries of g, where they are not too long."""
+    shown = context.form("g")
+    return (shown,) if is_small(shown) else ()
 
 
 def _held(context: Context) -> Prose:
@@ -124,8 +133,8 @@ def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -
     steady = bool(robot.questions.model.steady)
     forces = context.values["g"]
     why: Prose = (
-        "Where the potential energy has a strict minimum, all second derivatives being positive together, "
-        "the equilibrium is stable; where it falls in some direction, it is not.",
+        "Where the matrix of the second derivatives of the potential energy is positive definite, the "
+        "equilibrium is stable; where the energy falls in some direction, it is not.",
     )
     working: tuple[Node, ...] = ()
     second: Node = _DG
@@ -149,7 +158,7 @@ def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -
         why=why,
         source=moving.SOURCE if steady else SLOTINE_LI.section("3.4"),
         working=working,
-        notes=tuple(told),
+        concluding=tuple(part for sentence in told for part in (*sentence, " ")),
         uses=("equilibria",),
     )
 

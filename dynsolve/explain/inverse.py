@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dynsolve.algebra.positivity import is_nonnegative, is_positive
 from dynsolve.derivation.configuration_check import Conditions
@@ -20,6 +20,7 @@ from dynsolve.explain.inverse_pose import introduction, pose_task, wrist_notes
 from dynsolve.explain.inverse_target import given_numbers, target_steps
 from dynsolve.explain.inverse_way import InverseWay
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Step
+from dynsolve.explain.step import Part as Shown
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.build import cost, negated
 from dynsolve.notation.tree import (
@@ -131,10 +132,14 @@ class _Explainer:
     def steps(self) -> Iterator[Step]:
         """The unknowns, one after the other, and the branches."""
         before: tuple[Solved, ...] = ()
+        general: list[Node | None] = []
         for number, part in enumerate(self.solving.parts, 1):
             yield from introduction(self.formulas, part, number, before)
             for step in part.solved:
-                yield self._step(step, before, part)
+                found = self._step(step, before, part)
+                told = found.formula in general
+                yield replace(found, normal=found.normal & ~Shown.FORMULA) if told else found
+                general.append(found.formula)
                 before = (*before, step)
         yield self._branches()
 
@@ -309,7 +314,11 @@ def _origin(origins: Sequence[Origin]) -> Prose:
             return ("Turning a vector does not change its length: in the sum of the squares the other angles "
                     "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",)  # fmt: skip
         case Turned(_, _, name):
-            return ("Turned back by ", Symbol(name), ", the components have this angle on the left alone. ")
+            return (
+                "Turned back by ",
+                Symbol(name),
+                ", the components have that angle on the left side alone. ",
+            )
 
 
 def _seen(joint: int) -> str:

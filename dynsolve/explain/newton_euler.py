@@ -19,7 +19,7 @@ from dynsolve.explain.recursions.links import links_step, source_of
 from dynsolve.explain.recursions.names import LinkNames
 from dynsolve.explain.recursions.outwards import outwards
 from dynsolve.explain.short_arms import MOST_JOINTS
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.writing import listed, sum_of, turns
 from dynsolve.notation.tree import Negative, Node, Product, Transpose, equation, number
 from dynsolve.quantities import letters
@@ -38,13 +38,15 @@ def steps(context: Context) -> Iterator[Step]:
     if by_method and robot.n > MOST_JOINTS:
         yield from general_steps(context)
     for joint in robot.joints:
-        yield from outwards(context, joint)
+        group = Group(f"outwards{joint.index}", f"Link {joint.index}, outwards")
+        yield from (replace(step, group=group) for step in outwards(context, joint))
     for joint in reversed(robot.joints):
-        yield from inwards(context, joint)
+        group = Group(f"inwards{joint.index}", f"Link {joint.index}, inwards")
+        yield from (replace(step, group=group) for step in inwards(context, joint))
     if by_method:
         yield from _acting_steps(context)
         for q in robot.coordinates:
-            yield _torque(context, q)
+            yield replace(_torque(context, q), group=Group("tau", "The forces and torques of the motors"))
         yield _lagrange(context)
 
 
@@ -67,6 +69,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
             "the bearings hold the others.",
             *beside,
         ),
+        said="" if beside else f"the {kind} of a motor",
         formula=equation(driving_row(context, q), sum_of([*terms, *added])),
         source=source_of(context),
         result=(equation(driving_row(context, q), context.form(f"tau{q.index}")),),
@@ -94,11 +97,14 @@ def _acting(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
 
 def _lagrange(context: Context) -> Step:
     forces = listed([letters.force(q) for q in context.robot.coordinates])
+    why: Prose = ("The Euler-Lagrange equations of the same robot give the same ", *forces, ".")
     return Step(
         id="lagrange",
         stage=STAGE,
         title="The same by the Lagrangian",
-        why=("The Euler-Lagrange equations of the same robot give the same ", *forces, "."),
+        why=why,
+        outcome=why,
+        detail=Detail.FULL,
         source=spong("7.6"),
         uses=tuple(f"tau{q.index}" for q in context.robot.coordinates),
         is_task=False,

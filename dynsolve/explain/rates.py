@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.matrix import Matrix
@@ -15,7 +15,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.statics import state_prose
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import TOLD, Detail, Part, Step
 from dynsolve.explain.writing import is_small, side_by_side
 from dynsolve.notation.tree import (
     Letter,
@@ -46,7 +46,10 @@ def steps(context: Context) -> Iterator[Step]:
         yield _rates(context)
     if "qdd" in wanted:
         yield _accelerations(context)
-    yield from (_space(context, name) for name in _SPACES if name in wanted)
+    known = not context.robot.questions.state or bool({"qd", "qdd"} & wanted)
+    for name in (name for name in _SPACES if name in wanted):
+        yield replace(_space(context, name), normal=TOLD & ~Part.WORKING if known else TOLD)
+        known = True
 
 
 # -- the determinant -------------------------------------------------------------------------------
@@ -226,19 +229,19 @@ _F = letters.bold("F")
 _SPACES = {
     "nullspace": _Space(
         "Motions of the joints that the task does not see",
-        "Every motion of the joints with ",
+        "The motions of the joints in which nothing of the task changes.",
         letters.NULLSPACE,
         equation(Product((_J, letters.QD)), letters.bold("0")),
     ),
     "rangespace": _Space(
         "Velocities of the task that are possible",
-        "All that the joints can make of it: the columns of the Jacobian span ",
+        "All the velocities that the joints can give: what the columns of the Jacobian span.",
         letters.RANGESPACE,
         equation(_R_DOT, Product((_J, letters.QD))),
     ),
     "lost": _Space(
         "Motions of the task that are lost",
-        "Across all possible velocities. A force along them needs no torque: ",
+        "What is orthogonal to all possible velocities. A force along it needs no torque of the joints.",
         letters.LOST,
         equation(Product((_JT, _F)), letters.bold("0")),
     ),
@@ -259,7 +262,7 @@ def _space(context: Context, name: str) -> Step:
         id=name,
         stage=Stage.RATES,
         title=space.title,
-        why=(space.why, space.condition, ". ", *state_prose(context)),
+        why=(space.why, *((" ", *at_state) if (at_state := state_prose(context)) else ())),
         formula=space.condition,
         source=spong("4.9") if name != "lost" else spong("4.10"),
         working=(equation(_J, context.show(J)),),
@@ -276,8 +279,9 @@ def _space_left_out(name: str) -> Step:
         id=name,
         stage=Stage.RATES,
         title=space.title,
-        why=(space.why, space.condition, ". In symbols its vectors are too long to be read: give the ",
-             "coordinates values under `state`.",),
+        why=(space.why, " In symbols its vectors are too long to be read: give the coordinates values under ",
+             "`state`."),
+        formula=space.condition,
         source=spong("4.9"),
         detail=Detail.BRIEF,
     )  # fmt: skip

@@ -78,7 +78,7 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
             form = forms.compactor(found.core.ring).form
             working = (tree.Matrix(tuple(tuple(map(form, row)) for row in found.core.rows)),)
         else:
-            why += ("Nothing is left of ", J, ".")
+            why += (f"{found.pivots} rows and columns are cleared so, and only zeros, or nothing, are left.",)
     elif rows == columns == found.rank:
         why = (J, " is square: it has an inverse unless its determinant is 0.")
         results = (equation(_det(J), forms.product(found.minors[0])),)
@@ -106,7 +106,7 @@ def _alternatives(forms: ConfigurationForms, found: SingularSet) -> Step:
             id="singular",
             stage=STAGE,
             title="No singular configuration",
-            why=("No factor becomes 0 for any q: the rank is the same everywhere.",),
+            why=(f"The rank is {found.rank} in every configuration{_unless_a_factor(found)}.",),
             detail=Detail.BRIEF,
             hint=_CASES,
             hint_title=_TITLE,
@@ -127,6 +127,10 @@ def _alternatives(forms: ConfigurationForms, found: SingularSet) -> Step:
         uses=("singular_minors",),
         hint=_CASES,
     )
+
+
+def _unless_a_factor(found: SingularSet) -> str:
+    return ", as no factor of the minors becomes 0" if found.rank > found.pivots else ""
 
 
 def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case: int) -> Step:

@@ -39,9 +39,9 @@ def forces(context: Context) -> Matrix:
 
 
 def working(context: Context) -> tuple[Node, ...]:
-    """These forces, where they are not too long."""
+    """The values of these forces, where they are not too long."""
     shown = context.show(forces(context))
-    return (equation(FORCES, shown),) if is_small(shown) else ()
+    return (shown,) if is_small(shown) else ()
 
 
 def energy(context: Context) -> tuple[Prose, Node]:
@@ -50,9 +50,9 @@ def energy(context: Context) -> tuple[Prose, Node]:
     shown = equation(letters.STEADY_ENERGY, Sum((letters.P, Negative(letters.K))), value)
     said: Prose = (
         "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
-        "Where V has a strict minimum, all second derivatives being positive together, the motion is stable",
+        "Where the matrix of its second derivatives is positive definite, the motion is stable",
     )
     if may_be_held(context.robot, context.values["D"]):
-        return (*said, ". Where it has none nothing is said: what V alone lets fall may be held by forces of "
+        return (*said, ". Elsewhere nothing is said: what V alone lets fall may be held by forces of "
                        "first order in the rates, or by a rate that is free to change. "), shown  # fmt: skip
     return (*said, "; where it falls in some direction, it is not. "), shown

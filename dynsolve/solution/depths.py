@@ -321,7 +321,8 @@ def condensed(blocks: Sequence[Block], style: Style) -> Iterator[Block]:
     """
     printer = UnicodePrinter(style)
     waiting: Formula | Equations | None = None
-    for block in blocks:
+    for each in blocks:
+        block = _packed(each, printer)
         joined = None if waiting is None else _joined(waiting, block, printer)
         if joined is None:
             yield from () if waiting is None else (waiting,)
@@ -330,6 +331,18 @@ def condensed(blocks: Sequence[Block], style: Style) -> Iterator[Block]:
         else:
             waiting = joined
     yield from () if waiting is None else (waiting,)
+
+
+def _packed(block: Block, printer: UnicodePrinter) -> Block:
+    """Equations of matrices beside each other, as many as a line has room for."""
+    if not isinstance(block, Equations) or not any(map(holds_matrix, block.nodes)):
+        return block
+    rows: list[list[Node]] = [[]]
+    for node in block.nodes:
+        if rows[-1] and _cells(side_by_side([*rows[-1], node]), printer) > _ROOM:
+            rows.append([])
+        rows[-1].append(node)
+    return replace(block, nodes=tuple(map(side_by_side, rows)), in_columns=False)
 
 
 def _joined(one: Formula | Equations, other: Block, printer: UnicodePrinter) -> Formula | Equations | None:

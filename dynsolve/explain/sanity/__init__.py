@@ -2,7 +2,7 @@
 
     conserved     how the energy changes, and the momentum of a coordinate that does not appear in L
     definite      D is positive definite, by its diagonal and its determinants or body by body
-    inertia_poses the moments of inertia on the diagonal of D, the arm stretched and folded
+    inertia_poses the moments of inertia on the diagonal of D, in poses of right angles
     equilibrium   the poses in which g is zero, hanging and upright among them, or that there are none
     point_masses  D without the moments of inertia of the bodies, and what is left over
     dependence    the coordinates on which D cannot depend, and its constant entry

@@ -227,9 +227,10 @@ def _by_bodies(context: Context) -> _Shown | None:
     if len(resting) < robot.n:
         return None
     power = letters.transposed_product(letters.QD, letters.D)
+    has = " and no rotor has" if robot.actions.motors else " has"
     why: Prose = (
         equation(power, Product((Number(2), letters.K))),
-        ", and no body has a negative kinetic energy: where their sum is 0, each of them is 0. ",
+        f", and no body{has} a negative kinetic energy: where their sum is 0, each of them is 0. ",
     )
     why += ("In each line the rates of the lines before are 0, so that it is 0 only where its own rate is:",)
     concluding: Prose = (

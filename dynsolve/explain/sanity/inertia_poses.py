@@ -1,4 +1,4 @@
-"""The moments of inertia on the diagonal of D in poses of right angles: the arm stretched and folded."""
+"""The moments of inertia on the diagonal of D in poses of right angles."""
 
 from __future__ import annotations
 
@@ -9,13 +9,10 @@ from itertools import chain
 from math import isqrt
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.derivation.jacobian import joint_frame
-from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
-from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.sums import numbers_in
 from dynsolve.explain.writing import and_joined, listed, measured, side_by_side, spong, sum_of
@@ -56,7 +53,7 @@ def inertia_poses_step(context: Context) -> Step | None:
         title="Check: moments of inertia in simple poses",
         why=why,
         source=spong("7.2"),
-        table=_table(list(chain(*shown.values()))),
+        table=Table(("pose", "moment of inertia"), tuple(chain(*shown.values()))),
         outcome=(
             "In simple poses ",
             *listed(names),
@@ -72,13 +69,6 @@ def _after(context: Context, q: Coordinate) -> str:
     first = _joint(context, q).index
     others = [joint.index for joint in context.robot.joints if joint.type and joint.index > first]
     return f"joint {others[0]}" if len(others) == 1 else "the joints after it"
-
-
-def _table(rows: Sequence[tuple[Inline, ...]]) -> Table:
-    """The rows under their header, with words on the arm where there are some for each pose."""
-    header: tuple[Inline, ...] = ("pose", "the arm", "moment of inertia")
-    places = [0, 1, 2] if all(row[1] for row in rows) else [0, 2]
-    return Table(tuple(header[k] for k in places), tuple(tuple(row[k] for k in places) for row in rows))
 
 
 def _joint(context: Context, q: Coordinate) -> Joint:
@@ -115,7 +105,7 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
             entry = equation(name, _summed(context, q, pose), measured(form, "kg m²"))
         else:
             entry = equation(name, *_body_by_body(context, q, pose, form))
-        yield side_by_side(written(pose)), _shape(context, pose), entry
+        yield side_by_side(written(pose)), entry
 
 
 def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> tuple[Node, ...]:
@@ -164,49 +154,3 @@ def _simple(names: Sequence[str]) -> Iterator[Pose]:
     yield rest
     for name in names:
         yield from ({**rest, name: value} for value in (90, 180))
-
-
-# -- stretched, folded -----------------------------------------------------------------------------
-
-
-def _shape(context: Context, pose: Pose) -> str:
-    """`stretched`, `folded` or `bent` at the joints of the pose that are parallel to the one before them."""
-    moved = [joint for joint in context.robot.joints if _moves_with(context, joint, pose)]
-    found = {_at_joint(context, joint, pose) for joint in moved}
-    found.discard("")
-    return next((word for word in ("bent", "folded", "stretched") if word in found), "")
-
-
-def _moves_with(context: Context, joint: Joint, pose: Pose) -> bool:
-    return any(context.robot.ring.names[k] in pose for k, _ in joint.rates)
-
-
-def _at_joint(context: Context, joint: Joint, pose: Pose) -> str:
-    """Whether what follows a joint goes on, or back, on the way from the joint before; "" for others."""
-    robot = context.robot
-    before = [j for j in robot.path(joint.index)[:-1] if j.type is JointType.REVOLUTE]
-    bodies = [body for body in robot.bodies if body.link >= joint.index]
-    if not before or not bodies:
-        return ""
-    H = context.values[f"H{joint_frame(robot, joint)}"]
-    H_before = context.values[f"H{joint_frame(robot, before[-1])}"]
-    z = axis(H)
-    if not cross(z, axis(H_before)).is_zero:
-        return ""
-    last = max(bodies, key=lambda body: body.link)
-    inner = _across(origin(H) - origin(H_before), z).map(lambda x: at(robot.ring, x, pose))
-    outer = _across(context.values[f"rc{last.name}"] - origin(H), z).map(lambda x: at(robot.ring, x, pose))
-    if inner.is_zero or outer.is_zero:
-        return ""
-    if not cross(inner, outer).is_zero:
-        return "bent"
-    along = robot.ring.dot(inner.entries, outer.entries)
-    positive = with_lengths(robot)
-    if is_nonnegative(context.show(along), positive):
-        return "stretched"
-    return "folded" if is_nonnegative(context.show(-along), positive) else "bent"
-
-
-def _across(vector: Matrix, z: Matrix) -> Matrix:
-    """The part of a vector across an axis."""
-    return vector - z.scale(z.ring.dot(vector.entries, z.entries))

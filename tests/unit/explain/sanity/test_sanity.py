@@ -22,18 +22,16 @@ from tests.unit.explain.sanity.checks import check, context, lines, rows, said, 
 # -- what is said of familiar robots -----------------------------------------------------------------
 
 
-def test_the_planar_arm_stretched_and_folded() -> None:
+def test_the_moments_of_inertia_of_the_planar_arm_in_poses_of_right_angles() -> None:
     assert rows("planar-2r", "inertia_poses") == [
-        ["q₂ = 0", "stretched", "d₁₁ = m₁ l_c1² + m₂ (l₁ + l_c2)² + I₁ + I₂"],
-        ["q₂ = 90°", "bent", "d₁₁ = m₁ l_c1² + m₂ (l₁² + l_c2²) + I₁ + I₂"],
-        ["q₂ = 180°", "folded", "d₁₁ = m₁ l_c1² + m₂ (l₁ - l_c2)² + I₁ + I₂"],
+        ["q₂ = 0", "d₁₁ = m₁ l_c1² + m₂ (l₁ + l_c2)² + I₁ + I₂"],
+        ["q₂ = 90°", "d₁₁ = m₁ l_c1² + m₂ (l₁² + l_c2²) + I₁ + I₂"],
+        ["q₂ = 180°", "d₁₁ = m₁ l_c1² + m₂ (l₁ - l_c2)² + I₁ + I₂"],
     ]
 
 
 def test_an_upright_elbow_has_no_mass_away_from_its_waist() -> None:
-    assert ["θ₂ = 90°, θ₃ = 0", "stretched", "d₁₁ = I_1yy + I_2xx + I_3xx"] in rows(
-        "elbow-3r", "inertia_poses"
-    )
+    assert ["θ₂ = 90°, θ₃ = 0", "d₁₁ = I_1yy + I_2xx + I_3xx"] in rows("elbow-3r", "inertia_poses")
 
 
 def test_a_moment_of_inertia_in_letters_is_told_body_by_body() -> None:
