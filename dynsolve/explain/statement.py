@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import chain
+from collections.abc import Iterator, Sequence
 
-from dynsolve.document import Block, List, Prose, Text
+from dynsolve.document import Block, Inline, List, Prose, Text
 from dynsolve.explain import given_bodies, hypotheses
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given_actions import of_actions
@@ -61,13 +60,21 @@ def statement(forms: Forms, problem: Problem) -> Iterator[Block]:
     """Given: the arm or the mechanism, what acts on it, what is asked of it; its symbols; To be found."""
     given = [sentence for sentence in _sentences(forms, problem) if sentence]
     if given:
-        yield Text(("Given: ", *chain.from_iterable((*sentence, " ") for sentence in given)))
+        yield Text(("Given: ", *sentences(given)))
     names = list(problem_names(forms.robot))
     if names:
         yield List(tuple(_introduced(line) for line in names))
     found = [called for name in problem.find if (called := _called(forms, name)) is not None]
     if found:
         yield Text(("To be found: ", *listed(found), "."))
+
+
+def sentences(parts: Sequence[Prose]) -> Iterator[Inline]:
+    """Sentences with a blank between them."""
+    for place, sentence in enumerate(parts):
+        *before, last = sentence
+        yield from (" ", *before) if place else before
+        yield last.rstrip() if isinstance(last, str) else last
 
 
 def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:

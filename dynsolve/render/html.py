@@ -88,6 +88,15 @@ def render_choice(documents: Mapping[str, Document], style: Style, chosen: str) 
     return _file(documents[chosen], f'<div class="depths">{inputs}</div>\n<main>\n{pages}</main>')
 
 
+def render_folded(document: Document, folded: Document, title: str, style: Style) -> str:
+    """A document and another one folded behind it, as a part of a page that has styles of its own."""
+    formulas = _Formulas(style)
+    first, second = (
+        _Page(formulas, each, f"dynsolve-{k}-").all() for k, each in enumerate((document, folded))
+    )
+    return f"<div>\n{first}<details><summary>{escape(title)}</summary>\n{second}</details>\n</div>\n"
+
+
 def _file(document: Document, body: str) -> str:
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
     return (

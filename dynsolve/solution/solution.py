@@ -105,6 +105,58 @@ class Solution(Dynamics):
 
         return to_json(self, abbreviate)
 
+    # -- as pages, and in a notebook -----------------------------------------------------------------
+
+    def to_html(self, detail: str = "normal") -> str:
+        """A page with the solution at each depth, opened at `detail`: results, brief, normal or full."""
+        return self._report("html", detail).decode()
+
+    def to_latex(self, detail: str = "normal") -> str:
+        r"""A LaTeX document of the solution at a depth.
+
+        >>> solve("planar-2r").to_latex("results").splitlines()[0]
+        '\\documentclass[a4paper]{article}'
+        """
+        return self._report("latex", detail).decode()
+
+    def to_markdown(self, detail: str = "normal") -> str:
+        """The solution at a depth as Markdown, as GitHub and Jupyter show it."""
+        return self._report("markdown", detail).decode()
+
+    def to_pdf(self, detail: str = "normal") -> bytes:
+        """The solution at a depth as PDF, without TeX; needs the extra [pdf]."""
+        return self._report("pdf", detail)
+
+    def _report(self, format: str, detail: str) -> bytes:
+        from dynsolve.explain.step import Detail
+        from dynsolve.render.formats import Format
+        from dynsolve.solution.reports import report
+
+        names = [each.name.lower() for each in Detail]
+        if detail not in names:
+            raise UsageError(f"{detail} is no depth", f"take one of {', '.join(names)}")
+        return report(self, Format(format), detail=Detail[detail.upper()])
+
+    def __repr__(self) -> str:
+        """The title and what was compared; the results are its attributes."""
+        error = f"{self.verification.max_relative_error:.1e}"
+        return f"<Solution of {self.problem.title}, verified (relative error {error})>"
+
+    def _repr_html_(self) -> str:
+        from dynsolve.solution.notebook import as_html
+
+        return as_html(self)
+
+    def _repr_markdown_(self) -> str:
+        from dynsolve.solution.notebook import as_markdown
+
+        return as_markdown(self)
+
+    def _repr_latex_(self) -> str:
+        from dynsolve.solution.notebook import as_latex
+
+        return as_latex(self)
+
     def symbolic(self, name: str) -> Any:
         """A quantity as SymPy, by its name in an answer file: `H2`, `Jv1`, `Kw1`, `dLdqd1`, `D`.
 
