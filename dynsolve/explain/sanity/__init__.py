@@ -2,6 +2,7 @@
 
     conserved     how the energy changes, and the momentum of a coordinate that does not appear in L
     definite      D is positive definite, by its diagonal and its determinants or body by body
+    decoupled     the relation between parameters that makes D diagonal
     inertia_poses the moments of inertia on the diagonal of D, in poses of right angles
     equilibrium   the poses in which g is zero, hanging and upright among them, or that there are none
     point_masses  D without the moments of inertia of the bodies, and what is left over
@@ -33,6 +34,7 @@ from dataclasses import dataclass, replace
 
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.conserved import conserved_step, momenta_step
+from dynsolve.explain.sanity.decoupled import decoupled_step
 from dynsolve.explain.sanity.definite import definite_step
 from dynsolve.explain.sanity.dependence import dependence_step
 from dynsolve.explain.sanity.equilibrium import equilibrium_step
@@ -54,6 +56,7 @@ class Check:
 CHECKS = (
     Check("conserved", "the model follows from energies, or a coordinate is cyclic", conserved_step),
     Check("definite", "D is seen to be definite for positive masses", definite_step),
+    Check("decoupled", "a relation between parameters makes D diagonal", decoupled_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
     Check("equilibrium", "gravity is balanced everywhere, nowhere, or in some poses", equilibrium_step),
     Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
