@@ -25,7 +25,7 @@ from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms, is_numeric, leading_names, parallel_coordinates
 from dynsolve.explain.inverse_formulas import InverseFormulas
-from dynsolve.explain.writing import side_by_side
+from dynsolve.explain.writing import as_row, listed, side_by_side
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Matrix, Negative, Node, Number, Relation, Sum, Symbol, column, equation
@@ -244,6 +244,11 @@ class ConfigurationForms:
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
+
+
+def vanishing(conditions: tuple[Node, ...]) -> Node:
+    """a = 0 and b = 0, in one line"""
+    return as_row(listed([equation(value, Number(0)) for value in conditions]))
 
 
 def _minus_signs(node: Node) -> int:

@@ -13,7 +13,7 @@ from dynsolve.derivation.stability import Point, Stability
 from dynsolve.document import Prose
 from dynsolve.explain import steady as moving
 from dynsolve.explain.citations import SLOTINE_LI, spong
-from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.configurations import ConfigurationForms, vanishing
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
 from dynsolve.explain.writing import is_small, listed, side_by_side
@@ -69,7 +69,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         return
     shown = ConfigurationForms(robot, context.values)
     cases = shown.equilibria
-    result: tuple[Node, ...] = tuple(_together(one) for one in cases if one)
+    result: tuple[Node, ...] = tuple(vanishing(one) for one in cases if one)
     rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
     is_new = bool(rows) and [side_by_side(rows)] != [*result]  # not what the result says again
     lines = (Line(("Combined, without factors that are never 0:",), rows),) if is_new else ()
@@ -185,13 +185,8 @@ def _point(context: Context, shown: ConfigurationForms, point: Point, case: tupl
     if at:
         where = ("At ", side_by_side(at))
     elif case:
-        where = ("Where ", _together(case))
+        where = ("Where ", vanishing(case))
     return (*where, ": ", *said, *along, ".")
-
-
-def _together(conditions: tuple[Node, ...]) -> Node:
-    """Equations that hold together, in one line."""
-    return side_by_side([equation(value, Number(0)) for value in conditions])
 
 
 # -- nowhere to move -------------------------------------------------------------------------------
@@ -257,10 +252,10 @@ def _state_matrix(context: Context) -> Step:
     )  # fmt: skip
     at = linearization.at_equilibrium(robot)
     D, g = at.matrix(context.values["D"]), linearization.stiffness(robot, context.values["g"])
-    working = [equation(letters.D, context.show(D)), equation(_det(), context.show(determinant(D)))]
-    working.append(equation(_DG, context.show(g)))
+    working = [equation(letters.D, context.show(D)), equation(_DG, context.show(g))]
     if has_friction:
         working.append(equation(_F, context.show(linearization.damping(robot, context.values["friction"]))))
+    working.append(equation(Row((Words("det "), letters.D)), context.show(determinant(D))))
     return Step(
         id="linear_A",
         stage=STAGE,
@@ -273,10 +268,6 @@ def _state_matrix(context: Context) -> Step:
         notes=_notes(context),
         detail=Detail.BRIEF,
     )
-
-
-def _det() -> Node:
-    return Row((Words("det "), letters.D))
 
 
 def _balanced(context: Context) -> Prose:

@@ -34,12 +34,13 @@ _HINT: Prose = (
 
 _MEASURED = {
     Convention.STANDARD: (
-        "θ_i turns x_{i-1} to x_i about z_{i-1}, and d_i is the way along it; a_i is the distance from "
-        "z_{i-1} to z_i along x_i, and α_i the angle between them about it."
+        "In the standard convention (Spong) θ_i turns x_{i-1} to x_i about z_{i-1}, and d_i is the way along "
+        "it; a_i is the distance from z_{i-1} to z_i along x_i, and α_i the angle between them about it."
     ),
     Convention.MODIFIED: (
-        "θ_i turns x_{i-1} to x_i about z_i, and d_i is the way along it; a_{i-1} is the distance from "
-        "z_{i-1} to z_i along x_{i-1}, and α_{i-1} the angle between them about it."
+        "In the modified convention (Craig) θ_i turns x_{i-1} to x_i about z_i, and d_i is the way along it; "
+        "a_{i-1} is the distance from z_{i-1} to z_i along x_{i-1}, and α_{i-1} the angle between them about "
+        "it."
     ),
 }
 _VERIFIED = (

@@ -83,59 +83,18 @@ def _table(context: Context) -> Step:
 def _four_motions(context: Context) -> Prose:
     """How a row leads from a frame to the next, in the order of its convention."""
     theta, d, a, alpha = letters.columns(context.robot, _I)
-    if context.robot.is_tree:
-        return _four_motions_of_branches(context)
+    is_tree = context.robot.is_tree
+    start = "the frame in the column `from`" if is_tree else "frame i-1"
+    of = " of the former" if is_tree else ""
+    x, z = (letters.bold(name, None if is_tree else letters.BEFORE) for name in "xz")
     if context.standard:
-        return (
-            "In the standard convention (Spong) row i leads from frame i-1 to frame i by a rotation by ",
-            theta,
-            " about ",
-            letters.bold("z", letters.BEFORE),
-            ", a translation by ",
-            d,
-            " along it, a translation by ",
-            a,
-            " along ",
-            letters.bold("x", _I),
-            " and a rotation by ",
-            alpha,
-            " about that. ",
-        )
-    return (
-        "In the modified convention (Craig) row i leads from frame i-1 to frame i by a rotation by ",
-        alpha,
-        " about ",
-        letters.bold("x", letters.BEFORE),
-        ", a translation by ",
-        a,
-        " along it, a rotation by ",
-        theta,
-        " about ",
-        letters.bold("z", _I),
-        " and a translation by ",
-        d,
-        " along that. Craig numbers ",
-        a,
-        " and ",
-        alpha,
-        " of row i by ",
-        letters.BEFORE,
-        ". ",
-    )
-
-
-def _four_motions_of_branches(context: Context) -> Prose:
-    """How a row leads to its frame where links branch."""
-    theta, d, a, alpha = letters.columns(context.robot, _I)
-    x, z = letters.bold("x"), letters.bold("z")
-    begun: Prose = (
-        "The links branch: a row takes the frame in the column `from` to frame i by four motions, ",
-    )
-    about_z: Prose = ("a rotation by ", theta, " about ", z, " and a translation by ", d, " along it")
-    about_x: Prose = ("a rotation by ", alpha, " about ", x, " and a translation by ", a, " along it")
-    if context.standard:
-        return (*begun, *about_z, ", both of the frame that it starts from, then ", *about_x, " of frame i. ")
-    return (*begun, *about_x, " of the frame that it starts from, then ", *about_z, " of frame i. ")
+        return (f"In the standard convention (Spong) row i leads from {start} to frame i by a rotation by ",
+                theta, " about ", z, f"{of}, a translation by ", d, " along it, a translation by ", a,
+                " along ", letters.bold("x", _I), " and a rotation by ", alpha, " about that. ")  # fmt: skip
+    return (f"In the modified convention (Craig) row i leads from {start} to frame i by a rotation by ",
+            alpha, " about ", x, f"{of}, a translation by ", a, " along it, a rotation by ", theta, " about ",
+            letters.bold("z", _I), " and a translation by ", d, " along that. Craig numbers ", a, " and ",
+            alpha, " of row i by ", letters.BEFORE, ". ")  # fmt: skip
 
 
 def _kinds(context: Context) -> Prose:
@@ -159,33 +118,24 @@ def _table_notes(context: Context) -> Iterator[Prose]:
     if len(fixed) == 1:
         yield (f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the frame before it.",)
     elif fixed:
-        rows = listed(fixed)
-        yield (
-            "Rows ",
-            *rows,
-            " have no star: frames that are each fixed in the one before it.",
-        )
+        yield ("Rows ", *listed(fixed), " have no star: frames that are each fixed in the one before it.")
     shared = [str(joint.index) for joint in robot.joints if len(joint.rates) > 1]
     if len(shared) == 1:
-        yield (
-            f"The joint variable of row {shared[0]} is not a coordinate itself but a combination of "
-            "coordinates: its column of the Jacobian is shared out among them.",
-        )
+        yield (f"The joint variable of row {shared[0]} is not a coordinate itself but a combination of "
+               "coordinates: its column of the Jacobian is shared out among them.",)  # fmt: skip
     elif shared:
-        yield (
-            "The joint variables of rows ",
-            *listed(shared),
-            " are not coordinates themselves but combinations of coordinates: their columns of the Jacobian "
-            "are shared out among these.",
-        )
+        yield ("The joint variables of rows ", *listed(shared), " are not coordinates themselves but "
+               "combinations of coordinates: their columns of the Jacobian are shared out among "
+               "these.")  # fmt: skip
     for joint in robot.joints:
         if len(joint.rates) == 1 and joint.rates[0][1] != 1:
             ((k, rate),) = joint.rates
+            name = Symbol(robot.coordinates[k].name)
             yield (
                 f"The joint of row {joint.index} moves at ",
                 number(rate),
                 " times the rate of ",
-                Symbol(robot.coordinates[k].name),
+                name,
                 ".",
             )
 

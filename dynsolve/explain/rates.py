@@ -208,8 +208,6 @@ def _notes(J: Matrix, right: Matrix, solved: Node) -> Iterator[Prose]:
             "Every motion of the joints that the task does not see may be added: ",
             solved, " with ", equation(Product((_J, solved)), letters.bold("0")), ".",
         )  # fmt: skip
-    if rank < min(J.shape):
-        yield (f"The rank is {rank} here, less than it can be: ", Product((_J, _JT)), " has no inverse.")
 
 
 # -- what the joints and the task can do -----------------------------------------------------------

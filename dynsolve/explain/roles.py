@@ -11,7 +11,7 @@ from dynsolve.notation.walk import names_in as names_in_trees
 from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
-from dynsolve.robot.units import si
+from dynsolve.robot.units import ENERGY, si
 
 
 class Role(Enum):
@@ -63,12 +63,13 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
 
 
 def _dimensions(robot: Robot) -> dict[str, str]:
+    """Units of the parameters: a torque, or the stiffness of a torsion spring, is no energy."""
     known = Dimensions(robot.ring, robot)
     units: dict[str, str] = {}
     for generator in robot.ring.generators:
         if generator.kind == "symbol" and not generator.dots:
             found = known.of_generator(generator)
-            units[generator.name] = "" if found is None else si(found)
+            units[generator.name] = "" if found is None else "N m" if found == ENERGY else si(found)
     return units
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
-from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.configurations import ConfigurationForms, vanishing
 from dynsolve.explain.context import Context
 from dynsolve.explain.singular_figures import figure_of
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
@@ -121,7 +121,7 @@ def _alternatives(forms: ConfigurationForms, found: SingularSet) -> Step:
         stage=STAGE,
         title=_TITLE,
         why=(one if len(cases) == 1 else several,),
-        result=tuple(map(_together, cases)),
+        result=tuple(map(vanishing, cases)),
         notes=tuple(forms.existence("singular", found.exist)),
         detail=Detail.BRIEF,
         uses=("singular_minors",),
@@ -139,7 +139,7 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
     several = len(found.losses) > 1
     what = "What is lost" if lost else "The rank"
     general = "" if loss.rank_holds else "in general "
-    where: Prose = ("Where ", *_equations(forms.singular[case]), f", the rank is {general}",
+    where: Prose = ("Where ", vanishing(forms.singular[case]), f", the rank is {general}",
                     f"{loss.rank} instead of {found.rank}.")  # fmt: skip
     names = (
         [_W] if len(lost) == 1 else [Letter("w", Number(k), style="bold") for k in range(1, len(lost) + 1)]
@@ -186,16 +186,6 @@ def _lost_words(context: Context) -> Prose:
     needs = "A force along it needs" if is_force else "A force and a moment along it need"
     return (" Every velocity that the joints can give is orthogonal to ", _W,
             f": that motion is lost. {needs} no torque of the joints.")  # fmt: skip
-
-
-def _together(conditions: tuple[Node, ...]) -> Node:
-    """Equations that hold together, in one line."""
-    parts = _equations(conditions)
-    return Row(tuple(part if isinstance(part, Relation) else Words(str(part)) for part in parts))
-
-
-def _equations(conditions: tuple[Node, ...]) -> Prose:
-    return listed([equation(value, Number(0)) for value in conditions])
 
 
 def _det(matrix: Node) -> Node:

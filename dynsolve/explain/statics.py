@@ -177,8 +177,5 @@ def _holding(context: Context) -> Step:
         source=spong("4.10"),
         working=((equation(g, context.form("g")),) if heavy and is_small(context.form("g")) else ()),
         result=(equation(letters.TAU_STATIC, context.form("tau_static")),),
-        notes=(
-            ("These are the torques of the motors: what the forces do to the joints has the opposite sign.",),
-        ),
         detail=Detail.BRIEF,
     )

@@ -69,6 +69,11 @@ def side_by_side(parts: Sequence[Node]) -> Row:
     return Row(tuple(row))
 
 
+def as_row(prose: Prose) -> Row:
+    """Words and formulas as one formula."""
+    return Row(tuple(part if isinstance(part, Node) else Words(str(part)) for part in prose))
+
+
 def scalar(form: Node) -> Node:
     """The entry of a 1×1 matrix: what there is one of is written as a number.  Other forms as they are."""
     match form:

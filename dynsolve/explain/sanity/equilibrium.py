@@ -18,8 +18,8 @@ from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, in_no_others
 from dynsolve.explain.sanity.curvature import Kind
 from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.writing import listed, side_by_side
-from dynsolve.notation.tree import Node, Row, Symbol, Words, equation
+from dynsolve.explain.writing import as_row, listed, side_by_side
+from dynsolve.notation.tree import Row, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType
 
@@ -198,10 +198,7 @@ def _is_vertical(context: Context, pose: Pose) -> bool:
 
 def _stable_in(pose: Pose) -> Row:
     """The coordinates that gravity holds, where it does not hold the others: these drift once they move."""
-    parts = listed([Symbol(name) for name in pose])
-    return Row(
-        (Words("stable in "), *(part if isinstance(part, Node) else Words(str(part)) for part in parts))
-    )
+    return as_row(("stable in ", *listed([Symbol(name) for name in pose])))
 
 
 def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
