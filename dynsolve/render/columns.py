@@ -15,8 +15,8 @@ from dynsolve.render.typesetting import Line
 FEWEST = 20
 """From this number of equations on they are set in columns."""
 
-FEWEST_SHORT = 6
-"""The same for equations each of which fits a column."""
+FEWEST_SHORT = 3
+"""From this number of equations on that fit a column each."""
 
 MOST_COLUMNS = 3
 GAP = 1.2

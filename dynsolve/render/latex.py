@@ -13,6 +13,8 @@ from dynsolve.document import (
     Formula,
     Heading,
     Inline,
+    List,
+    Note,
     Picture,
     Prose,
     Table,
@@ -45,7 +47,6 @@ _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 7.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
-_STAYS = r"\begingroup\postdisplaypenalty=10000"
 _RAGGED = r"\rightskip=0pt plus 4em\relax "
 """Words in a narrow column are not stretched; \raggedright would take the ends of the rows away."""
 
@@ -168,9 +169,10 @@ class _Page(TypesetPage):
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks one after the other, formulas that follow each other in one display.
 
-        A paragraph stays with the display after it, and the last rows of the document on one page.
+        A paragraph stays with the display after it, and the last rows of the document on one page; above a
+        display that follows a list, a note or a table TeX would leave a line empty.
         """
-        in_text = False
+        in_text, is_closed = False, False
         listed = list(blocks)
         pairs = zip_longest(listed, listed[1:])
         kinds = groupby(pairs, lambda pair: (isinstance(pair[0], Formula), self.closes(pair[0])))
@@ -180,18 +182,18 @@ class _Page(TypesetPage):
                 yield "\\samepage"
             if are_formulas:
                 shown = list(run)
-                last, after = shown[-1]
-                stays = introduces(last, after)
-                yield from [_STAYS] if stays else []
-                yield from self.formulas([block for block, _ in shown if isinstance(block, Formula)])
-                yield from ["\\endgroup"] if stays else []
-                in_text = True
+                yield from ["\\noindent"] if is_closed else []
+                formulas = [block for block, _ in shown if isinstance(block, Formula)]
+                yield from self.formulas(formulas, shown[-1][1])
+                in_text, is_closed = True, False
                 continue
             for block, following in run:
-                if in_text and not isinstance(block, Equations):
+                if isinstance(block, Equations):
+                    yield from ["\\noindent"] if is_closed else []
+                elif in_text:
                     yield ""
                 yield from self.block(block)
-                in_text = isinstance(block, Text | Uses)
+                in_text, is_closed = isinstance(block, Text | Uses), isinstance(block, List | Note | Table)
                 if in_text and (close or introduces(block, following)):
                     yield "\\nopagebreak"
 
@@ -227,17 +229,18 @@ class _Page(TypesetPage):
     def formula(self, formula: Formula) -> Iterator[str]:
         yield from self.formulas([formula])
 
-    def formulas(self, formulas: Sequence[Formula]) -> Iterator[str]:
+    def formulas(self, formulas: Sequence[Formula], after: Block | None = None) -> Iterator[str]:
         """Displays: formulas of one line together, level where they are results, one that is broken alone."""
         rows: list[DisplayRow] = []
-        for formula, following in zip_longest(formulas, formulas[1:]):
+        for formula, following in pairwise([*formulas, after]):
+            assert isinstance(formula, Formula)
             last = self.kept(formula)
+            stays = self.closes(formula) or introduces(formula, following, following is formulas[-1])
             columns = self.columns(formula)
             lines = [] if columns else self.typesetter(formula).set(formula)
             label = self.label(formula)
             if len(lines) == 1:
                 line = self.level_result(formula)
-                stays = self.closes(formula) or introduces(formula, following, following is formulas[-1])
                 rows.append(DisplayRow(line or lines[0], label, line is not None, stays))
                 continue
             yield from gathered(rows)
@@ -245,7 +248,7 @@ class _Page(TypesetPage):
             if columns:
                 yield from in_columns(columns, label, last)
             elif lines:
-                yield from aligned(lines, label, last)
+                yield from aligned(lines, label, last, stays)
         yield from gathered(rows)
 
     def label(self, display: Formula | Equations) -> str:

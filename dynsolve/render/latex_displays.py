@@ -38,7 +38,7 @@ def in_columns(columns: Columns, label: str = "", last: int = LAST_OF_DISPLAY) -
         number = f"\\equationnumber{{{label}}}" if label and at_end else ""
         keep = "\\nopagebreak" if stays or (at_end and last == LAST_OF_DOCUMENT) else ""
         yield f"\\equationrow{{{columns.indent:.4f}}}{{{cells}{number}}}{keep}"
-    yield "\\par\\endgroup"
+    yield "\\par\\endgroup\\noindent"
 
 
 def _cell(cell: Cell, columns: Columns, share: float) -> str:
@@ -69,30 +69,38 @@ class DisplayRow:
 def gathered(rows: Sequence[DisplayRow]) -> Iterator[str]:
     """Formulas of one line each, one under the other; results that follow each other are level."""
     for are_level, run in groupby(rows, lambda row: row.level):
-        yield from _gathered(list(run), are_level)
+        shown = list(run)
+        yield _kept(_gathered(shown, are_level), shown[-1].stays)
 
 
-def _gathered(rows: Sequence[DisplayRow], are_level: bool) -> Iterator[str]:
+def _kept(display: str, stays: bool) -> str:
+    """A display after which no page ends where it `stays` with what follows."""
+    return f"\\begingroup\\postdisplaypenalty=10000\n{display}\n\\endgroup" if stays else display
+
+
+def _gathered(rows: Sequence[DisplayRow], are_level: bool) -> str:
     if len(rows) == 1:
         (row,) = rows
         star = "" if row.label else "*"
-        yield f"\\begin{{equation{star}}}{row.label}\n{row.line.alone}\n\\end{{equation{star}}}"
-        return
+        return f"\\begin{{equation{star}}}{row.label}\n{row.line.alone}\n\\end{{equation{star}}}"
     texts = [level(row.line) if are_level else row.line.alone for row in rows]
     labelled = [text + (row.label or r" \notag") for text, row in zip(texts, rows, strict=True)]
     ends = [_end(*pair, row.stays) for pair, row in zip(pairwise(texts), rows[:-1], strict=True)]
     body = "".join(chain.from_iterable(zip(labelled, [*ends, ""], strict=True)))
     name = "align" if are_level else "gather"
-    yield f"\\begin{{{name}}}\n{body}\n\\end{{{name}}}"
+    return f"\\begin{{{name}}}\n{body}\n\\end{{{name}}}"
 
 
-def aligned(lines: Sequence[Line], label: str = "", last: int = LAST_OF_DISPLAY) -> Iterator[str]:
+def aligned(
+    lines: Sequence[Line], label: str = "", last: int = LAST_OF_DISPLAY, stays: bool = False
+) -> Iterator[str]:
     """One formula on several lines, the number beside the last; a very long one in several displays."""
     for start in range(0, len(lines), _MOST_LINES):
         part = lines[start : start + _MOST_LINES]
         number = label if start + _MOST_LINES >= len(lines) else ""
         star = "" if number else "*"
-        yield f"\\begin{{align{star}}}\n{''.join(_rows(part, number, last))}\n\\end{{align{star}}}"
+        display = f"\\begin{{align{star}}}\n{''.join(_rows(part, number, last))}\n\\end{{align{star}}}"
+        yield _kept(display, stays)
 
 
 def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:

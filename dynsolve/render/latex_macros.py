@@ -10,18 +10,20 @@ PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\topmargin}{-60pt}
 \setlength{\textheight}{757pt}
 \setlength{\parindent}{0pt}
-\setlength{\parskip}{3pt plus 1pt}
+\setlength{\parskip}{3pt plus 1pt minus 1pt}
 \setlength{\emergencystretch}{6em}
 \setlength{\jot}{2pt}
 \delimitershortfall=3pt % of brackets around a column of fractions
 \setcounter{MaxMatrixCols}{30}
 \renewcommand{\arraystretch}{1.12}
 \clubpenalty=10000 \widowpenalty=10000
-\AtBeginDocument{\setlength{\abovedisplayskip}{4pt plus 2pt}\setlength{\belowdisplayskip}{4pt plus 2pt}%
+\AtBeginDocument{\setlength{\abovedisplayskip}{3pt plus 2pt minus 2pt}\belowdisplayskip=\abovedisplayskip
   \abovedisplayshortskip=\abovedisplayskip \belowdisplayshortskip=\belowdisplayskip}
 \makeatletter
-\renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}
-\renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-9pt plus -3pt}{2pt}{\normalsize\bfseries}}
+\renewcommand\section{\@startsection{section}{1}{0pt}{-12pt plus -4pt minus -4pt}{4pt}{\Large\bfseries}}
+\renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-8pt plus -3pt minus -3pt}{2pt}%
+  {\normalsize\bfseries}}
+\def\@listi{\leftmargin\leftmargini \topsep=3pt plus 2pt minus 2pt \parsep=0pt \itemsep=0pt}\let\@listI\@listi
 \newcommand\contentsrow[2]{\@dottedtocline{1}{0pt}{1.6em}{#1}{\pageref{#2}}}
 % A reference that the first run does not know is as wide as the last number: pages stay where they are.
 \def\@setref#1#2#3{\ifx#1\relax\G@refundefinedtrue\theequation\@latex@warning{Reference `#3' undefined}%

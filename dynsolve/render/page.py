@@ -260,12 +260,10 @@ class TypesetPage(MarkupPage):
         return lines[0] if len(lines) == 1 else None
 
     def equation_columns(self, equations: Equations) -> Columns | None:
-        """Equations in columns, where they may be and are many, or are all short and not few."""
+        """Equations in columns, where they may be and are many, or some are short."""
         room = self.width - self.number
-        short = len(equations.nodes) >= FEWEST_SHORT and all(
-            self.ruler.width(node) + GAP <= room / MOST_COLUMNS for node in equations.nodes
-        )
-        if not short and not (equations.in_columns and len(equations.nodes) >= FEWEST):
+        short = sum(self.ruler.width(node) + GAP <= room / MOST_COLUMNS for node in equations.nodes)
+        if short < FEWEST_SHORT and not (equations.in_columns and len(equations.nodes) >= FEWEST):
             return None
         return in_columns(Typesetter(self.notation, self.ruler, room).each(equations.nodes), room)
 
