@@ -18,7 +18,8 @@ LONG = "m1*l1^2 + m2*l2^2 + m3*l3^2 + I1 + I2 + I3"
     ("count", "right", "allowed", "columns"),
     [
         (8, "a + b", False, True),
-        (5, "a + b", False, False),
+        (3, "a + b", False, True),
+        (2, "a + b", False, False),
         (8, LONG, False, False),
         (8, LONG, True, False),
         (20, LONG, True, True),
