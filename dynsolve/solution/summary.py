@@ -136,11 +136,16 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     called = CALLED.get(name, step.title)
     yield Text((f"{called[0].upper()}{called[1:]}:",))
     if step.table is not None:
+        unknowns = {f"{name}_{q.name}" for q in robot.coordinates} & set(step.uses or ())
+        formulas = tuple(result for one in steps if one.id in unknowns for result in one.result)
+        yield from (Equations(formulas),) if formulas else ()
         yield Table(step.table.header, step.table.rows)
     elif step.result:
         yield Equations(step.result)
     else:
-        yield List(tuple(one.outcome for one in steps if one.stage is step.stage and one.outcome))
+        told = tuple(one.outcome for one in steps if one.stage is step.stage and one.outcome)
+        yield List(told or step.notes or (step.why,))
+    yield from (Text(one.concluding) for one in steps if one.id == f"{name}_stability")
 
 
 def _lines(step: Step) -> Iterator[Block]:

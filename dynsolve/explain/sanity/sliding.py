@@ -54,7 +54,8 @@ def nowhere(context: Context) -> Step | None:
         (letters.entry("g", k + 1), context.show(g[k, 0]), ZERO), ("=", ">" if sign > 0 else "<")
     )
     why: Prose = (*at_rest(context), *assumed(context), "But ", value, Reference(("g",), " in "))
-    return told((*why, " in every pose, so gravity is balanced in none."))
+    outcome = ("Gravity is balanced in no pose: ", value, " in each.")
+    return told((*why, " in every pose, so gravity is balanced in none."), outcome=outcome)
 
 
 def at_one_length(context: Context) -> Step | None:

@@ -80,3 +80,16 @@ def test_a_coordinate_of_another_branch_has_a_column_of_zeros() -> None:
         " does not move the origin of frame 3: its column is zero."
     )
     assert "the frame that its row starts from" in "".join(p for p in steps["axes"].why if isinstance(p, str))
+
+
+@pytest.mark.parametrize(
+    ("problem", "told"),
+    [
+        ("crane", "At q₂ = 0: stable, but for q₁"),
+        ("articulated-6r", "The inverse kinematics: q₁ = atan2(y_c, x_c) q₁ = atan2(-y_c, -x_c)"),
+        ("planar-2r-reach", "The inverse kinematics: q₁ q₂ Limits"),
+    ],
+)
+def test_the_results_alone_answer_the_question(problem: str, told: str) -> None:
+    text = " ".join(report(solved(problem), Format.TEXT, detail=Detail.RESULTS).decode().split())
+    assert told in text
