@@ -69,6 +69,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         ),
         working=working,
         result=(equation(P, context.form(f"P{body.name}")),),
+        said="" if is_pulled else "no gravity",
         normal=WORKED | Part.WHY if tells or not is_pulled or body.mass.is_zero else WORKED,
     )
 

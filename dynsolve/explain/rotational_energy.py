@@ -27,7 +27,7 @@ def rotational_step(context: Context, body: Body) -> Step:
         result=(equation(Kw, context.form(f"Kw{b}")),),
     )
     if body.is_point:
-        return replace(step, why=("A point mass has no rotational energy.",))
+        return replace(step, why=("A point mass has no rotational energy.",), said="point mass")
     half = Product(
         (letters.HALF, letters.transposed_product(w, letters.base_tensor(letters.index_of(body.name))))
     )
