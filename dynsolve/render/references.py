@@ -26,7 +26,11 @@ _LONGEST_HEADER = 60
 
 def is_long(document: Document) -> bool:
     """Whether a document wants a table of contents: from forty steps on."""
-    return sum(isinstance(block, Fold) for block in document.blocks) >= _MANY_STEPS
+    return _steps(document.blocks) >= _MANY_STEPS
+
+
+def _steps(blocks: Iterable[Block]) -> int:
+    return sum(1 + _steps(block.blocks) for block in blocks if isinstance(block, Fold))
 
 
 def sections(document: Document) -> tuple[Heading, ...]:

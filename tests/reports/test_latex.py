@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from dynsolve.explain.step import Detail
-from dynsolve.solution.reports import Format, report
+from dynsolve.solution.reports import Format
 from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of, typeset
-from tests.support import ALL_PROBLEMS, LIBRARY, TEXTBOOKS, solved
+from tests.support import ALL_PROBLEMS, LIBRARY, TEXTBOOKS
 
 MOST_PAGES = {
     "puma560": 12,
@@ -77,7 +77,7 @@ def test_textbook_notation() -> None:
 
 
 def test_equations_are_numbered_and_the_text_refers_to_them() -> None:
-    source = report(solved(RP), Format.LATEX, detail=Detail.FULL).decode()
+    source = made(RP, Format.LATEX, detail=Detail.FULL).decode()
     labels = re.findall(r"\\label\{(.*?)\}", source)
     references = re.findall(r"\\eqref\{(.*?)\}", source)
     assert len(labels) == len(set(labels)) > 30

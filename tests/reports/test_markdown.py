@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from dynsolve.explain.step import Detail
-from dynsolve.solution.reports import Format, report
+from dynsolve.solution.reports import Format
 from tests.reports.tools import HOSTILE_PROBLEM, made, typeset
-from tests.support import LIBRARY, solved
+from tests.support import LIBRARY
 
 SMALL = [path for path in LIBRARY if path.stem not in ("puma560", "panda-7r")]
 DISPLAY = re.compile(r"^\$\$\n(.*?)\n\$\$$", re.DOTALL | re.MULTILINE)
@@ -57,5 +57,5 @@ def test_a_hostile_title_is_text() -> None:
 
 def test_signs_of_a_list_in_a_table_have_the_commas_of_words() -> None:
     problem = next(path for path in LIBRARY if path.stem == "in3140-rp")
-    text = report(solved(problem), Format.MARKDOWN, detail=Detail.FULL).decode()
+    text = made(problem, Format.MARKDOWN, detail=Detail.FULL).decode()
     assert "| $m_{1}$, $m_{2}$, $m_{i}$ | mass of body $i$ | $\\text{kg}$ |" in text

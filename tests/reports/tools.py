@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from dynsolve.explain.step import Detail
 from dynsolve.solution.reports import Format, report
 from tests.support import solved
 
@@ -49,9 +50,15 @@ def needed(tool: str) -> str:
 
 
 @cache
-def made(problem: Path | str, format: Format, star: bool = False, fragment: bool = False) -> bytes:
+def made(
+    problem: Path | str,
+    format: Format,
+    star: bool = False,
+    fragment: bool = False,
+    detail: Detail = Detail.NORMAL,
+) -> bytes:
     """A report; `problem` is a path, or the text of a problem file."""
-    return report(solved(problem), format, star=star, fragment=fragment)
+    return report(solved(problem), format, star=star, fragment=fragment, detail=detail)
 
 
 @dataclass(frozen=True)
