@@ -82,7 +82,7 @@ def steps(context: Context) -> Iterator[Step]:
         yield replace(jacobians, group=group, normal=STATED | (Part.WHY if body is bodies[0] else STATED))
         yield replace(_velocities(context, body), group=group, normal=STATED)
         yield replace(linear, group=group, normal=WORKED if linear.working else STATED)
-        yield replace(turning, group=group, normal=STATED if turning.formula is not None else Part.WHY)
+        yield replace(turning, group=group)
         yield replace(_kinetic(context, body), group=group, normal=STATED)
     yield from rotors
     yield _total(context, "K", "kinetic", letters.K, [letters.KM] * len(rotors))

@@ -89,6 +89,16 @@ def _shorthands(robot: Robot, style: Style) -> Iterator[Line]:
     yield Line(tuple(shown), "sines and cosines of the coordinates", "", kinds)
 
 
+def shorthands_in(blocks: Iterable[Block], robot: Robot, style: Style) -> list[Line]:
+    """The line of the shorthands that occur in a document, if any do."""
+    occurring = kinds_in(formulas_in(blocks), style)
+    return [
+        _told(line.of(found, style), style)
+        for line in _shorthands(robot, style)
+        if (found := line.kinds & occurring)
+    ]
+
+
 def written_out(node: Function) -> Node:
     """A sine or cosine that no style abbreviates: sin θ_1, sin(θ_1 + θ_2)."""
     if isinstance(node.argument, Sum):

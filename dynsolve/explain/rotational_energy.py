@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Line, Step
+from dynsolve.explain.step import STATED, Detail, Line, Part, Step
 from dynsolve.explain.working import own_axes, rotational
 from dynsolve.explain.writing import is_small, name_of, spong
 from dynsolve.notation.tree import Parenthesized, Product, Relation, Transpose, equation
@@ -24,17 +24,19 @@ def rotational_step(context: Context, body: Body) -> Step:
         stage=Stage.ENERGY,
         title=f"Rotational kinetic energy of {name_of(body)}",
         source=spong("7.2"),
+        normal=STATED,
         result=(equation(Kw, context.form(f"Kw{b}")),),
     )
     if body.is_point:
-        return replace(step, why=("A point mass has no rotational energy.",), said="point mass")
+        why: Prose = ("A point mass has no rotational energy.",)
+        return replace(step, why=why, said="point mass", normal=Part.WHY | Part.RESULT)
     half = Product(
         (letters.HALF, letters.transposed_product(w, letters.base_tensor(letters.index_of(body.name))))
     )
     why: Prose = (w, f" and the tensor, both in {context.ground} coordinates.")
     step = replace(step, why=why, hint=why, formula=equation(Kw, half))
     if context.values[f"w{b}"].is_zero:
-        return replace(step, why=("The body does not turn.",))
+        return replace(step, why=("The body does not turn.",), normal=STATED | Part.WHY)
     product, way = rotational.multiplied_out(context, body)
     step = replace(step, working=(product,) if is_small(product) else (), lines=way.lines)
     step = replace(step, concluding=way.concluding)
@@ -62,6 +64,11 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
         why=why,
         formula=equation(*step.formula.parts, half),
         working=(),
-        lines=(*own.lines, *((put_in,) if step.working else ()), *step.lines),
+        lines=(
+            *own.lines,
+            *(replace(line, detail=Detail.FULL) for line in (put_in, *step.lines) if line.formulas),
+        ),
+        normal=STATED | Part.WHY | Part.LINES,
+        said="own axes",
         uses=(f"v{b}", own.uses),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from dynsolve.document import Block, Inline, List, Prose, Text
 from dynsolve.explain import given_bodies, hypotheses
@@ -56,14 +56,14 @@ CALLED = {
 """What whole answers are called; others are told by their letters."""
 
 
-def statement(forms: Forms, problem: Problem) -> Iterator[Block]:
+def statement(forms: Forms, problem: Problem, sines: Iterable[Line] = ()) -> Iterator[Block]:
     """Given: the arm or the mechanism, what acts on it, what is asked of it; its symbols; To be found."""
     given = [sentence for sentence in _sentences(forms, problem) if sentence]
     if given:
         yield Text(("Given: ", *sentences(given)))
-    names = list(problem_names(forms.robot))
+    names = [*map(_introduced, problem_names(forms.robot)), *((line.words,) for line in sines)]
     if names:
-        yield List(tuple(_introduced(line) for line in names))
+        yield List(tuple(names))
     found = [called for name in problem.find if (called := _called(forms, name)) is not None]
     if found:
         yield Text(("To be found: ", *listed(found), "."))

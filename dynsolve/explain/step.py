@@ -98,7 +98,7 @@ class Step:
     from there to the `result`, what comes out, one operation after the other, the last one being
     said in `concluding`.  `uses` names the earlier steps that it is computed from, unless these are
     the inputs of its rule; `x#2` is the second result of x alone.  `names` are the labels of lines that
-    define what it is written in; `remarks` are what the problem's author says of it.
+    define what it is written in.
 
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
@@ -126,7 +126,6 @@ class Step:
     concluding: Prose = ()
     result: tuple[Node, ...] = ()
     notes: tuple[Prose, ...] = ()
-    remarks: tuple[Prose, ...] = ()
     table: Table | None = None
     table_last: bool = False
     figure: Figure | ArmFigure | None = None

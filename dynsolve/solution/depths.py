@@ -243,7 +243,7 @@ def step_blocks(step: Step, inputs: tuple[str, ...] = (), drawn: Drawn | None = 
     yield from _way(step, inputs)
     yield from table if step.table_last else ()
     yield from result_blocks(step)
-    for note in (*step.notes, *step.remarks):
+    for note in step.notes:
         yield Note(note)
 
 

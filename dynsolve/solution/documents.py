@@ -27,7 +27,7 @@ from dynsolve.explain.abbreviations import (
     Definition,
 )
 from dynsolve.explain.citations import GAUTIER_KHALIL, KHALIL_DOMBRE, cited
-from dynsolve.explain.notation_list import notation
+from dynsolve.explain.notation_list import notation, shorthands_in
 from dynsolve.explain.statement import statement
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, machine
@@ -81,8 +81,7 @@ def _documents(
     short: Abbreviated | None,
 ) -> tuple[Document, ...]:
     steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
-    stated = _part("what is given", lambda: _statement(solution, stages))
-    return tuple(_document(solution, detail, stages, steps, stated, drawn, short) for detail in details)
+    return tuple(_document(solution, detail, stages, steps, drawn, short) for detail in details)
 
 
 def _document(
@@ -90,7 +89,6 @@ def _document(
     detail: Detail,
     stages: tuple[str, ...] | None,
     steps: Sequence[Step],
-    stated: Sequence[Block],
     drawn: Drawn | None,
     short: Abbreviated | None,
 ) -> Document:
@@ -105,6 +103,7 @@ def _document(
             ),
         ),
     )
+    stated = _part("what is given", lambda: _statement(solution, stages, derivation))
     return Document((
         *_opening(solution),
         *stated,
@@ -119,10 +118,13 @@ def _part(what: str, made: Callable[[], Iterable[Block]]) -> tuple[Block, ...]:
     return attempted(lambda: tuple(made()), tuple, what)
 
 
-def _statement(solution: Dynamics, stages: Iterable[str] | None) -> Iterator[Block]:
+def _statement(
+    solution: Dynamics, stages: Iterable[str] | None, derivation: tuple[Block, ...]
+) -> Iterator[Block]:
     """The exercise, before a whole solution of it."""
     if stages is None:
-        yield from statement(solution.forms, solution.problem)
+        sines = shorthands_in(derivation, solution.robot, solution.style)
+        yield from statement(solution.forms, solution.problem, sines)
 
 
 def _notation(

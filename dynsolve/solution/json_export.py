@@ -208,7 +208,7 @@ class _Exporter:
             "source": by_itself(step.source),
             "latex": "\n".join(map(self.latex.text, formulas)),
             "text": "\n".join(map(self.unicode.text, formulas)),
-            "notes": [self.prose(note) for note in (*step.notes, *step.remarks)],
+            "notes": [self.prose(note) for note in step.notes],
             **({"lines": list(map(self.line, step.lines))} if step.lines else {}),
             **({"concluding": self.prose(step.concluding)} if step.concluding else {}),
         }

@@ -1,4 +1,4 @@
-"""The remarks of a problem's author at the steps that they speak of."""
+"""The remarks of a problem's author, as notes of the steps that they speak of."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dynsolve.quantities.robot_stages import stages_of
 
 
 def with_remarks(steps: Iterable[Step], problem: Problem, *, whole: bool) -> Iterator[Step]:
-    """The steps, those of results with the remarks on them.
+    """The steps, those of results with a remark with a note more.
 
     A remark on an entry (d12, c121) stands at the step of the whole, one on what has no step of
     its own (tau) at the last of its parts.  Raises ProblemError where the steps are the `whole`
@@ -25,19 +25,19 @@ def with_remarks(steps: Iterable[Step], problem: Problem, *, whole: bool) -> Ite
     steps, known = tuple(steps), quantities(problem.robot)
     owner = {name: step.id for step in steps for name in (step.id, *step.also)}
     stages = stages_of(problem.robot)
-    remarks: dict[str, list[Prose]] = defaultdict(list)
+    notes: dict[str, list[Prose]] = defaultdict(list)
     lost = []
     for remark in problem.remarks:
         places = [owner[name] for name in _looked_up(known, remark.name) if name in owner]
         if places:
-            remarks[places[0]] += [(text,) for text in remark.texts]
+            notes[places[0]] += [(text,) for text in remark.texts]
         elif whole and known.stage(remark.name) in stages:
             message = f"the solution has no step of {remark.name}"
             lost.append(problem.finding(("remarks", remark.key), message, "remark on another result"))
     if lost:
         raise ProblemError(lost)
     for step in steps:
-        yield replace(step, remarks=tuple(remarks[step.id])) if step.id in remarks else step
+        yield replace(step, notes=(*step.notes, *notes[step.id])) if step.id in notes else step
 
 
 def _looked_up(known: Quantities, name: str) -> Iterator[str]:

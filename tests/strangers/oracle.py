@@ -18,13 +18,21 @@ import numpy as np
 
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node
+from dynsolve.notation.walk import walk
 
 CONDITIONAL = (
     "conserved", "simple poses", "gravity is balanced", "positive definite",  # checks, at poses of their own
+    "Checks", "Given", "equilibria:", "configurations:", "conditions for balance:", "inverse kinematics:",
     "Frames from the drawing", "Singular", "Inverse", "Rates and", "Forces from outside", "Equilib",
     "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
 )  # fmt: skip
 """In the titles of steps whose equations are conditions (q₂ = 0) or hold under some: they are passed over."""
+
+NULL = tree.Letter("0", style="bold")
+"""Zeros: of another shape in the next equation."""
+
+STATE = (tree.Letter("q", style="bold", dots=1), tree.Letter("q", style="bold", dots=2))
+"""What is asked for at a state of its own, and stands in the summary without a word."""
 
 TOLERANCE = 1e-8
 """The relative difference that counts as rounding: of the sum of the sizes of what is added up."""
@@ -261,9 +269,15 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
             for letter in own:
                 del point.known[letter]
             fold, own = where, set()
-        if any(word in where for word in CONDITIONAL):
+        if any(word in where for word in CONDITIONAL) or (
+            where.startswith("Summary") and relation.parts[0] in STATE
+        ):
             continue
         count[1] += 1
+        letter, *_, value = relation.parts
+        if letter in own and not any(isinstance(part, tree.Letter) for part in walk(value)):
+            own.discard(letter)  # r = r₂, of the next body
+            del point.known[letter]
         members: list[tuple[Node, Value]] = []
         left_open: list[Node] = []
         for part, sign in zip(relation.parts, ("=", *relation.signs), strict=True):
@@ -275,7 +289,7 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
                 if part not in point.free and isinstance(part, tree.Letter | tree.Symbol | tree.Derivative):
                     left_open.append(part)
         count[0] += len(members) + len(left_open) > 1
-        for part in left_open if members else ():
+        for part in set(left_open) - {NULL} if members else ():
             point.known[part] = members[-1][1]
             if _is_of_step(part):
                 own.add(part)
@@ -288,7 +302,7 @@ def _is_of_step(node: Node) -> bool:
     """Whether a letter has no index, as θ of a row of the table; h is the name of a Christoffel symbol."""
     match node:
         case tree.Letter(_, sub):
-            return sub is None
+            return sub is None or sub in (tree.Symbol("o"), tree.Symbol("i"))
         case tree.Symbol(name):
             return name != "h" and not any(map(str.isdigit, name))
     return False
@@ -297,12 +311,14 @@ def _is_of_step(node: Node) -> bool:
 def relations(blocks: Any, where: str = "") -> Iterator[tuple[str, tree.Relation]]:
     """Every equation of a report with the step that it stands in."""
     from dynsolve import document
-    from dynsolve.notation.walk import walk
 
+    section = where
     for block in blocks:
         match block:
             case document.Heading():
-                where = block.text
+                where = section = block.text if block.level > 1 else "Given"
+            case document.Text() if section == "Summary":
+                where = f"{section} > {''.join(part for part in block.parts if isinstance(part, str))}"
             case document.Fold():
                 yield from relations(block.blocks, f"{where} > {block.title}")
                 continue

@@ -6,7 +6,7 @@ import pytest
 
 import dynsolve
 from dynsolve.errors import ProblemError
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.problem import read_problem
 from dynsolve.render.formats import Format
 from dynsolve.solution.reports import report
@@ -30,8 +30,8 @@ STEPS = {
 
 
 def noted(steps: tuple[Step, ...], text: str) -> list[str]:
-    """The steps with a remark of these words."""
-    return [step.id for step in steps if (text,) in step.remarks]
+    """The steps with a note of these words."""
+    return [step.id for step in steps if (text,) in step.notes]
 
 
 @pytest.mark.parametrize("name", STEPS)
@@ -46,7 +46,7 @@ def test_a_remark_is_words_and_may_have_several_lines() -> None:
     (step,) = (step for step in solution.to_json()["steps"] if step["id"] == "K")
     assert step["notes"][-2:] == ["1 + 1 = 2, $x$ <b>", "second"]
     assert "$x$ &lt;b&gt;" in report(solution, Format.HTML).decode()
-    assert r"\$x\$ \textless{}b\textgreater{}" in report(solution, Format.LATEX).decode()
+    assert r"\$x\$ \textless{}b\textgreater{}" in report(solution, Format.LATEX, detail=Detail.FULL).decode()
 
 
 def test_a_remark_on_what_has_no_step_is_an_error_at_its_place() -> None:
