@@ -55,7 +55,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
             h, g = letters.height(letters.index_of(body.name)), _acceleration(context)
             why += _entry_of_height(context, body, h, tells)
             parts += (Product((context.mass(body), g, h)),)
-            working, numbers = (equation(h, height),), _numbers(context, body, g)
+            working, numbers = (equation(h, height),), _numbers(context, body, g, tells)
     return Step(
         id=f"P{body.name}",
         stage=STAGE,
@@ -111,11 +111,11 @@ def _entry_of_height(context: Context, body: Body, h: Node, tells: bool) -> Pros
     return (h, f"{what} is {minus}the {('first', 'second', 'third')[i]} entry of ", letters.rc(body), ".")
 
 
-def _numbers(context: Context, body: Body, g: Node) -> tuple[Node, ...]:
-    """What the mass and g are where they are numbers: m_2 = 1.2 kg, g = 9.81 m/s²."""
+def _numbers(context: Context, body: Body, g: Node, tells: bool) -> tuple[Node, ...]:
+    """What the mass is, and g of the first body, where they are numbers: m_1 = 2.5 kg, g = 9.81 m/s²."""
     (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
     size = context.show(-entry if leads_with_minus(entry) else entry)
-    named = ((context.mass(body), context.show(body.mass), "kg"), (g, size, "m/s²"))
+    named = [(context.mass(body), context.show(body.mass), "kg"), *([(g, size, "m/s²")] if tells else [])]
     given = [equation(letter, measured(value, unit)) for letter, value, unit in named if letter != value]
     return (side_by_side(given),) if given else ()
 

@@ -265,7 +265,7 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
     for formula in step.further:
         yield Formula(formula, optional=True)
     following = (*((Text(step.why),) if _opens_way(step) else ()), *_leading_on(step))
-    yield from _with_uses(following, inputs) if inputs else following
+    yield from _with_uses(following, inputs) if inputs and (following or step.result) else following
 
 
 def _opens_way(step: Step) -> bool:

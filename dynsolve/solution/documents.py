@@ -244,6 +244,8 @@ def _defined(definition: Definition) -> Relation:
 
 
 def _closing(solution: Dynamics, detail: Detail, sources: Iterable[str]) -> Iterator[Block]:
+    if detail is Detail.RESULTS:
+        return
     verification = solution.verification
     what, how = "the results", verification.method
     if not solution.robot.has_dynamics:

@@ -54,8 +54,9 @@ def test_the_exercise_is_stated_before_it_is_solved(problem: str, told: list[str
 def stated(solution: Dynamics) -> list[str]:
     """The paragraphs of the statement, as text."""
     return [
-        "".join(part if isinstance(part, str) else to_unicode(part, solution.style) for part in text)
-        for text in statement(solution.forms, solution.problem)
+        "".join(part if isinstance(part, str) else to_unicode(part, solution.style) for part in block.parts)
+        for block in statement(solution.forms, solution.problem)
+        if isinstance(block, Text)
     ]
 
 

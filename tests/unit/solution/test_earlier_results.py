@@ -26,8 +26,15 @@ PROBLEMS = [*SHORT, *(pytest.param(name, marks=pytest.mark.slow) for name in LON
 
 @lru_cache
 def folds(problem: str) -> tuple[Fold, ...]:
-    blocks: tuple[Block, ...] = solution_document(solved(problem), Detail.FULL).blocks
-    return tuple(block for block in blocks if isinstance(block, Fold) and block.blocks)
+    return tuple(steps_in(solution_document(solved(problem), Detail.FULL).blocks))
+
+
+def steps_in(blocks: tuple[Block, ...]) -> Iterator[Fold]:
+    """The steps, those of a group one by one."""
+    for block in blocks:
+        if isinstance(block, Fold):
+            inner = tuple(steps_in(block.blocks))
+            yield from inner or (block,)
 
 
 def cited(problem: str, title: str) -> tuple[str, ...]:
