@@ -34,11 +34,17 @@ CASES = [
     ),
     (
         "inf3480-rrp-drawn",
+        "Given: the axes of the arm as they are drawn. Joint 1, with the variable θ₁, turns about (0, 0, 1) "
+        "through (0, 0, 0). Joint 2, with the variable θ₂, turns about (0, 1, 0) through (0, Loff, L₁). "
+        "Joint 3, with the variable L₃, slides along (1, 0, 0) through (0, Loff, L₁ + L₂). In this pose the "
+        "hand is at (L₃, Loff, L₁ + L₂).",
         "To be found: the Denavit-Hartenberg parameters, the task vector 𝐫, 𝐉_v, the determinant det 𝐉_r "
         "and the singular configurations.",
     ),
     (
         "knife-edge",
+        "Given: Body 1, of mass m, is at (x, y, 0). Body 1 turns by φ about the axis z. About its mass centre "
+        "I_zz = J. There is no gravity and no friction. Every motion keeps ẋ sin(φ) - ẏ cos(φ) = 0.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and "
         "centrifugal terms 𝐂, the gravity terms 𝐠, the matrix of the constraints 𝐀_c, its rate 𝐀̇_c "
         "and the multipliers 𝛌.",
@@ -54,7 +60,11 @@ def test_the_exercise_is_stated_before_it_is_solved(problem: str, told: list[str
 def stated(solution: Dynamics) -> list[str]:
     """The paragraphs of the statement, as text."""
     return [
-        "".join(part if isinstance(part, str) else to_unicode(part, solution.style) for part in block.parts)
+        " ".join(
+            "".join(
+                part if isinstance(part, str) else to_unicode(part, solution.style) for part in block.parts
+            ).split()
+        )
         for block in statement(solution.forms, solution.problem)
         if isinstance(block, Text)
     ]
@@ -149,7 +159,7 @@ ACTING = [
     ),
     (
         "friction: {q1: {viscous: b1}}",
-        "Gravity g acts along -𝐳₀. Coefficients of friction are given too.",
+        "Gravity g acts along -𝐳₀. On q₁ acts viscous friction of coefficient b₁.",
     ),
 ]
 
