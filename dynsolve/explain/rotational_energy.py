@@ -28,8 +28,8 @@ def rotational_step(context: Context, body: Body) -> Step:
         result=(equation(Kw, context.form(f"Kw{b}")),),
     )
     if body.is_point:
-        why: Prose = ("A point mass has no rotational energy.",)
-        return replace(step, why=why, said="point mass", normal=Part.WHY | Part.RESULT)
+        none: Prose = ("A point mass has no rotational energy.",)
+        return replace(step, why=none, said="point mass", normal=Part.WHY | Part.RESULT)
     half = Product(
         (letters.HALF, letters.transposed_product(w, letters.base_tensor(letters.index_of(body.name))))
     )
