@@ -56,7 +56,8 @@ def test_everything_is_seen_and_nothing_overflows(problem: Path, page: Page, tmp
         pytest.skip("longer than a page that anyone opens on a phone")
     page.open(path, WIDTHS[0])
     assert page.ask("document.querySelectorAll('math').length") > 50
-    for width in WIDTHS:
+    for depth, width in (("full", WIDTHS[0]), ("normal", WIDTHS[0]), ("normal", WIDTHS[1])):
+        page.ask(f"document.querySelector('label[for={depth}]').click()")
         page.resize(width)
         assert page.ask("innerWidth") == width
         assert page.ask(EMPTY) == []
