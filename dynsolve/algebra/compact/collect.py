@@ -66,6 +66,7 @@ class Collector:
         self.decimal = decimal
         self._known: dict[frozenset[tuple[Monomial, Rational]], Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
+        self._fractions: dict[int, Polynomial] = {}
 
     def cost(self, node: Node) -> int:
         """The operations of a tree, counted once a tree."""
@@ -89,6 +90,8 @@ class Collector:
         shared = whole_content(poly.values())
         if self.decimal and any(abs(Fraction(f) / shared) > SMALL_WHOLE for f in poly.values()):
             shared = self.content(poly.values())  # 0.34 and 0.457 are no whole numbers that anyone reads
+        if self.mostly_negative(poly):
+            shared = -shared
         factor, mono = self.decompose(self.form({mono: exact(f, shared) for mono, f in poly.items()}))
         return factor * shared, mono
 
@@ -96,7 +99,7 @@ class Collector:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
         factor = self.content(poly.values())
         if factor.denominator != 1 and self._of_several_bodies(poly):
-            factor = factor.numerator
+            factor = 1
         mono = self._worth_drawing(poly, common(poly))
         rest = self._divided(poly, mono, factor)
         if (factor != 1 or mono) and self.mostly_negative(rest):
@@ -145,24 +148,6 @@ class Collector:
             return 1, node
         return -1, total([self.product(-f, m, ()) for m, f in self.ordered(terms)])
 
-    def with_plus(self, node: Node) -> Node:
-        """-(a - b) x as (b - a) x, where the difference is one of masses, moments and lengths."""
-        if not isinstance(node, Negative):
-            return node
-        factor, mono = self.decompose(node.argument)
-        for atom, exponent in mono:
-            match self.atoms.nodes[atom]:
-                case Sum((first, Negative(second))) if exponent == 1 and not self._moves(first, second):
-                    turned = self.atoms.number(Sum((second, Negative(first))))
-                    rest = tuple(sorted((turned if a == atom else a, e) for a, e in mono))
-                    return self.product(factor, rest, ())
-        return node
-
-    def _moves(self, *nodes: Node) -> bool:
-        """Whether a coordinate, an angle or a rate stands in one of some terms."""
-        atoms = (atom for node in nodes for atom, _ in self.decompose(node)[1])
-        return any(self.atoms.ranks[atom][0] not in (Rank.LEADING, Rank.PARAMETER) for atom in atoms)
-
     def apart(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree of different rates: a few stand apart where sums multiply them.
 
@@ -203,8 +188,47 @@ class Collector:
     def product(self, factor: Rational, mono: Monomial, more: Iterable[Node]) -> Node:
         """factor · monomial · more as a tree, in printing order."""
         atoms = [*mono, *((self.atoms.number(node), 1) for node in more)]
+        if not self.decimal:
+            for place, (atom, exponent) in enumerate(atoms):
+                if exponent == 1 and (poly := self._of_fractions(atom)):
+                    factor, whole = self._without_fractions(factor, poly, alone=len(atoms) == 1)
+                    atoms[place : place + 1] = whole or [(atom, 1)]
+                    break
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
         return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=self.decimal)
+
+    def _of_fractions(self, atom: int) -> Polynomial:
+        """The terms of a sum with fractions in it; none of any other atom."""
+        found = self._fractions.get(atom)
+        if found is None:
+            node = self.atoms.nodes[atom]
+            terms = node.terms if isinstance(node, Sum) else ()
+            found = {mono: f for f, mono in map(self.decompose, terms)}
+            if all(f.denominator == 1 for f in found.values()):
+                found = {}
+            self._fractions[atom] = found
+        return found
+
+    def _without_fractions(
+        self, factor: Rational, poly: Polynomial, *, alone: bool
+    ) -> tuple[Rational, Monomial]:
+        """A number put into a sum of fractions, 4(a + b/3) as 4a + 4b/3; of masses (m₁ + 3 m₂)/3.
+
+        Twice a sum, as a derivative has it, stays twice that sum where fractions would stay in it too.
+        """
+        scaled = {mono: exact(f * factor, 1) for mono, f in poly.items()}
+        shared = whole_content(scaled.values())
+        if alone or not all(map(self._is_mass, poly)):
+            if factor in (1, -1) or (factor in (2, -2) and shared.denominator != 1):
+                return factor, ()
+            if any(abs(Fraction(f) / shared) > SMALL_WHOLE for f in scaled.values()):
+                shared = 1
+        terms = [self.product(exact(f, shared), mono, ()) for mono, f in scaled.items()]
+        own, whole = self.decompose(total(terms))
+        return shared * own, whole
+
+    def _is_mass(self, mono: Monomial) -> bool:
+        return len(mono) == 1 and mono[0][1] == 1 and self.atoms.ranks[mono[0][0]][0] is Rank.LEADING
 
     def decompose(self, node: Node) -> tuple[Rational, Monomial]:
         """(factor, monomial) of a tree that is a product; a sum counts as one atom."""
@@ -367,7 +391,7 @@ class Collector:
         if found is None:
             return None
         x, y, ratio = found
-        if self.atoms.ranks[y][0] is Rank.COORDINATE and ratio < 0:
+        if self.atoms.ranks[y][0] is Rank.COORDINATE is not self.atoms.ranks[x][0] and ratio < 0:
             x, y, ratio = y, x, exact(1, ratio)
         return join(poly, x, y, self.atoms.number(self._sum_node(x, y, ratio)))
 

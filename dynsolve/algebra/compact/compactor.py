@@ -111,7 +111,7 @@ class Compactor:
 
     def _collected(self, expr: Expr) -> Node:
         layout, terms = read_terms(expr, [group.places for group in self._groups], self._atoms.kinds)
-        return self.collector.with_plus(self._by_rates(layout, terms))
+        return self._by_rates(layout, terms)
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:
         """The compact trees of a matrix's entries."""
@@ -248,7 +248,7 @@ class Compactor:
         if factor.denominator != 1 and len({f.denominator for f in terms.values()}) > 1:
             stop = start + len(layout.leading)
             if len({e[start:stop] for e in terms}) > 1:  # m₁ r²/2 + m₂ l²/12
-                factor = factor.numerator
+                factor = 1
         if factor == 1 and not any(least):
             return (1, ()), terms
         rest = {

@@ -47,7 +47,7 @@ def common(monos: Iterable[Monomial]) -> Monomial:
 
 
 def content(factors: Iterable[Rational]) -> Rational:
-    """The factor worth drawing out: the common divisor, and a denominator if all have one.
+    """The factor worth drawing out: the common divisor of whole numbers, and a denominator if all have one.
 
     The denominator must be a multiple of the others: (m₁ + 2 m₂)/4, but a/2 + b/3 and h + d/2 + l/2.
     """
@@ -58,7 +58,7 @@ def content(factors: Iterable[Rational]) -> Rational:
     denominators = {f.denominator for f in factors}
     largest = max(denominators)
     if 1 in denominators or any(largest % d for d in denominators):
-        return shared
+        return 1
     return Fraction(shared, largest)
 
 
