@@ -12,9 +12,8 @@ from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
-from dynsolve.explain.writing import is_small, listed, spong
+from dynsolve.explain.writing import counted_sum, is_small, listed, spong
 from dynsolve.notation.tree import (
-    BigSum,
     Letter,
     Negative,
     Node,
@@ -96,7 +95,7 @@ def _in_general(n: int) -> Line:
         return letters.partial_derivative(Letter("d", Row((row, column))), Letter("q", by))
 
     def over_rates(factor: Node) -> Node:
-        return BigSum(Product((factor, Letter("q", _I, dots=1))), _I, Number(1), Number(n))
+        return counted_sum(Product((factor, Letter("q", _I, dots=1))), _I, n)
 
     place = Row((_K, _J))
     spread = Sum((slope(_K, _J, _I), Negative(SLOPES)))

@@ -29,6 +29,7 @@ from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.sums import summed
 from dynsolve.explain.writing import (
     are_counted,
+    counted_sum,
     is_small,
     listed,
     name_of,
@@ -36,8 +37,8 @@ from dynsolve.explain.writing import (
     spong,
     sum_of,
 )
+from dynsolve.notation.build import split_sign
 from dynsolve.notation.tree import (
-    BigSum,
     Letter,
     Matrix,
     Negative,
@@ -129,11 +130,9 @@ def _without_turning(context: Context) -> str:
 
 def _summed(context: Context, name: str) -> Node:
     """The sum over the bodies of what each has."""
-    own, count = _of_body(context, name), Number(len(context.robot.bodies))
-    i, first = Symbol("i"), Number(1)
-    if isinstance(own, Negative):
-        return Negative(BigSum(own.argument, i, first, count))
-    return BigSum(own, i, first, count)
+    sign, own = split_sign(_of_body(context, name))
+    added = counted_sum(own, Symbol("i"), len(context.robot.bodies))
+    return added if sign > 0 else Negative(added)
 
 
 def _of_body(context: Context, name: str) -> Node:

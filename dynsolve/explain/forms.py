@@ -19,7 +19,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
 from dynsolve.notation.tree import ZERO, Node, Product, Symbol
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
@@ -162,12 +162,10 @@ class Forms:
             for j, k in combinations_with_replacement(range(len(names)), 2):
                 entry = self.of(Expr(ring, energy.poly.derivative(rates[j]).derivative(rates[k])))
                 first, second = Symbol(names[j], 1), Symbol(names[k], 1)
-                if entry != ZERO and j == k:
+                if j == k:
                     terms.append(times(1, [(entry, 1), (first, 2)], decimal=True))
-                elif entry != ZERO:
-                    sign, bare = split_sign(entry)
-                    double = Product((tree.Number(2), *factors_of(bare), first, second))
-                    terms.append(double if sign > 0 else negated(double))
+                else:
+                    terms.append(times(2, [(entry, 1), (first, 1), (second, 1)], decimal=True))
             inner = total(terms)
         return Product((letters.HALF, *factors_of(inner)))
 

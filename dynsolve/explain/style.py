@@ -11,17 +11,15 @@ from dynsolve.robot.model import JointType, Robot
 
 
 def style_of(robot: Robot) -> Style:
-    """The style of a robot: s_1 for sin θ_1 unless something else is called that."""
+    """The style of a robot: s_1 for sin θ_1 unless something else is called like one of these."""
     subscripts = {
         q.name: ",".join(split(q.name)[1]) for q in robot.coordinates if q.type is JointType.REVOLUTE
     }
     counts = Counter(subscripts.values())
     taken = set(robot.parameters) | {q.name for q in robot.coordinates}
-    shorthand = {
-        name: subscript
-        for name, subscript in subscripts.items()
-        if subscript and counts[subscript] == 1 and not {f"s{subscript}", f"c{subscript}"} & taken
-    }
+    shorthand = {name: s for name, s in subscripts.items() if s and counts[s] == 1}
+    if any({f"s{s}", f"c{s}"} & taken for s in shorthand.values()):
+        shorthand = {}  # no cos(q_1) beside c_3
     numeric = bool(robot.bodies) and all(body.mass.is_number for body in robot.bodies)
     return Style(shorthand=shorthand, star=True, decimal=numeric)
 

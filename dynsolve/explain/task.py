@@ -10,14 +10,12 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.points import point_steps
 from dynsolve.explain.rates import determinant_step
 from dynsolve.explain.step import Detail, Group, Step
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import counted_sum, listed, spong
 from dynsolve.notation.tree import (
-    BigSum,
     Derivative,
     Letter,
     Matrix,
     Node,
-    Number,
     Product,
     Reference,
     Sum,
@@ -149,7 +147,7 @@ def _rate(context: Context, name: str, letter: Letter) -> Step:
     changed = letters.rate(letter)
     k = Symbol("k")
     term = Product((Derivative(letter, Letter("q", k)), Letter("q", k, dots=1)))
-    total = BigSum(term, k, Number(1), Number(context.robot.n))
+    total = counted_sum(term, k, context.robot.n)
     moved = Product((letter, letters.QDD))
     return Step(
         id=f"{name}_dot",

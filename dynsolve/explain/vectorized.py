@@ -17,13 +17,11 @@ from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import STATED, Detail, Part, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums, gravity_rows
-from dynsolve.explain.writing import and_joined, are_counted, listed, spong, sum_of, turns
+from dynsolve.explain.writing import and_joined, are_counted, counted_sum, listed, spong, sum_of, turns
 from dynsolve.notation.tree import (
-    BigSum,
     Letter,
     Negative,
     Node,
-    Number,
     Parenthesized,
     Product,
     Row,
@@ -183,7 +181,6 @@ def _inertia_direct(context: Context) -> Step:
         terms += [linear_name(context, body), *(() if body.is_point else (angular_name(body),))]
     rotors = (letters.DM,) if robot.actions.motors else ()
     working = equation(letters.D, sum_of([*terms, *rotors]))
-    name = Number(len(robot.bodies))
     return Step(
         id="D_direct",
         stage=STAGE,
@@ -208,7 +205,7 @@ def _inertia_direct(context: Context) -> Step:
                 )
             ),
         ),
-        formula=equation(letters.D, sum_of([BigSum(total, i, Number(1), name), *rotors])),
+        formula=equation(letters.D, sum_of([counted_sum(total, i, len(robot.bodies)), *rotors])),
         source=spong("7.2.2"),
         further=(working,),
         hint=(
@@ -248,9 +245,8 @@ def _is_short(context: Context) -> bool:
 
 def _coriolis(context: Context) -> Step:
     entry, rate = Letter("c", Row((_K, _J))), Letter("q", _I, dots=1)
-    n = Number(context.robot.n)
-    by_symbols = BigSum(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, Number(1), n)
-    by_slopes = Product((letters.HALF, BigSum(Product((SLOPES, rate)), _I, Number(1), n)))
+    by_symbols = counted_sum(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, context.robot.n)
+    by_slopes = Product((letters.HALF, counted_sum(Product((SLOPES, rate)), _I, context.robot.n)))
     Cqd = Product((letters.C, letters.QD))
     none = context.values["C"].is_zero
     why: Prose = ("Row ", _K, ", column ", _J, ". ", Cqd, " holds the centrifugal terms (a rate squared)")

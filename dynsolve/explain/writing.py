@@ -9,8 +9,8 @@ from dynsolve.document import Inline, Prose
 from dynsolve.explain.citations import craig as craig  # what stages write, in one place
 from dynsolve.explain.citations import spong as spong
 from dynsolve.notation.build import split_sign
-from dynsolve.notation.tree import ZERO, Matrix, Node, Number, Row, Sum, Words
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import ZERO, BigSum, Matrix, Node, Number, Row, Sum, Words
+from dynsolve.notation.walk import mapped, walk
 from dynsolve.robot import units
 from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 
@@ -94,6 +94,13 @@ def sum_of(terms: Sequence[Node]) -> Node:
     if not terms:
         return ZERO
     return terms[0] if len(terms) == 1 else Sum(tuple(terms))
+
+
+def counted_sum(body: Node, index: Node, count: int) -> Node:
+    """Σ_{index=1}^{count} body; of one its index put in."""
+    if count > 1:
+        return BigSum(body, index, Number(1), Number(count))
+    return mapped(body, lambda node: Number(1) if node == index else node)
 
 
 def column_of(matrix: Matrix, j: int) -> Matrix:

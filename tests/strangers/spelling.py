@@ -47,7 +47,11 @@ def misspelled(blocks: Any, style: Style) -> Iterator[tuple[str, str, str]]:
                 if isinstance(factor, tree.Sum) and _is_scalar(factor) and not _turns(factor):
                     opposite = frozenset(map(_negated, factor.terms))
                     if opposite in turned:
-                        yield "opposite", where, f"{printer.text(factor)} after {printer.text(turned[opposite])}"
+                        yield (
+                            "opposite",
+                            where,
+                            f"{printer.text(factor)} after {printer.text(turned[opposite])}",
+                        )
                     turned.setdefault(frozenset(factor.terms), factor)
         rounded = [any(isinstance(n, Number) and style.rounds(n) for n in walk(p)) for p in relation.parts]
         for i, sign in enumerate(relation.signs):
@@ -113,7 +117,9 @@ def _powers(term: Node) -> Counter[Node]:
 
 
 def _is_scalar(node: Node) -> bool:
-    return not any(isinstance(n, tree.Letter | tree.Matrix | tree.BigSum | tree.Derivative) for n in walk(node))
+    return not any(
+        isinstance(n, tree.Letter | tree.Matrix | tree.BigSum | tree.Derivative) for n in walk(node)
+    )
 
 
 def _kinds(node: Node) -> Iterator[str]:

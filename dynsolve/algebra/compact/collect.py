@@ -153,7 +153,7 @@ class Collector:
 
         A book writes 2(m₂ l² + m₃ d²) s₂ c₂ θ̇₁ θ̇₂ - 2m₃ d c₂² θ̇₁ ḋ, and draws no angle or rate out of it.
         """
-        poly = self._added(products)
+        poly = self.added(products)
         sums = Counter(
             a for mono in poly for a, _ in mono if self.atoms.ranks[a][0] in (Rank.SUM, Rank.TRIG_SUM)
         )
@@ -259,9 +259,9 @@ class Collector:
 
     def sum_of(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree, with what the products share drawn out."""
-        return self.form(self._added(products))
+        return self.form(self.added(products))
 
-    def _added(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Polynomial:
+    def added(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Polynomial:
         """The same as a polynomial in atoms."""
         poly: Polynomial = {}
         for factor, mono, node in products:

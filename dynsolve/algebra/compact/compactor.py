@@ -322,7 +322,8 @@ class Compactor:
         for mono, part in collected.items():
             sign, trig = self._atoms.trig_monomial(mono, g)
             parts.append((trig, part if sign > 0 else {e: -f for e, f in part.items()}))
-        return self.collector.sum_of(self._grouped(parts, lambda part: self._by_angles(inner, part)))
+        poly = self.collector.added(self._grouped(parts, lambda part: self._by_angles(inner, part)))
+        return self.collector.form(self._atoms.with_angles_added(poly))
 
     def _without_angles(self, layout: TermLayout, terms: Terms) -> Node:
         """The terms without angles: parameters, and velocities if these were not split off before."""

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import combinations
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.compact.atoms import AtomTable, Rank
 from dynsolve.algebra.compact.groups import AngleGroup
-from dynsolve.algebra.compact.monomials import Monomial
+from dynsolve.algebra.compact.monomials import Monomial, Polynomial, multiply
+from dynsolve.algebra.compact.terms import Rational, add_term
 from dynsolve.algebra.compact.trig_forms import TrigMonomial
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fourier import TrigFunction
 from dynsolve.algebra.generators import Generator, is_sign
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Function, Node, Number, Symbol
+
+_OTHER = {"sin": "cos", "cos": "sin"}
 
 
 class RingAtoms:
@@ -41,6 +45,9 @@ class RingAtoms:
         self._symbols: dict[int, tuple[int, int]] = {}
         self._number_symbols()
         self._trig: dict[tuple[int, TrigFunction], tuple[int, int]] = {}
+        self._functions: dict[int, tuple[str, Angle]] = {}
+        self._of_functions: dict[tuple[str, Angle], int] = {}
+        self._adds_angles = any(self._is_constant(pair.angle) for pair in ring.pairs)
 
     def _kind(self, g: Generator) -> str:
         if g.kind in ("sin", "cos", "constant"):
@@ -119,14 +126,62 @@ class RingAtoms:
         name, multiples = function
         if name == "sqrt":
             return 1, self.table.number(Function(name, Number(multiples[0])), Rank.ROOT)
-        angle = self._groups[group].angle(multiples)
+        last = max(k for k, m in enumerate(multiples) if m)
+        order = (group, last, sum(map(abs, multiples)))
+        return self._angle_atom(name, self._groups[group].angle(multiples), order)
+
+    def _angle_atom(self, name: str, angle: Angle, order: tuple[int, ...]) -> tuple[int, int]:
         sign = 1
         if self._reads_better_negated(angle):
             angle, sign = -angle, (-1 if name == "sin" else 1)
-        last = max(k for k, m in enumerate(multiples) if m)
-        order = (group, last, sum(map(abs, multiples)), name != "sin")
         node = Function(name, angle_node(angle, self.ring.names))
-        return sign, self.table.number(node, Rank.TRIG, order)
+        atom = self.table.number(node, Rank.TRIG, (*order, name != "sin"))
+        self._functions[atom] = name, angle
+        self._of_functions[name, angle] = atom
+        return sign, atom
+
+    # -- angles that are added up ------------------------------------------------------------------
+
+    def with_angles_added(self, poly: Polynomial) -> Polynomial:
+        """sin θ cos β + cos θ sin β as sin(θ + β), where one of the angles is constant."""
+        found = self._sum_of_angles(poly) if self._adds_angles else None
+        while found:
+            terms, factor, mono = found
+            poly = {m: f for m, f in poly.items() if m not in terms}
+            add_term(poly, mono, factor)
+            found = self._sum_of_angles(poly)
+        return poly
+
+    def _sum_of_angles(self, poly: Polynomial) -> tuple[tuple[Monomial, Monomial], Rational, Monomial] | None:
+        """(two terms, factor and monomial of what they are together)"""
+        for mono, factor in poly.items():
+            trig = [atom for atom, e in mono if e == 1 and atom in self._functions]
+            for a, b in combinations(trig, 2):
+                (first, alpha), (second, beta) = self._functions[a], self._functions[b]
+                turned = [
+                    self._of_functions.get((_OTHER[name], angle))
+                    for name, angle in (self._functions[a], self._functions[b])
+                ]
+                if None in turned or not (self._is_constant(alpha) or self._is_constant(beta)):
+                    continue
+                rest = tuple(part for part in mono if part[0] not in (a, b))
+                other = multiply(rest, tuple(sorted((atom, 1) for atom in turned if atom is not None)))
+                if abs(poly.get(other, 0)) != abs(factor) or alpha == beta:
+                    continue
+                ratio = 1 if poly[other] == factor else -1
+                name, angle = (
+                    ("sin", alpha + beta * ratio) if first != second else ("cos", alpha - beta * ratio)
+                )
+                order = max(self.table.ranks[atom][1][:3] for atom in (a, b))
+                sign, atom = self._angle_atom(name, angle, order)
+                if first != name:
+                    sign *= ratio
+                return (mono, other), factor * sign, multiply(rest, ((atom, 1),))
+        return None
+
+    def _is_constant(self, angle: Angle) -> bool:
+        """Whether no coordinate stands in an angle."""
+        return not any(name in self.ring.names for atom, _ in angle.terms for name, _ in atom)
 
     def _reads_better_negated(self, angle: Angle) -> bool:
         """Few minus signs, and of as many the last coordinate positive: q₁ + q₂ - q₄, and q₂ - q₁."""
