@@ -13,7 +13,6 @@ from operator import and_
 from typing import Any
 
 from dynsolve.notation import tree
-from dynsolve.notation.build import factors_of, split_sign
 from dynsolve.notation.printing import Style, flat_factors, shorthand
 from dynsolve.notation.tree import Node, Number
 from dynsolve.notation.unicode import UnicodePrinter
@@ -146,7 +145,7 @@ def _kinds_of_results(node: Node) -> Iterator[str]:
     match node:
         case tree.Sum(terms) if _is_scalar(node) and len(terms) > 1 and not _moves(node):
             shared = reduce(and_, map(_powers, terms))
-            shared = {a: e for a, e in shared.items() if not a == tree.Symbol("g")}
+            shared = {a: e for a, e in shared.items() if a != tree.Symbol("g")}
             if shared:
                 same = all(len({_powers(t)[a] for t in terms}) == 1 for a in shared)
                 yield "common factor" if same else "common factor, squared in one"
