@@ -51,7 +51,7 @@ def test_an_angle_of_zero_is_exact() -> None:
 
 def test_an_angle_of_known_sine_is_exact() -> None:
     """In q1 = atan2(4, 3), d2 = 5 the hand moves by (c1 d2' - s1 d2 q1', s1 d2' + c1 d2 q1')."""
-    assert results(POLAR)["qd"] == ["0.04*(3*vy - 4*vx)", "(3*vx + 4*vy)/5"]
+    assert results(POLAR)["qd"] == ["-0.04*(4*vx - 3*vy)", "(3*vx + 4*vy)/5"]
 
 
 def test_answers_are_judged_there() -> None:
