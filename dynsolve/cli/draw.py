@@ -37,7 +37,7 @@ def draw(
     ] = True,
     quiet: Quiet = False,
 ) -> None:
-    """Draw a manipulator from its Denavit-Hartenberg table.
+    """Draw a manipulator from its Denavit-Hartenberg table, or bodies from their positions.
 
     Joints, links, frames, lengths, joint variables, mass centres and gravity, at a
     pose where they can be seen; not to scale. SVG goes to standard output.

@@ -1,4 +1,4 @@
-"""The manipulator as textbooks draw it, from its Denavit-Hartenberg table.
+"""The manipulator as textbooks draw it, from its Denavit-Hartenberg table or its bodies' positions.
 
 From the table to a pose:
 
@@ -29,6 +29,12 @@ What is drawn of it:
     labels        where labels stand; `typography` how wide they are
     scene         all of it together
 
+Of a model by positions:
+
+    ways          the straight pieces that lead to a body: rods, slides
+    placed_pose   a pose and a view in which they stand apart
+    placed_bodies the picture
+
 Beside a step:
 
     figure        drawings beside a step, of labelled lines and angles
@@ -54,7 +60,9 @@ from dynsolve.errors import UsageError
 
 if TYPE_CHECKING:
     from dynsolve.document import Picture
+    from dynsolve.draw.scene import Scene
     from dynsolve.problem.model import Problem
+    from dynsolve.robot.model import Robot
 
 
 class PictureFormat(StrEnum):
@@ -78,21 +86,18 @@ SUFFIXES = {
 def draw(problem: Problem, format: PictureFormat = PictureFormat.SVG, *, star: bool = True) -> bytes:
     """The picture of a problem's robot; `star` marks the joint variables.
 
-    The same problem gives the same bytes.  Raises UsageError for a model without a table, and
+    The same problem gives the same bytes.  Raises UsageError for a model by matrices or energies, and
     for PDF and PNG where the extra `pdf` is not installed.
 
     >>> import dynsolve
     >>> draw(dynsolve.load("planar-2r"))[:4]
     b'<svg'
     """
-    from dynsolve.draw.scene import scene
     from dynsolve.draw.svg import to_svg
 
-    if not problem.robot.has_table:
-        raise UsageError(
-            "there is no picture of a model without a table: it says nothing of links and joints"
-        )
-    drawn = scene(problem, star)
+    if not is_drawn(problem.robot):
+        raise UsageError("there is no picture: neither a table nor positions say where anything is")
+    drawn = _scene(problem, star)
     if format is PictureFormat.LATEX:
         from dynsolve.draw.latex import to_latex_picture
 
@@ -105,12 +110,23 @@ def draw(problem: Problem, format: PictureFormat = PictureFormat.SVG, *, star: b
     return to_pdf(svg, drawn.title, drawn.description) if format is PictureFormat.PDF else to_png(svg)
 
 
+def is_drawn(robot: Robot) -> bool:
+    """Whether a file says where anything is: a table, or the positions of bodies."""
+    return robot.has_table or bool(robot.bodies)
+
+
+def _scene(problem: Problem, star: bool) -> Scene:
+    from dynsolve.draw.placed_bodies import placed_scene
+    from dynsolve.draw.scene import scene
+
+    return (scene if problem.robot.has_table else placed_scene)(problem, star)
+
+
 def picture(problem: Problem, *, star: bool = True) -> Picture:
     """The picture as a block of a document."""
     from dynsolve.document import Picture
     from dynsolve.draw.latex import to_latex_picture
-    from dynsolve.draw.scene import scene
     from dynsolve.draw.svg import to_svg
 
-    drawn = scene(problem, star)
+    drawn = _scene(problem, star)
     return Picture(to_svg(drawn), drawn.caption, to_latex_picture(drawn))

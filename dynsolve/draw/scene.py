@@ -13,14 +13,15 @@ from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, nam
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimensions, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
-from dynsolve.draw.orientation import Orientation, orientation
+from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.springs import SPRINGS, joint_springs, springs
 from dynsolve.draw.thicknesses import thicknesses
-from dynsolve.draw.vectors import NEAR, Point, dot
+from dynsolve.draw.vectors import NEAR, Point, Vector, dot
+from dynsolve.draw.view import View
 from dynsolve.draw.world_frame import WORLD, has_world, moves, world_frame
 from dynsolve.notation.characters import SUBSCRIPT_DIGITS
 from dynsolve.notation.printing import Style
@@ -49,7 +50,7 @@ OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies
 _BOLD = {"x": "𝐱", "y": "𝐲", "z": "𝐳"}
 _SUBSCRIPTS = str.maketrans("0123456789", SUBSCRIPT_DIGITS)
 _STAR = Style(star=True, decimal=True)
-_PLAIN = Style(decimal=True)
+PLAIN = Style(decimal=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +76,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     world = orientation(robot, values)
     pose = best_pose(robot, values, world, as_drawn(problem, values))
     under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
-    notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
+    notes = annotate.Notes(_STAR if star else PLAIN, Taken())
     notes.taken.add([*under, *body])
     notes.solid.add(body)
     annotate.frames(pose, world.gravity, notes)
@@ -87,7 +88,8 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     annotate.axes_end_on(pose, notes)
     thicknesses(robot, pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
-    _gravity(world, pose, [*under, *body], notes)
+    if world.gravity is not None:
+        gravity_arrow(world.gravity, pose.view, [*under, *body], notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
@@ -181,13 +183,11 @@ def _part(symbol: Symbol, rate: Fraction) -> Node:
     return times if rate.denominator == 1 else Quotient(times, Number(rate.denominator))
 
 
-def _gravity(world: Orientation, pose: Pose, body: Iterable[Path], notes: annotate.Notes) -> None:
+def gravity_arrow(gravity: Vector, view: View, body: Iterable[Path], notes: annotate.Notes) -> None:
     """The arrow of gravity, at the side where there is most room."""
-    if world.gravity is None:
-        return
     box = bounds([*body, *notes.paths])
-    end_on = pose.view.flat and abs(dot(world.gravity, pose.view.toward)) > 0.9
-    direction = None if end_on else _unit(pose.view.direction(world.gravity))
+    end_on = view.flat and abs(dot(gravity, view.toward)) > 0.9
+    direction = None if end_on else _unit(view.direction(gravity))
     places = [
         (x, y)
         for y in (box.top + 14.0, box.top + 60.0, (box.top + box.bottom) / 2)

@@ -45,6 +45,7 @@ def report(
     >>> page.decode().splitlines()[0]
     '\\documentclass[a4paper]{article}'
     """
+    from dynsolve.draw import is_drawn
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.solution.documents import solution_documents
@@ -60,7 +61,7 @@ def report(
     details = tuple(Detail) if format is Format.HTML else (detail,)
     drawn = _drawn(solution.problem, style) if format in PICTURED else None
     documents = solution_documents(solution, details, stages, Abbreviate(abbreviate), drawn)
-    if solution.robot.has_table and format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
+    if is_drawn(solution.robot) and format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
         plain = documents
         documents = attempted(lambda: _with_picture(plain, solution, star), lambda: plain, "the picture")
     if format is Format.HTML:

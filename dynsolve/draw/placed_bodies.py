@@ -1,0 +1,287 @@
+"""The picture of bodies that are given by their positions: how each is reached, and what moves it.
+
+Nothing is drawn that is not computed for these very positions: a rod is a piece whose length
+does not change, the arrow of an angle is the way of its direction from 0 to the value in the picture.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr
+from dynsolve.derivation.mechanism import orientation
+from dynsolve.draw import paths
+from dynsolve.draw.annotate import Notes
+from dynsolve.draw.labels import Label, place
+from dynsolve.draw.occupied import Taken
+from dynsolve.draw.paths import Path
+from dynsolve.draw.placed_pose import PlacedPose, placed_pose
+from dynsolve.draw.primitives import BODY, block
+from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
+from dynsolve.draw.vectors import (
+    IDENTITY,
+    NEAR,
+    ORIGIN,
+    Point,
+    Rotation,
+    Vector,
+    along,
+    any_normal,
+    cross,
+    moved,
+    unit,
+)
+from dynsolve.draw.ways import Kind, Piece, angles, swept
+from dynsolve.notation.tree import Node, Number, Symbol
+from dynsolve.problem.model import Problem
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body, JointType
+
+CAPTION = "The bodies at some values of the coordinates; not to scale. Blue arrows are the axes of the world."
+RODS = "A thick line joins points whose distance does not change."
+LINES = "A thin grey line is the way along which something slides."
+BOXES = "A box is a body that turns, or one that only slides."
+BALLS = "A ball is a point mass."
+ZERO = "An angle is 0 at its dashed line."
+
+_ARCS, _CHORD = (40.0, 60.0, 85.0, 115.0), 22.0
+"""The radius of an arc is the first with which its ends are as far apart as this."""
+_AXIS, _HALF, _BALL = 46.0, 12.0, 6.0
+_BEYOND = 34.0
+_OFFSETS = (26.0, 52.0, 78.0, 104.0, 130.0)
+_STEPS = 24
+
+
+def placed_scene(problem: Problem, star: bool = True) -> Scene:
+    """The picture of a model by positions."""
+    pose = placed_pose(problem)
+    stars = frozenset(problem.robot.ring.names) if star else frozenset()
+    notes = Notes(replace(PLAIN, stars=stars), Taken())
+    ways = [path for piece in pose.pieces for path in _way(piece, pose)]
+    solids = [path for body in _back_to_front(pose) for path in _body(body, pose)]
+    notes.taken.add([*ways, *solids])
+    _world(pose, notes)
+    _angles(pose, notes)
+    for body in pose.robot.bodies:
+        _name(body, pose, notes)
+    for piece in sorted(pose.pieces, key=lambda piece: _size(piece, pose)):
+        _length(piece, pose, notes)
+    if pose.gravity is not None:
+        gravity_arrow(pose.gravity, pose.view, [*ways, *solids], notes)
+    labels = place(notes.wanted, notes.taken, notes.lengths)
+    drawn = (*ways, *notes.behind, *solids, *notes.paths, *leads(labels))
+    return Scene(
+        problem.title or "Bodies",
+        _caption(pose, labels),
+        _description(problem),
+        drawn,
+        labels,
+        framed(drawn, labels),
+        notes.style,
+    )
+
+
+def _caption(pose: PlacedPose, labels: Sequence[Label]) -> str:
+    """What stands under the picture, with what its lines are that are not always there."""
+    balls = [body for body in pose.robot.bodies if _axes(body, pose) is None]
+    said = (
+        (RODS, any(piece.kind is Kind.ROD for piece in pose.pieces)),
+        (LINES, any(piece.kind is Kind.SLIDE for piece in pose.pieces)),
+        (BOXES, len(balls) < len(pose.robot.bodies)),
+        (BALLS, bool(balls) and all(body.is_point for body in balls)),
+        (ZERO, any(label.kind == "variable" for label in labels)),
+    )
+    return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])
+
+
+def _description(problem: Problem) -> str:
+    """What the picture shows, for those who cannot see it."""
+    robot = problem.robot
+    kinds = [
+        f"{q.name} ({'an angle' if q.type is JointType.REVOLUTE else 'a length'})" for q in robot.coordinates
+    ]
+    bodies = "one body" if len(robot.bodies) == 1 else f"{len(robot.bodies)} bodies"
+    return f"The coordinates {', '.join(kinds)} and {bodies}; not to scale."
+
+
+# -- ways ------------------------------------------------------------------------------------------
+
+
+def _size(piece: Piece, pose: PlacedPose) -> float:
+    return math.dist(pose.point(piece.start), pose.point(piece.end))
+
+
+def _way(piece: Piece, pose: PlacedPose) -> Iterator[Path]:
+    """A rod, or the line along which something slides."""
+    a, b = pose.point(piece.start), pose.point(piece.end)
+    if piece.kind is Kind.ROD:
+        yield Path(paths.line(a, b), paths.BLACK, 3.0)
+    elif piece.kind is Kind.SLIDE:
+        beyond = _BEYOND / (math.dist(a, b) or 1.0)
+        yield Path(paths.line(_between(a, b, -beyond), _between(a, b, 1 + beyond)), paths.GREY, 1.2)
+    else:
+        yield Path(paths.line(a, b), paths.GREY, 1.0, dashed=True)
+
+
+def _between(a: Point, b: Point, part: float) -> Point:
+    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])
+
+
+def _length(piece: Piece, pose: PlacedPose, notes: Notes) -> None:
+    """The name of a length: beside its rod, or on an arrow beside its line."""
+    if piece.length is None:
+        return
+    name = Compactor(pose.robot.ring, decimal=True).form(piece.length)
+    a, b = pose.point(piece.start), pose.point(piece.end)
+    reach = math.dist(a, b)
+    if reach < NEAR:
+        return
+    way = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    across = -way[1], way[0]
+    shared = [p for p in pose.pieces if (p.start, p.direction) == (piece.start, piece.direction)]
+    if piece.kind is Kind.ROD and len(shared) == 1:
+        notes.label(
+            name, [_between(a, b, part) for part in (0.5, 0.6, 0.4, 0.7)], across, paths.BLACK, "length"
+        )
+        return
+    colour = paths.VARIABLE if piece.kind is Kind.SLIDE else paths.BLACK
+
+    def cost(offset: float) -> float:
+        start, end = moved(a, across, offset), moved(b, across, offset)
+        return (
+            40 * notes.taken.on_line(start, end) + 10 * notes.lengths.on_line(start, end) + abs(offset) / 20
+        )
+
+    offset = min((side * away for away in _OFFSETS for side in (1.0, -1.0)), key=cost)
+    start, end = moved(a, across, offset), moved(b, across, offset)
+    beyond = offset + math.copysign(5.0, offset)
+    line = Path(paths.line(start, moved(end, way, -6.0)), colour, 1.2)
+    heads = [Path(paths.head(end, way), None, fill=colour)]
+    if piece.kind is not Kind.SLIDE:
+        heads.append(Path(paths.head(start, (-way[0], -way[1])), None, fill=colour))
+    ticks = [
+        Path(
+            paths.line(moved(p, across, 4.0 * math.copysign(1, offset)), moved(p, across, beyond)),
+            paths.GREY,
+            0.8,
+        )
+        for p in (a, b)
+    ]
+    notes.draw(*ticks, line, *heads)
+    notes.lengths.add([line])
+    anchors = [_between(start, end, part) for part in (0.5, 0.6, 0.4, 0.7, 0.3)]
+    notes.label(name, anchors, (across[0] * offset, across[1] * offset), colour, "length")
+
+
+# -- bodies ----------------------------------------------------------------------------------------
+
+
+def _center(body: Body, pose: PlacedPose) -> Vector:
+    return pose.vector(body.center.entries)
+
+
+def _back_to_front(pose: PlacedPose) -> list[Body]:
+    return sorted(pose.robot.bodies, key=lambda body: pose.view.depth(_center(body, pose)))
+
+
+def _body(body: Body, pose: PlacedPose) -> Sequence[Path]:
+    """A disk that turns as it slides, a box that turns or slides along a line, or a ball."""
+    center, view = _center(body, pose), pose.view
+    at = view.point(center)
+    axes = _axes(body, pose)
+    if axes is None:
+        return (Path(paths.circle(at, _BALL), paths.WHITE, 1.2, paths.BLACK),)
+    return block(center, axes, (_HALF,) * 3, view, view.up, BODY).paths
+
+
+def _axes(body: Body, pose: PlacedPose) -> Rotation | None:
+    """The axes of a body's box; None of a ball."""
+    if body.turns:
+        return pose.axes(orientation(pose.robot, body))
+    way = pose.ways[pose.robot.bodies.index(body)]
+    if {piece.kind for piece in way} - {Kind.FIXED} != {Kind.SLIDE} or any(piece.turns for piece in way):
+        return None
+    first = unit(pose.vector(way[-1].direction))
+    second = pose.view.toward if pose.view.flat else any_normal(first)
+    return first, second, cross(first, second)
+
+
+def _name(body: Body, pose: PlacedPose, notes: Notes) -> None:
+    """The mass of a body, or what moment of inertia it has instead."""
+    at = pose.view.point(_center(body, pose))
+    compactor = Compactor(pose.robot.ring, decimal=True)
+    node: Node
+    if not body.mass.is_zero:
+        node = compactor.form(body.mass)
+    else:
+        moments = [] if body.inertia is None else [x for x in body.inertia.entries if not x.is_zero]
+        node = compactor.form(moments[0]) if len(moments) == 1 else Symbol(f"body {body.name}")
+    radius = _BALL if _axes(body, pose) is None else _HALF
+    notes.label(node, [at], (0.0, 0.0), paths.BLACK, "mass", radius)
+
+
+# -- the world and angles --------------------------------------------------------------------------
+
+
+def _world(pose: PlacedPose, notes: Notes) -> None:
+    """The axes of the world."""
+    at = pose.view.point(ORIGIN)
+    for letter, axis in zip("xyz", IDENTITY, strict=True):
+        x, y = pose.view.direction(axis)
+        if math.hypot(x, y) < NEAR:
+            continue
+        tip = moved(at, (x, y), _AXIS)
+        back = moved(at, (x, y), _AXIS - 6.0 / math.hypot(x, y))
+        notes.draw(
+            Path(paths.line(at, back), paths.WHITE, 4.2),
+            Path(paths.line(at, back), paths.FRAME, 1.6),
+            Path(paths.head(tip, (x, y)), None, fill=paths.FRAME),
+        )
+        notes.label(letters.bold(letter, Number(0)), [tip], (x, y), paths.FRAME, "axis")
+
+
+def _angles(pose: PlacedPose, notes: Notes) -> None:
+    """The angles that turn a piece or a body, each at the first that it turns."""
+    robot = pose.robot
+    turning = [q.name for q in robot.coordinates if q.type is JointType.REVOLUTE]
+    given = sorted(angles(robot.ring) & set(robot.ring.parameters))
+    for name in (*turning, *given):
+        piece = next((piece for piece in pose.pieces if swept(robot.ring, name, *piece.direction)), None)
+        if piece is not None:
+            _angle(name, pose.vector(piece.start), piece.direction, pose, notes)
+            continue
+        for body in robot.bodies:
+            turned = orientation(robot, body)
+            columns = (turned.column_at(k).entries for k in range(3))
+            column = next((c for c in columns if swept(robot.ring, name, *c)), None)
+            if column is not None:
+                _angle(name, _center(body, pose), column, pose, notes, line=True)
+                break
+
+
+def _angle(
+    name: str, vertex: Vector, direction: Sequence[Expr], pose: PlacedPose, notes: Notes, line: bool = False
+) -> None:
+    view = pose.view
+    colour = paths.VARIABLE if name in pose.robot.ring.names else paths.BLACK
+    end, at = pose.values[name], view.point(vertex)
+    turned = [unit(pose.vector(direction, **{name: end * k / _STEPS})) for k in range(_STEPS + 1)]
+    for radius in _ARCS:
+        way = [view.point(along(vertex, each, view.space(radius))) for each in turned]
+        if math.dist(way[0], way[-1]) > _CHORD:
+            break
+    zero = _between(at, way[0], 1.4)
+    notes.draw(Path(paths.line(at, zero), paths.GREY, 1.0, dashed=True), behind=True)
+    if line:
+        notes.draw(Path(paths.line(at, _between(at, way[-1], 1.4)), paths.BLACK, 1.6))
+    tip, before = way[-1], way[-4]
+    notes.draw(
+        Path(paths.line(*way[:-3]), colour, 1.4),
+        Path(paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.0), None, fill=colour),
+    )
+    anchors = [way[k] for k in (_STEPS // 2, _STEPS // 3, 2 * _STEPS // 3)]
+    toward = anchors[0][0] - at[0], anchors[0][1] - at[1]
+    notes.label(Symbol(name), anchors, toward, colour, "variable")

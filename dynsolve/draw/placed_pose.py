@@ -1,0 +1,189 @@
+"""A pose of bodies that are given by their positions, and the view of it, in which nothing falls together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+from random import Random
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.draw.drawn_lengths import drawn_length, finite
+from dynsolve.draw.vectors import (
+    IDENTITY,
+    NEAR,
+    Point,
+    Rotation,
+    Vector,
+    dot,
+    length,
+    point_to_segment,
+    scale,
+    unit,
+)
+from dynsolve.draw.view import View, facing, oblique
+from dynsolve.draw.ways import Piece, Place, angles, ways
+from dynsolve.problem.model import Problem
+from dynsolve.robot.model import JointType, Robot
+
+_TRIES = 160
+_SEED = 1955
+_SIZE = 300.0
+"""How wide or high all points together are on paper."""
+
+_LENGTHS = (0.55, 0.75, 1.0, 1.25)
+_PLACES = (0.6, 1.6)
+_ANGLES = (0.35, 1.2)
+_SLOPES = (0.35, 0.7)
+"""Between which values lengths that slide, angles that turn and constant ones are drawn; in radians."""
+
+_AZIMUTHS = (-0.9, -0.6, 0.5, 0.8, 1.1)
+_ELEVATION = 0.4
+_ENOUGH = 0.22
+"""Points that are further apart than this part of the whole picture are no better for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedPose:
+    """Bodies in numbers: the value of every name, the ways to the bodies, and how they are seen."""
+
+    robot: Robot
+    ways: tuple[tuple[Piece, ...], ...]
+    values: Mapping[str, float]
+    view: View
+    gravity: Vector | None
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The pieces of all ways, each once."""
+        return tuple(dict.fromkeys(piece for way in self.ways for piece in way))
+
+    def vector(self, place: Iterable[Expr], **changed: float) -> Vector:
+        """A point or a direction, perhaps at other values of some names."""
+        return _vector(place, {**self.values, **changed})
+
+    def point(self, place: Place) -> Point:
+        """Where a point is on paper."""
+        return self.view.point(self.vector(place))
+
+    def axes(self, turned: Matrix, **changed: float) -> Rotation:
+        """The columns of a rotation."""
+        x, y, z = (self.vector(turned.column_at(k).entries, **changed) for k in range(3))
+        return x, y, z
+
+
+def placed_pose(problem: Problem) -> PlacedPose:
+    """The pose and the view, of some that are drawn by lot, in which points and pieces are furthest apart."""
+    robot = problem.robot
+    found, random = ways(robot), Random(_SEED)  # noqa: S311 - the same poses every time are wanted
+    pieces = tuple(dict.fromkeys(piece for way in found for piece in way))
+    first = _values(problem, pieces, random)
+    x, y, z = _vector(robot.gravity.entries, first)
+    gravity = unit((x, y, z)) if length((x, y, z)) > NEAR else None
+    views = tuple(_views(robot, found, gravity))
+    best: tuple[float, Mapping[str, float], View] = (-math.inf, first, views[0])
+    for _ in range(_TRIES):
+        view = random.choice(views)
+        try:
+            values = _values(problem, pieces, random)
+            score = _score(pieces, values, view)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            continue
+        if score > best[0]:
+            best = score, values, view
+    _, chosen, view = best
+    return PlacedPose(
+        robot, found, chosen, view.sized(_SIZE / _extent(_points(pieces, chosen, view))), gravity
+    )
+
+
+def _vector(place: Iterable[Expr], values: Mapping[str, float]) -> Vector:
+    x, y, z = (finite(entry, values) for entry in place)
+    return x, y, z
+
+
+def _values(problem: Problem, pieces: Sequence[Piece], random: Random) -> dict[str, float]:
+    """A value for every name: lengths near 1, those of the file in their order; angles of their own."""
+    robot = problem.robot
+    values = {name: random.choice(_LENGTHS) for name in robot.ring.parameters}
+    turned = angles(robot.ring)
+    values |= {name: random.uniform(*_SLOPES) for name in sorted(turned & set(values))}
+    given = {name: float(value) for name, value in problem.values.items() if name in values}
+    entries = [entry for piece in pieces for entry in (*piece.start, *piece.end)]
+    lengths = {name: value for name, value in given.items() if name not in turned and _occurs(name, entries)}
+    longest = max(map(abs, lengths.values()), default=0.0)
+    values |= {name: given[name] for name in given if name not in lengths}
+    values |= {name: drawn_length(value / longest) for name, value in lengths.items() if longest}
+    for q in robot.coordinates:
+        span = _ANGLES if q.type is JointType.REVOLUTE else _PLACES
+        values |= {q.name: random.uniform(*span), q.velocity: 0.0, q.acceleration: 0.0}
+    return {**values, "pi": math.pi}
+
+
+def _occurs(name: str, entries: Iterable[Expr]) -> bool:
+    return any(
+        entry.poly.degrees()[entry.ring.symbol_indices[name, 0]] > 0 for entry in entries if not entry.is_zero
+    )
+
+
+def _views(robot: Robot, found: Iterable[Iterable[Piece]], gravity: Vector | None) -> Iterator[View]:
+    """The plane from its front, where all moves in one of the world's planes; else some from above."""
+    places = [piece.end for way in found for piece in way]
+    for k, toward in ((2, IDENTITY[2]), (1, scale(IDENTITY[1], -1.0)), (0, IDENTITY[0])):
+        level = gravity is None or abs(gravity[k]) < NEAR
+        if level and all(place[k].is_zero for place in places) and _turn_about(robot, k):
+            up = scale(gravity, -1.0) if gravity else IDENTITY[1 if k == 2 else 2]
+            yield facing(toward, up)
+            return
+    up = scale(gravity, -1.0) if gravity else IDENTITY[2]
+    ahead = next(axis for axis in IDENTITY if abs(dot(axis, up)) < 0.9)
+    yield from (oblique(up, ahead, azimuth, _ELEVATION) for azimuth in _AZIMUTHS)
+
+
+def _turn_about(robot: Robot, k: int) -> bool:
+    """Whether all bodies turn about one axis of the world."""
+    turns = [turn.axis.entries for body in robot.bodies for turn in body.turns]
+    return all(entry.is_zero for axis in turns for j, entry in enumerate(axis) if j != k)
+
+
+def _points(pieces: Sequence[Piece], values: Mapping[str, float], view: View) -> dict[Place, Point]:
+    places = dict.fromkeys(place for piece in pieces for place in (piece.start, piece.end))
+    return {place: view.point(_vector(place, values)) for place in places}
+
+
+def _extent(points: Mapping[Place, Point]) -> float:
+    """How wide or high points are together, whichever is more."""
+    return max((max(c) - min(c) for c in zip(*points.values(), strict=True)), default=0.0) or _SIZE
+
+
+def _score(pieces: Sequence[Piece], values: Mapping[str, float], view: View) -> float:
+    """How far the nearest points, or a point and a piece that it is no end of, are apart; and the rest."""
+    points = _points(pieces, values, view)
+    apart = [math.dist(a, b) for a, b in combinations(points.values(), 2)]
+    for piece in pieces:
+        same = {piece.start} | {
+            p.end for p in pieces if (p.start, p.direction) == (piece.start, piece.direction)
+        }
+        a, b = points[piece.start], points[piece.end]
+        apart += [point_to_segment(point, a, b) for place, point in points.items() if place not in same]
+    extent = _extent(points)
+    parts = [min(d / extent, _ENOUGH) for d in apart] or [0.0]
+    return min(parts) + 0.1 * sum(parts) / len(parts) - _disorder(pieces, points)
+
+
+def _disorder(pieces: Sequence[Piece], points: Mapping[Place, Point]) -> int:
+    """How many pieces on one line from one point do not follow each other in the order of the file.
+
+    A piece at whose end another begins is the last: a link reaches beyond its mass centre.
+    """
+    starts = {piece.start for piece in pieces}
+    lines: dict[tuple[Place, Place], list[Piece]] = {}
+    for piece in sorted(pieces, key=lambda piece: piece.end in starts):
+        lines.setdefault((piece.start, piece.direction), []).append(piece)
+    return sum(
+        math.dist(points[a.start], points[a.end]) > math.dist(points[b.start], points[b.end])
+        for line in lines.values()
+        for a, b in pairwise(line)
+    )

@@ -1,0 +1,132 @@
+"""Pictures of bodies that are given by their positions."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from dynsolve.draw import draw, is_drawn
+from dynsolve.draw.drawn_lengths import finite
+from dynsolve.draw.placed_bodies import BALLS, BOXES, RODS, placed_scene
+from dynsolve.draw.vectors import NEAR, distance
+from dynsolve.draw.ways import Kind, Piece, Place, ways
+from dynsolve.errors import UsageError
+from dynsolve.notation.tree import Symbol
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import load, read_problem
+from dynsolve.problem.model import Problem
+from tests.support import ALL_PROBLEMS
+from tests.unit.draw.pictures import names, overlapping, struck_through
+
+TESTS = Path(__file__).parents[2]
+PLACED = [
+    *(path for path in ALL_PROBLEMS if "\n  bodies:" in path.read_text(encoding="utf-8")),
+    TESTS / "golden" / "models" / "acrobot.yaml",
+    TESTS / "golden" / "models" / "disk-down-a-slope.yaml",
+    TESTS / "golden" / "models" / "sapienza-2022-09-pulley.yaml",
+    TESTS / "golden" / "constraints" / "sapienza-2017-07-pp-line.yaml",
+    TESTS / "golden" / "asked" / "goldstein-2-18-hoop.yaml",
+    TESTS / "golden" / "asked" / "sapienza-2016-10-three-masses.yaml",
+    TESTS / "strangers" / "cases" / "stability-beside-a-length.yaml",
+]
+
+LINKS = "at: [0.5*cos(a) + 0.3*cos(a + b), 0.5*sin(a) + 0.3*sin(a + b), 0]"
+SPACE = "at: [r*cos(a) - l*sin(b)*sin(a), r*sin(a) + l*sin(b)*cos(a), l*cos(b)]"
+ELLIPSE = "at: [l*cos(a), r*sin(a), b*0]"
+HUNG = "at: [l + r*sin(a), r*cos(a)/2 + r*cos(a)/2, b]"
+CURVE = "at: [b*cos(a), b*sin(a), b^2/r]"
+
+
+def bodies(*written: str) -> Problem:
+    listed = "".join(f"\n    - {{mass: m{i}, {text}}}" for i, text in enumerate(written, 1))
+    types = "{a: revolute, b: prismatic}" if {HUNG, CURVE} & set(written) else "{a: revolute, b: revolute}"
+    return read_problem(f"model:\n  coordinates: {types}\n  bodies:{listed}".encode(), "bodies.yaml")
+
+
+@pytest.mark.parametrize("path", PLACED, ids=lambda path: path.stem)
+def test_labels_keep_apart_and_each_body_is_named_once(path: Path) -> None:
+    problem = load(path)
+    picture = placed_scene(problem, star=False)
+    assert overlapping(picture) == [] and struck_through(picture) == []
+    frame = picture.frame
+    for label in picture.labels:
+        assert frame.left <= label.box.left and label.box.right <= frame.right
+        assert frame.top <= label.box.top and label.box.bottom <= frame.bottom
+    assert len(names(picture, "mass")) == len(problem.robot.bodies)
+    shown = names(picture)
+    assert all(to_unicode(Symbol(q.name)) in shown for q in problem.robot.coordinates)
+
+
+@pytest.mark.parametrize("written", [LINKS, SPACE, ELLIPSE, HUNG, CURVE])
+def test_the_pieces_lead_to_the_body_and_a_rod_keeps_its_length(written: str) -> None:
+    """Held to numbers at random states."""
+    robot = bodies(written).robot
+    (way,) = ways(robot)
+    random = Random(7)
+    parameters = {name: random.uniform(0.5, 2.0) for name in robot.ring.parameters}
+    sizes: dict[Piece, set[float]] = {}
+    for _ in range(4):
+        values = parameters | {q.name: random.uniform(-2, 2) for q in robot.coordinates}
+
+        def at(place: Place, values: dict[str, float] = values) -> tuple[float, float, float]:
+            x, y, z = (finite(entry, values) for entry in place)
+            return x, y, z
+
+        x, y, z = robot.bodies[0].center.entries
+        assert way[-1].end == (x, y, z) and all(a.end == b.start for a, b in pairwise(way))
+        assert distance(at(way[0].start), (0.0, 0.0, 0.0)) < NEAR
+        for piece in way:
+            size = distance(at(piece.start), at(piece.end))
+            sizes.setdefault(piece, set()).add(round(size, 9))
+            if piece.length is not None:
+                assert size == pytest.approx(abs(finite(piece.length, values)))
+    for piece, found in sizes.items():
+        assert (len(found) == 1) == (piece.kind in (Kind.ROD, Kind.FIXED))
+
+
+@pytest.mark.parametrize(
+    ("written", "kinds"),
+    [
+        (LINKS, [Kind.ROD, Kind.ROD]),
+        (SPACE, [Kind.ROD, Kind.ROD]),
+        (ELLIPSE, [Kind.OTHER, Kind.OTHER]),
+        (HUNG, [Kind.FIXED, Kind.SLIDE, Kind.ROD]),
+        (CURVE, [Kind.SLIDE, Kind.SLIDE]),
+    ],
+)
+def test_what_is_a_rod(written: str, kinds: list[Kind]) -> None:
+    problem = bodies(written)
+    assert [piece.kind for piece in ways(problem.robot)[0]] == kinds
+    assert (RODS in placed_scene(problem).caption) == (Kind.ROD in kinds)
+
+
+def test_the_way_to_a_body_leads_by_another_that_lies_on_it() -> None:
+    """Whatever the order of the coordinates and of the terms."""
+    robot = bodies("at: [r*cos(b), r*sin(b), 0]", "at: [l*cos(a) + r*cos(b), l*sin(a) + r*sin(b), 0]").robot
+    first, second = ways(robot)
+    assert second[: len(first)] == first
+
+
+def test_a_ball_is_a_point_mass_and_a_box_turns_or_slides() -> None:
+    assert BALLS in placed_scene(bodies(SPACE)).caption
+    turned = placed_scene(bodies(f"{SPACE}, turn: a, inertia: {{zz: I}}"))
+    assert BOXES in turned.caption and BALLS not in turned.caption
+
+
+def test_an_angle_is_drawn_from_where_it_is_0() -> None:
+    """On paper, of the pendulum of a cart: from the upright, to the right."""
+    picture = placed_scene(load(next(path for path in ALL_PROBLEMS if path.stem == "cart-pole")))
+    (zero,) = (path for path in picture.paths if path.dashed)
+    (_, (a,)), (_, (b,)) = zero.commands
+    assert math.isclose(a[0], b[0]) and b[1] < a[1]
+
+
+def test_energies_have_no_picture() -> None:
+    problem = load(next(path for path in ALL_PROBLEMS if path.stem == "ball-and-beam"))
+    assert not is_drawn(problem.robot)
+    with pytest.raises(UsageError, match="say where anything is"):
+        draw(problem)
