@@ -20,6 +20,7 @@
     remarks         what the problem's author says of results, as notes
     earlier_results which of the equations before it a step uses
     depths          what a depth shows of the steps
+    notebook        how a solution shows itself in a notebook
     summary         its closing section: the model, its matrices, the forces row by row
     reports         that document as text, LaTeX, PDF, HTML or Markdown
 
