@@ -129,6 +129,33 @@ def test_a_minus_stands_where_a_textbook_has_it(written: str, printed: str) -> N
     assert compact(written) == printed
 
 
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        ("a*(2*m1/3 + 2*m2)*sin(q1)", "2*a*(m1 + 3*m2)*sin(q1)/3"),
+        ("a*(m1/3 + m2)*sin(q1)", "a*(m1 + 3*m2)*sin(q1)/3"),
+        ("4*m1*a^2/3 + 4*m1*b^2 + m1*c^2/4", "m1*(4*a**2/3 + 4*b**2 + c**2/4)"),
+        ("(4*sin(q1) + sin(q2)/2)*a", "a*(4*sin(q1) + sin(q2)/2)"),
+        ("m1*(a^2/12 + b^2)", "m1*(a**2/12 + b**2)"),
+    ],
+)
+def test_no_number_stands_before_a_sum_of_fractions(written: str, printed: str) -> None:
+    assert compact(written) == printed
+
+
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        ("sin(q1)*cos(beta) - cos(q1)*sin(beta)", "sin(q1 - beta)"),
+        ("sin(beta)*cos(phi) + cos(beta)*sin(phi)", "sin(beta + phi)"),
+        ("m1*g*(cos(q1)*cos(beta) - sin(q1)*sin(beta))", "m1*g*cos(q1 + beta)"),
+        ("a*cos(q1)*sin(beta) + b*sin(q1)*cos(beta)", "b*sin(q1)*cos(beta) + a*cos(q1)*sin(beta)"),
+    ],
+)
+def test_a_constant_angle_is_added_to_another(written: str, printed: str) -> None:
+    assert compact(written) == printed
+
+
 QUANTITIES = ["D", "C", "g", "tau", "K", "P", "L", "ddt1", "dLdq1", "H1"]
 
 
