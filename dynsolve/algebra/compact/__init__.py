@@ -18,7 +18,8 @@ it keeps the shorter result.
    angles α₁ = θ₂ and α₂ = θ₂ + θ₃ it is cos α₁ cos α₂ + sin α₁ sin α₂, and its Fourier
    form (`algebra.fourier`) has the one term cos(α₂ - α₁).  An angle that
    does not move is a group by itself, and is added to another where a sum asks for that,
-   sin(θ + β) (`ring_atoms`).  `constant_forms` does the same for polynomials in the cosine of a constant angle (4 cos³10° - 3 cos 10° = √3/2).
+   sin(θ + β) (`ring_atoms`).  `constant_forms` does the same for
+   polynomials in the cosine of a constant angle (4 cos³10° - 3 cos 10° = √3/2).
 
 3. Collect (`collect`): velocities that share a coefficient are merged, (q̇₂ + q̇₃), and a
    few products of them with other coefficients stand apart; then sines and cosines; the
