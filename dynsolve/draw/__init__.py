@@ -33,6 +33,7 @@ Of a model by positions:
 
     ways          the straight pieces that lead to a body: rods, slides
     placed_pose   a pose and a view in which they stand apart
+    placed_springs springs and dampers between the points that they act on
     placed_bodies the picture
 
 Beside a step:

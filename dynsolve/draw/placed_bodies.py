@@ -11,15 +11,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.derivation.mechanism import orientation
 from dynsolve.draw import paths
 from dynsolve.draw.annotate import Notes
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.occupied import Taken
 from dynsolve.draw.paths import Path
-from dynsolve.draw.placed_pose import PlacedPose, placed_pose
-from dynsolve.draw.primitives import BODY, block
+from dynsolve.draw.placed_pose import PlacedPose, Turning, placed_pose
+from dynsolve.draw.placed_springs import placed_springs
+from dynsolve.draw.primitives import BODY, block, half_axes
 from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
 from dynsolve.draw.vectors import (
     IDENTITY,
@@ -28,13 +28,18 @@ from dynsolve.draw.vectors import (
     Point,
     Rotation,
     Vector,
+    add,
     along,
     any_normal,
     cross,
+    dot,
+    length,
     moved,
+    scale,
     unit,
 )
-from dynsolve.draw.ways import Kind, Piece, angles, swept
+from dynsolve.draw.view import View
+from dynsolve.draw.ways import Kind, Piece
 from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
@@ -44,6 +49,7 @@ CAPTION = "The bodies at some values of the coordinates; not to scale. Blue arro
 RODS = "A thick line joins points whose distance does not change."
 LINES = "A thin grey line is the way along which something slides."
 BOXES = "A box is a body that turns, or one that only slides."
+DISKS = "A disk turns in proportion to a length; the point in which it touches its line is at rest."
 BALLS = "A ball is a point mass."
 ZERO = "An angle is 0 at its dashed line."
 
@@ -60,22 +66,30 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
     pose = placed_pose(problem)
     stars = frozenset(problem.robot.ring.names) if star else frozenset()
     notes = Notes(replace(PLAIN, stars=stars), Taken())
-    ways = [path for piece in pose.pieces for path in _way(piece, pose)]
-    solids = [path for body in _back_to_front(pose) for path in _body(body, pose)]
-    notes.taken.add([*ways, *solids])
+    bodies = sorted(pose.robot.bodies, key=lambda body: pose.view.depth(_center(body, pose)))
+    lines = [_way(piece, pose) for piece in pose.pieces if piece.kind is not Kind.ROD]
+    rods = [_way(piece, pose) for piece in pose.pieces if piece.kind is Kind.ROD]
+    disks = [path for body in bodies if pose.rolls(body) for path in _body(body, pose)]
+    others = [path for body in bodies if not pose.rolls(body) for path in _body(body, pose)]
+    seen = (*lines, *disks, *rods, *others)
+    notes.taken.add(seen)
+    notes.solid.add([*disks, *others])
     _world(pose, notes)
-    _angles(pose, notes)
+    turning = list(pose.turning(_STEPS))
+    for turned in turning:
+        _angle(turned, pose, notes)
     for body in pose.robot.bodies:
         _name(body, pose, notes)
+    said = placed_springs(pose, turning, _HALF, notes)
     for piece in sorted(pose.pieces, key=lambda piece: _size(piece, pose)):
         _length(piece, pose, notes)
     if pose.gravity is not None:
-        gravity_arrow(pose.gravity, pose.view, [*ways, *solids], notes)
+        gravity_arrow(pose.gravity, pose.view, seen, notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
-    drawn = (*ways, *notes.behind, *solids, *notes.paths, *leads(labels))
+    drawn = (*notes.behind, *seen, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Bodies",
-        _caption(pose, labels),
+        " ".join([_caption(pose, labels), *said]),
         _description(problem),
         drawn,
         labels,
@@ -90,7 +104,8 @@ def _caption(pose: PlacedPose, labels: Sequence[Label]) -> str:
     said = (
         (RODS, any(piece.kind is Kind.ROD for piece in pose.pieces)),
         (LINES, any(piece.kind is Kind.SLIDE for piece in pose.pieces)),
-        (BOXES, len(balls) < len(pose.robot.bodies)),
+        (BOXES, any(_axes(body, pose) and not pose.rolls(body) for body in pose.robot.bodies)),
+        (DISKS, any(pose.rolls(body) for body in pose.robot.bodies)),
         (BALLS, bool(balls) and all(body.is_point for body in balls)),
         (ZERO, any(label.kind == "variable" for label in labels)),
     )
@@ -114,16 +129,15 @@ def _size(piece: Piece, pose: PlacedPose) -> float:
     return math.dist(pose.point(piece.start), pose.point(piece.end))
 
 
-def _way(piece: Piece, pose: PlacedPose) -> Iterator[Path]:
-    """A rod, or the line along which something slides."""
+def _way(piece: Piece, pose: PlacedPose) -> Path:
+    """A rod, the line along which something slides, or what is neither."""
     a, b = pose.point(piece.start), pose.point(piece.end)
     if piece.kind is Kind.ROD:
-        yield Path(paths.line(a, b), paths.BLACK, 3.0)
-    elif piece.kind is Kind.SLIDE:
+        return Path(paths.line(a, b), paths.BLACK, 3.0)
+    if piece.kind is Kind.SLIDE:
         beyond = _BEYOND / (math.dist(a, b) or 1.0)
-        yield Path(paths.line(_between(a, b, -beyond), _between(a, b, 1 + beyond)), paths.GREY, 1.2)
-    else:
-        yield Path(paths.line(a, b), paths.GREY, 1.0, dashed=True)
+        return Path(paths.line(_between(a, b, -beyond), _between(a, b, 1 + beyond)), paths.GREY, 1.2)
+    return Path(paths.line(a, b), paths.GREY, 1.0, dashed=True)
 
 
 def _between(a: Point, b: Point, part: float) -> Point:
@@ -183,10 +197,6 @@ def _center(body: Body, pose: PlacedPose) -> Vector:
     return pose.vector(body.center.entries)
 
 
-def _back_to_front(pose: PlacedPose) -> list[Body]:
-    return sorted(pose.robot.bodies, key=lambda body: pose.view.depth(_center(body, pose)))
-
-
 def _body(body: Body, pose: PlacedPose) -> Sequence[Path]:
     """A disk that turns as it slides, a box that turns or slides along a line, or a ball."""
     center, view = _center(body, pose), pose.view
@@ -194,7 +204,25 @@ def _body(body: Body, pose: PlacedPose) -> Sequence[Path]:
     axes = _axes(body, pose)
     if axes is None:
         return (Path(paths.circle(at, _BALL), paths.WHITE, 1.2, paths.BLACK),)
+    rolls = pose.rolls(body)
+    if rolls is not None:
+        return tuple(_disk(center, axes, *rolls, view))
     return block(center, axes, (_HALF,) * 3, view, view.up, BODY).paths
+
+
+def _disk(center: Vector, axes: Rotation, spin: Vector, speed: Vector, view: View) -> Iterator[Path]:
+    """A disk with a spoke, and the line that it touches in the point that is at rest."""
+    at, size = view.point(center), dot(spin, spin)
+    to_rest = scale(cross(spin, speed), 1.0 / size)
+    radius = length(to_rest) or size**-0.5
+    if length(speed) > NEAR:
+        ground = add(center, to_rest)
+        ends = (view.point(along(ground, unit(speed), side * 2.5 * radius)) for side in (-1.0, 1.0))
+        yield Path(paths.line(*ends), paths.BLACK, 2.0)
+    rim = paths.ellipse(at, *half_axes(unit(spin), view, radius * view.size))
+    yield Path(rim, fill=BODY.top)
+    spoke = min(axes, key=lambda axis: abs(dot(axis, spin)))
+    yield Path(paths.line(at, view.point(along(center, spoke, radius))), paths.BLACK, 1.4)
 
 
 def _axes(body: Body, pose: PlacedPose) -> Rotation | None:
@@ -235,47 +263,27 @@ def _world(pose: PlacedPose, notes: Notes) -> None:
             continue
         tip = moved(at, (x, y), _AXIS)
         back = moved(at, (x, y), _AXIS - 6.0 / math.hypot(x, y))
-        notes.draw(
+        arrow = (
             Path(paths.line(at, back), paths.WHITE, 4.2),
             Path(paths.line(at, back), paths.FRAME, 1.6),
             Path(paths.head(tip, (x, y)), None, fill=paths.FRAME),
         )
+        notes.draw(*arrow)
+        notes.solid.add(arrow)
         notes.label(letters.bold(letter, Number(0)), [tip], (x, y), paths.FRAME, "axis")
 
 
-def _angles(pose: PlacedPose, notes: Notes) -> None:
-    """The angles that turn a piece or a body, each at the first that it turns."""
-    robot = pose.robot
-    turning = [q.name for q in robot.coordinates if q.type is JointType.REVOLUTE]
-    given = sorted(angles(robot.ring) & set(robot.ring.parameters))
-    for name in (*turning, *given):
-        piece = next((piece for piece in pose.pieces if swept(robot.ring, name, *piece.direction)), None)
-        if piece is not None:
-            _angle(name, pose.vector(piece.start), piece.direction, pose, notes)
-            continue
-        for body in robot.bodies:
-            turned = orientation(robot, body)
-            columns = (turned.column_at(k).entries for k in range(3))
-            column = next((c for c in columns if swept(robot.ring, name, *c)), None)
-            if column is not None:
-                _angle(name, _center(body, pose), column, pose, notes, line=True)
-                break
-
-
-def _angle(
-    name: str, vertex: Vector, direction: Sequence[Expr], pose: PlacedPose, notes: Notes, line: bool = False
-) -> None:
-    view = pose.view
-    colour = paths.VARIABLE if name in pose.robot.ring.names else paths.BLACK
-    end, at = pose.values[name], view.point(vertex)
-    turned = [unit(pose.vector(direction, **{name: end * k / _STEPS})) for k in range(_STEPS + 1)]
+def _angle(turned: Turning, pose: PlacedPose, notes: Notes) -> None:
+    """The arrow of an angle, from the line where it is 0."""
+    view, at = pose.view, pose.view.point(turned.vertex)
+    colour = paths.VARIABLE if turned.name in pose.robot.ring.names else paths.BLACK
     for radius in _ARCS:
-        way = [view.point(along(vertex, each, view.space(radius))) for each in turned]
+        way = [view.point(along(turned.vertex, each, view.space(radius))) for each in turned.directions]
         if math.dist(way[0], way[-1]) > _CHORD:
             break
     zero = _between(at, way[0], 1.4)
     notes.draw(Path(paths.line(at, zero), paths.GREY, 1.0, dashed=True), behind=True)
-    if line:
+    if turned.is_axis:
         notes.draw(Path(paths.line(at, _between(at, way[-1], 1.4)), paths.BLACK, 1.6))
     tip, before = way[-1], way[-4]
     notes.draw(
@@ -284,4 +292,4 @@ def _angle(
     )
     anchors = [way[k] for k in (_STEPS // 2, _STEPS // 3, 2 * _STEPS // 3)]
     toward = anchors[0][0] - at[0], anchors[0][1] - at[1]
-    notes.label(Symbol(name), anchors, toward, colour, "variable")
+    notes.label(Symbol(turned.name), anchors, toward, colour, "variable")

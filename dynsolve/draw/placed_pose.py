@@ -10,6 +10,8 @@ from random import Random
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.constraints import constraint_functions, holonomic
+from dynsolve.derivation.mechanism import angular_jacobian, orientation, position_jacobian
 from dynsolve.draw.drawn_lengths import drawn_length, finite
 from dynsolve.draw.vectors import (
     IDENTITY,
@@ -24,16 +26,19 @@ from dynsolve.draw.vectors import (
     unit,
 )
 from dynsolve.draw.view import View, facing, oblique
-from dynsolve.draw.ways import Piece, Place, angles, ways
+from dynsolve.draw.ways import Piece, Place, angles, swept, ways
+from dynsolve.notation.walk import names_in
 from dynsolve.problem.model import Problem
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model import Body, JointType, Robot
 
 _TRIES = 160
+_ROUNDS = 30
 _SEED = 1955
 _SIZE = 300.0
 """How wide or high all points together are on paper."""
 
 _LENGTHS = (0.55, 0.75, 1.0, 1.25)
+_RADII = (0.16, 0.24)
 _PLACES = (0.6, 1.6)
 _ANGLES = (0.35, 1.2)
 _SLOPES = (0.35, 0.7)
@@ -46,6 +51,19 @@ _ENOUGH = 0.22
 
 
 @dataclass(frozen=True, slots=True)
+class Turning:
+    """What an angle turns at a vertex: its unit directions from where the angle is 0 to its value.
+
+    `is_axis` says that it is an axis of a body, and no piece.
+    """
+
+    name: str
+    vertex: Vector
+    directions: tuple[Vector, ...]
+    is_axis: bool
+
+
+@dataclass(frozen=True, slots=True)
 class PlacedPose:
     """Bodies in numbers: the value of every name, the ways to the bodies, and how they are seen."""
 
@@ -54,6 +72,38 @@ class PlacedPose:
     values: Mapping[str, float]
     view: View
     gravity: Vector | None
+
+    def turning(self, steps: int) -> Iterator[Turning]:
+        """What each angle turns: the first piece, else the first body."""
+        robot, ring = self.robot, self.robot.ring
+        coordinates = [q.name for q in robot.coordinates if q.type is JointType.REVOLUTE]
+        turned: list[tuple[Sequence[Expr], Sequence[Expr], bool]] = [
+            (piece.start, piece.direction, False) for piece in self.pieces
+        ]
+        for body in robot.bodies:
+            axes, center = orientation(robot, body), body.center.entries
+            turned += [(center, axes.column_at(k).entries, True) for k in range(3) if body.turns]
+        for name in (*coordinates, *sorted(angles(ring) & set(ring.parameters))):
+            for vertex, direction, is_axis in turned:
+                if swept(ring, name, *direction):
+                    values = (self.values[name] * k / steps for k in range(steps + 1))
+                    directions = tuple(unit(self.vector(direction, **{name: value})) for value in values)
+                    yield Turning(name, self.vector(vertex), directions, is_axis)
+                    break
+
+    def rolls(self, body: Body) -> tuple[Vector, Vector] | None:
+        """ω and v of a body for the first length that turns it; None where none does."""
+        robot = self.robot
+        columns = zip(
+            robot.coordinates,
+            angular_jacobian(robot, body).T.rows,
+            position_jacobian(robot, body.center).T.rows,
+            strict=True,
+        )
+        for q, spin, moved in columns:
+            if q.type is JointType.PRISMATIC and not all(entry.is_zero for entry in spin):
+                return self.vector(spin), self.vector(moved)
+        return None
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
@@ -64,7 +114,7 @@ class PlacedPose:
         """A point or a direction, perhaps at other values of some names."""
         return _vector(place, {**self.values, **changed})
 
-    def point(self, place: Place) -> Point:
+    def point(self, place: Iterable[Expr]) -> Point:
         """Where a point is on paper."""
         return self.view.point(self.vector(place))
 
@@ -83,11 +133,12 @@ def placed_pose(problem: Problem) -> PlacedPose:
     x, y, z = _vector(robot.gravity.entries, first)
     gravity = unit((x, y, z)) if length((x, y, z)) > NEAR else None
     views = tuple(_views(robot, found, gravity))
+    held = constraint_functions(robot, {}).entries if holonomic(robot) else ()
     best: tuple[float, Mapping[str, float], View] = (-math.inf, first, views[0])
     for _ in range(_TRIES):
         view = random.choice(views)
         try:
-            values = _values(problem, pieces, random)
+            values = _kept(robot, held, _values(problem, pieces, random))
             score = _score(pieces, values, view)
         except (ValueError, ZeroDivisionError, OverflowError):
             continue
@@ -109,6 +160,8 @@ def _values(problem: Problem, pieces: Sequence[Piece], random: Random) -> dict[s
     robot = problem.robot
     values = {name: random.choice(_LENGTHS) for name in robot.ring.parameters}
     turned = angles(robot.ring)
+    rolled = names_in(*(turn.angle for body in robot.bodies for turn in body.turns)) - set(robot.ring.names)
+    values |= {name: random.choice(_RADII) for name in sorted(rolled & set(values))}
     values |= {name: random.uniform(*_SLOPES) for name in sorted(turned & set(values))}
     given = {name: float(value) for name, value in problem.values.items() if name in values}
     entries = [entry for piece in pieces for entry in (*piece.start, *piece.end)]
@@ -120,6 +173,19 @@ def _values(problem: Problem, pieces: Sequence[Piece], random: Random) -> dict[s
         span = _ANGLES if q.type is JointType.REVOLUTE else _PLACES
         values |= {q.name: random.uniform(*span), q.velocity: 0.0, q.acceleration: 0.0}
     return {**values, "pi": math.pi}
+
+
+def _kept(robot: Robot, held: Sequence[Expr], values: dict[str, float]) -> dict[str, float]:
+    """The values, the coordinates moved until each constraint holds; ValueError where none is near."""
+    for _ in range(_ROUNDS if held else 0):
+        for h in held:
+            slopes = [finite(robot.ring.diff(h, k), values) for k in range(robot.n)]
+            step = finite(h, values) / sum(slope**2 for slope in slopes)
+            for q, slope in zip(robot.coordinates, slopes, strict=True):
+                values[q.name] -= step * slope
+    if any(abs(finite(h, values)) > NEAR for h in held):
+        raise ValueError(values)
+    return values
 
 
 def _occurs(name: str, entries: Iterable[Expr]) -> bool:

@@ -11,8 +11,10 @@ import pytest
 
 from dynsolve.draw import draw, is_drawn
 from dynsolve.draw.drawn_lengths import finite
-from dynsolve.draw.placed_bodies import BALLS, BOXES, RODS, placed_scene
-from dynsolve.draw.vectors import NEAR, distance
+from dynsolve.draw.placed_bodies import BALLS, BOXES, DISKS, RODS, placed_scene
+from dynsolve.draw.placed_pose import placed_pose
+from dynsolve.draw.placed_springs import DAMPERS, NOT_DRAWN, SPRINGS
+from dynsolve.draw.vectors import NEAR, cross, distance, dot, scale
 from dynsolve.draw.ways import Kind, Piece, Place, ways
 from dynsolve.errors import UsageError
 from dynsolve.notation.tree import Symbol
@@ -130,3 +132,51 @@ def test_energies_have_no_picture() -> None:
     assert not is_drawn(problem.robot)
     with pytest.raises(UsageError, match="say where anything is"):
         draw(problem)
+
+
+CART = """
+model:
+  coordinates: {x: prismatic, y: prismatic, a: revolute}
+  bodies:
+    - {mass: M, at: [x, 0, 0]}
+    - {mass: m, at: [y + r, 0, 0]}
+    - {mass: mp, at: [x + l*sin(a), -l*cos(a), 0]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("acts", "drawn", "said"),
+    [
+        ("springs: [{stiffness: k, of: x}]", ["k"], SPRINGS),
+        ("springs: [{stiffness: 2*k, of: a}]", ["2k"], SPRINGS),
+        ("dampers: [{damping: b, of: x}]", ["b"], DAMPERS),
+        ("springs: [{stiffness: k, of: x - y}]", [], NOT_DRAWN),  # the bodies are y + r - x apart
+        ("springs: [{stiffness: k, of: x + a*l}]", [], NOT_DRAWN),
+        ("springs: [{energy: k*sin(a)^2}]", [], NOT_DRAWN),
+    ],
+)
+def test_springs_and_dampers_are_where_they_act(acts: str, drawn: list[str], said: str) -> None:
+    """Between two points whose distance they act on, or at an angle; of the others it is said."""
+    picture = placed_scene(read_problem(f"{CART}{acts}".encode(), "cart.yaml"), star=False)
+    assert [*names(picture, "spring"), *names(picture, "damper")] == drawn
+    assert [each for each in (SPRINGS, DAMPERS, NOT_DRAWN) if each in picture.caption] == [said]
+    assert overlapping(picture) == []
+
+
+def test_a_disk_touches_its_line_where_it_is_at_rest() -> None:
+    """Of a disk of radius r above the axis x it is that axis, whatever r is."""
+    text = "model:\n  coordinates: {x: prismatic}\n  bodies:\n    - {mass: m, at: [x, r, 0], turn: -x/r}"
+    problem = read_problem(f"{text}\ngravity: [0, -g, 0]".encode(), "disk.yaml")
+    (body,) = problem.robot.bodies
+    pose = placed_pose(problem)
+    rolls = pose.rolls(body)
+    assert rolls is not None and DISKS in placed_scene(problem).caption
+    to_rest = scale(cross(*rolls), 1.0 / dot(rolls[0], rolls[0]))
+    assert to_rest == pytest.approx((0.0, -pose.values["r"], 0.0))
+
+
+def test_a_pose_keeps_the_constraints() -> None:
+    path = TESTS / "golden" / "constraints" / "sapienza-2017-07-pp-line.yaml"
+    values = placed_pose(load(path)).values
+    q1, q2, alpha, k0 = (values[name] for name in ("q1", "q2", "alpha", "k0"))
+    assert -q1 * math.cos(alpha) + q2 * math.sin(alpha) + k0 == pytest.approx(0.0, abs=1e-5)
