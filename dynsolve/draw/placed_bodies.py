@@ -212,9 +212,8 @@ def _body(body: Body, pose: PlacedPose) -> Sequence[Path]:
 
 def _disk(center: Vector, axes: Rotation, spin: Vector, speed: Vector, view: View) -> Iterator[Path]:
     """A disk with a spoke, and the line that it touches in the point that is at rest."""
-    at, size = view.point(center), dot(spin, spin)
-    to_rest = scale(cross(spin, speed), 1.0 / size)
-    radius = length(to_rest) or size**-0.5
+    at, radius = view.point(center), _radius(spin, speed)
+    to_rest = scale(cross(spin, speed), 1.0 / dot(spin, spin))
     if length(speed) > NEAR:
         ground = add(center, to_rest)
         ends = (view.point(along(ground, unit(speed), side * 2.5 * radius)) for side in (-1.0, 1.0))
@@ -223,6 +222,11 @@ def _disk(center: Vector, axes: Rotation, spin: Vector, speed: Vector, view: Vie
     yield Path(rim, fill=BODY.top)
     spoke = min(axes, key=lambda axis: abs(dot(axis, spin)))
     yield Path(paths.line(at, view.point(along(center, spoke, radius))), paths.BLACK, 1.4)
+
+
+def _radius(spin: Vector, speed: Vector) -> float:
+    """How far from the centre the point at rest is, if the centre moves."""
+    return (length(speed) or 1.0) / length(spin)
 
 
 def _axes(body: Body, pose: PlacedPose) -> Rotation | None:
@@ -247,7 +251,9 @@ def _name(body: Body, pose: PlacedPose, notes: Notes) -> None:
     else:
         moments = [] if body.inertia is None else [x for x in body.inertia.entries if not x.is_zero]
         node = compactor.form(moments[0]) if len(moments) == 1 else Symbol(f"body {body.name}")
+    rolls = pose.rolls(body)
     radius = _BALL if _axes(body, pose) is None else _HALF
+    radius = radius if rolls is None else pose.view.size * _radius(*rolls)
     notes.label(node, [at], (0.0, 0.0), paths.BLACK, "mass", radius)
 
 

@@ -167,7 +167,7 @@ def _values(problem: Problem, pieces: Sequence[Piece], random: Random) -> dict[s
     entries = [entry for piece in pieces for entry in (*piece.start, *piece.end)]
     lengths = {name: value for name, value in given.items() if name not in turned and _occurs(name, entries)}
     longest = max(map(abs, lengths.values()), default=0.0)
-    values |= {name: given[name] for name in given if name not in lengths}
+    values |= {name: value for name, value in given.items() if name not in lengths and name not in rolled}
     values |= {name: drawn_length(value / longest) for name, value in lengths.items() if longest}
     for q in robot.coordinates:
         span = _ANGLES if q.type is JointType.REVOLUTE else _PLACES
