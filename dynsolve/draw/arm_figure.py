@@ -31,7 +31,7 @@ _END_ON = 0.12
 def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | None:
     """The arm of a figure as a block of a document; None where no such pose is found."""
     robot, values = problem.robot, numbers(problem)
-    world = orientation(robot, values)
+    world = orientation(robot, values, problem.normals is not None)
     found = held_pose(robot, values, world, figure.zeros)
     if found is None:
         return None

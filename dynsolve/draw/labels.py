@@ -43,6 +43,9 @@ _CLASH = 5000.0
 _CROSSING = 2.0
 """What the lines of two labels cross, or nearly so, when they come nearer to each other."""
 
+_PASSING = 1.0
+"""The least room between a label and the line of another."""
+
 _BESIDE, _ABOVE = 7.0, 2.0
 """The least room between two labels."""
 
@@ -85,8 +88,8 @@ class _Place:
         """Whether two labels and their lines keep off each other."""
         return not (
             self.box.overlaps(other.box, _BESIDE, _ABOVE)
-            or (other.lead and self.box.meets(*other.lead))
-            or (self.lead and other.box.meets(*self.lead))
+            or (other.lead and self.box.grown(_PASSING).meets(*other.lead))
+            or (self.lead and other.box.grown(_PASSING).meets(*self.lead))
             or (self.lead and other.lead and segment_distance(self.lead, other.lead) < _CROSSING)
         )
 

@@ -20,7 +20,7 @@ _AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0, 110.0, 128.0)
 """How far beside what it measures a line may run, in picture units."""
 
 _SLANTS = (0.0, math.radians(35), math.radians(-35))
-_SLANTED = 110.0
+_SLANTED = 400.0
 """By how much the way to it may lean, where links on both sides are in its way, and what that costs."""
 
 _SHORT = 20.0
@@ -32,7 +32,7 @@ _RESERVED = 60.0
 _UNDER, _ACROSS, _HEAD = 12.0, 4.0, 8.0
 """What each cell costs that is taken under a length's line, under those to its ends, and under a head."""
 
-_ON_LINK = 150.0
+_ON_LINK = 1000.0
 """What it costs to run over a link or a joint."""
 
 _CUT = 60.0

@@ -6,7 +6,18 @@ from dataclasses import dataclass
 
 from dynsolve.draw.drawn_lengths import RobotNumbers, finite
 from dynsolve.draw.skeleton import DrawnFrame, Skeleton, base_frame, skeleton
-from dynsolve.draw.vectors import Vector, any_normal, cross, dot, length, scale, subtract, unit
+from dynsolve.draw.vectors import (
+    IDENTITY,
+    ORIGIN,
+    Vector,
+    any_normal,
+    cross,
+    dot,
+    length,
+    scale,
+    subtract,
+    unit,
+)
 from dynsolve.robot.model import JointType, Robot
 
 _FLAT = 1e-6
@@ -27,9 +38,13 @@ class Orientation:
     normal: Vector | None
 
 
-def orientation(robot: Robot, numbers: RobotNumbers) -> Orientation:
-    """Which way is up for a robot, and the plane that it moves in."""
-    base = base_frame(numbers)
+def orientation(robot: Robot, numbers: RobotNumbers, drawn: bool = False) -> Orientation:
+    """Which way is up for a robot, and the plane that it moves in.
+
+    It is seen from a side of frame 0; a robot that is `drawn` from a side of the drawing's axes,
+    wherever the table has put frame 0: from behind it would be mirrored.
+    """
+    base = DrawnFrame(ORIGIN, IDENTITY) if drawn else base_frame(numbers)
     gravity = _gravity(robot, numbers)
     normal = _normal(robot, numbers, base)
     if normal is not None and not _leans(normal, gravity):

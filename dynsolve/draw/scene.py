@@ -73,7 +73,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     """The picture of a problem's robot, drawn from its table at a pose where it shows best."""
     robot = problem.robot
     values = numbers(problem)
-    world = orientation(robot, values)
+    world = orientation(robot, values, problem.normals is not None)
     pose = best_pose(robot, values, world, as_drawn(problem, values))
     under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
     notes = annotate.Notes(_STAR if star else PLAIN, Taken())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
@@ -350,11 +351,27 @@ def _are_parallel(first: tuple[Point, Point], second: tuple[Point, Point]) -> bo
     return abs(x * v - y * u) < 0.01 * math.hypot(x, y) * math.hypot(u, v)
 
 
-def _shafts(picture: Scene) -> list[tuple[Point, Point]]:
-    """The lines of the lengths that do not vary."""
+def _shafts(picture: Scene, colours: Sequence[str] = (BLACK,)) -> list[tuple[Point, Point]]:
+    """The lines of the lengths that do not vary, and of those that do in the colour of these."""
     pieces = (
         flattened(p.commands)
         for p in picture.paths
-        if (p.stroke, p.width, p.fill, p.dashed) == (BLACK, 1.0, None, False)
+        if p.stroke in colours and (p.width, p.fill, p.dashed) == (1.0, None, False)
     )
     return [piece for (piece,) in pieces]
+
+
+@pytest.mark.parametrize("name", ["in3140-rp", "rp-parameters", "planar-2r"])
+def test_lengths_are_straight_beside_what_they_measure(name: str) -> None:
+    """The thin lines to their ends are at right angles to them, where links leave any room for that."""
+    picture = drawn(next(path for path in LIBRARY if path.stem == name))
+    shafts = _shafts(picture, (BLACK, VARIABLE))
+    thin = [path for path in picture.paths if (path.stroke, path.width) == (GREY, 0.7) and not path.dashed]
+    ends = [(a, b) for path in thin for (_, (a,)), (_, (b,)) in [path.commands]]
+    assert len(ends) >= 2 * len(shafts)
+    for p, q in shafts:
+        near = [(a, b) for a, b in ends if min(math.dist(b, p), math.dist(b, q)) < 12.0]
+        assert len(near) >= 2
+        for a, b in near:
+            across = (b[0] - a[0]) * (q[0] - p[0]) + (b[1] - a[1]) * (q[1] - p[1])
+            assert abs(across) < 1e-6 * math.dist(a, b) * math.dist(p, q)
