@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from random import Random
 
-from dynsolve.draw.drawn_lengths import RobotNumbers
+from dynsolve.algebra.expr import Expr
+from dynsolve.draw.drawn_lengths import RobotNumbers, finite
 from dynsolve.draw.orientation import Orientation
 from dynsolve.draw.pose import Choice, Pose, cost_of, taste
 from dynsolve.draw.pose_search import improved, options_of, pose_of
@@ -21,7 +22,7 @@ _DIFFERENCE, _CLOSE = 1e-6, 1e-9
 
 
 def held_pose(
-    robot: Robot, numbers: RobotNumbers, orientation: Orientation, zeros: Sequence[Node]
+    robot: Robot, numbers: RobotNumbers, orientation: Orientation, zeros: Sequence[Node | Expr]
 ) -> tuple[Pose, Mapping[str, float]] | None:
     """A pose in which all formulas are 0, and the values of all symbols there; None where none is found."""
     options = options_of(robot, orientation)
@@ -47,7 +48,7 @@ def held_pose(
 class _Formulas:
     """Formulas at poses; prismatic coordinates of a pose are in picture lengths."""
 
-    def __init__(self, robot: Robot, numbers: RobotNumbers, zeros: Sequence[Node]) -> None:
+    def __init__(self, robot: Robot, numbers: RobotNumbers, zeros: Sequence[Node | Expr]) -> None:
         self.robot, self.numbers, self.zeros = robot, numbers, zeros
 
     def values(self, q: Sequence[float]) -> dict[str, float]:
@@ -62,7 +63,10 @@ class _Formulas:
     def at(self, q: Sequence[float]) -> list[float]:
         """The formulas' values."""
         values = self.values(q)
-        return [float(evaluate(zero, values)) for zero in self.zeros]
+        return [
+            finite(zero, values) if isinstance(zero, Expr) else float(evaluate(zero, values))
+            for zero in self.zeros
+        ]
 
     def zero_near(self, start: Sequence[float]) -> tuple[float, ...] | None:
         """A pose near another at which everything is 0, by Newton's method; None where none is found."""

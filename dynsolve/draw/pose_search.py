@@ -72,7 +72,11 @@ def best_pose(
     tried = [tuple(_pick(random, values) for values in options) for _ in range(_SAMPLES)]
     starts = sorted(set(tried), key=lambda choice: (cost(choice), choice))[:_IMPROVED]
     best = min((improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
-    pose = pose_of(robot, numbers, orientation, best, slid_in)
+    return dressed(robot, numbers, pose_of(robot, numbers, orientation, best, slid_in))
+
+
+def dressed(robot: Robot, numbers: RobotNumbers, pose: Pose) -> Pose:
+    """A pose with its mass centres and bodies, and the links that the table does not have."""
     body = with_masses(robot, numbers, pose.skeleton, partial(clearance, pose))
     more = (*closing_links(robot, body), *last_links(robot, body, pose.view.space(_BEYOND)))
     parts = replace(pose.parts, links=(*pose.parts.links, *more))

@@ -6,17 +6,20 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.drawn_motion import drawn_coordinates
+from dynsolve.derivation.rules import derive
 from dynsolve.draw import annotate, paths
 from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
+from dynsolve.draw.held_pose import held_pose
 from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, names_of_angles, parallels
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimensions, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
-from dynsolve.draw.orientation import orientation
+from dynsolve.draw.orientation import Orientation, orientation
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
-from dynsolve.draw.pose_search import best_pose
+from dynsolve.draw.pose_search import best_pose, dressed
 from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.springs import SPRINGS, joint_springs, springs
 from dynsolve.draw.thicknesses import thicknesses
@@ -74,7 +77,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     robot = problem.robot
     values = numbers(problem)
     world = orientation(robot, values, problem.normals is not None)
-    pose = best_pose(robot, values, world, as_drawn(problem, values))
+    pose = allowed_pose(robot, values, world) or best_pose(robot, values, world, as_drawn(problem, values))
     under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
     notes = annotate.Notes(_STAR if star else PLAIN, Taken())
     notes.taken.add([*under, *body])
@@ -101,6 +104,14 @@ def scene(problem: Problem, star: bool = True) -> Scene:
         framed(paths, labels),
         notes.style,
     )
+
+
+def allowed_pose(robot: Robot, values: RobotNumbers, world: Orientation) -> Pose | None:
+    """A pose that the constraints allow; None without constraints on poses, or where none is found."""
+    if not holonomic(robot):
+        return None
+    found = held_pose(robot, values, world, derive(robot)["hc"].entries)
+    return found and dressed(robot, values, found[0])
 
 
 def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[Label]) -> str:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.draw.drawn_lengths import generic_numbers
+from dynsolve.draw.drawn_lengths import generic_numbers, numbers
 from dynsolve.draw.loops import closing_links
+from dynsolve.draw.orientation import orientation
+from dynsolve.draw.scene import allowed_pose, scene
 from dynsolve.draw.skeleton import skeleton
+from dynsolve.draw.vectors import subtract
 from dynsolve.problem import load, read_problem
 from dynsolve.robot.model import Robot
 from tests.support import LIBRARY
@@ -44,3 +47,26 @@ def test_what_only_looks_closed_in_one_pose_is_open(third: str, length: str, loo
 @pytest.mark.parametrize("name", ["planar-2r", "scara-rrpr"])
 def test_a_chain_has_no_loop(name: str) -> None:
     assert closed(load(next(path for path in LIBRARY if path.stem == name)).robot) == []
+
+
+ARMS = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {from: 0, theta: q3*, a: l3}, {theta: q4*, a: l4}]"
+ENDS = "points: {A: {link: 2, at: [0, 0, 0]}, B: {link: 4, at: [0, 0, 0]}}"
+
+
+@pytest.mark.parametrize(("apart", "gap"), [("", 0.0), (" - l0", 1.0)])
+def test_constraints_hold_in_the_picture(apart: str, gap: float) -> None:
+    """Two ends of a tree that its constraints keep together, or level and a length apart, are drawn so."""
+    text = f"{ARMS}\n{ENDS}\nconstraints: [A.x - B.x{apart}, A.y - B.y]"
+    problem = read_problem(f"{text}\nmasses: [{{mass: m, link: 1, center: tip}}]".encode(), "loop.yaml")
+    values = numbers(problem)
+    pose = allowed_pose(problem.robot, values, orientation(problem.robot, values))
+    assert pose is not None
+    ends = subtract(pose.skeleton.frames[2].origin, pose.skeleton.frames[4].origin)
+    assert ends == pytest.approx((gap, 0.0, 0.0), abs=1e-6)
+    assert scene(problem).paths
+
+
+def test_without_constraints_every_pose_is_allowed() -> None:
+    problem = read_problem(f"{ARMS}\n".encode(), "tree.yaml")
+    values = numbers(problem)
+    assert allowed_pose(problem.robot, values, orientation(problem.robot, values)) is None
