@@ -12,10 +12,9 @@ from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.placed_bodies import turned
 from dynsolve.explain.task import with_letters
-from dynsolve.explain.writing import listed, measured, name_of, side_by_side
+from dynsolve.explain.writing import and_joined, listed, measured, name_of, side_by_side
 from dynsolve.notation.tree import (
     ZERO,
-    Letter,
     Node,
     Relation,
     Row,
@@ -75,13 +74,16 @@ def _of_position(forms: Forms, body: Body) -> Prose:
     told += ("of mass ", measured(forms.of(body.mass), "kg"), ", is at ", _row(forms.of, body.center), ".")
     if body.inertia is None:
         return told
-    moments = [
-        equation(Letter("I", Words(2 * axis)), measured(forms.of(body.inertia[i, i]), "kg m^2"))
-        for i, axis in enumerate("xyz")
-        if not body.inertia[i, i].is_zero
-    ]
-    about: Prose = (" About its mass centre ", side_by_side(moments), ".") if moments else ()
-    return (*told, " ", *turned(body), *about)
+    axes: dict[Expr, list[str]] = {}
+    for i, axis in enumerate("xyz"):
+        if not body.inertia[i, i].is_zero:
+            axes.setdefault(body.inertia[i, i], []).append(axis)
+    moments: Prose = ()
+    for value, alike in axes.items():
+        about = f"axis {alike[0]}" if len(alike) == 1 else f"axes {and_joined(alike)}"
+        moments += (f" Its moment of inertia about {about} through its mass centre is ",)
+        moments += (measured(forms.of(value), "kg m^2"), ".")
+    return (*told, " ", *turned(body), *moments)
 
 
 # -- what is asked around the model ----------------------------------------------------------------

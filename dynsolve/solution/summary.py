@@ -67,7 +67,9 @@ def _model(
     if detail is Detail.FULL:
         yield Text(model.why)
     assert model.formula is not None
-    yield Formula(model.formula, source=model.source)
+    yield Formula(model.formula, source=model.source if detail > Detail.RESULTS else "")
+    if short is not None and short.at_symbols:
+        yield from _names(by_id, short)
     found = Reference(_MATRICES, ", ")
     matrices = tuple(_results(by_id, [name for name in _MATRICES if name in by_id]))
     yield Text(("With the matrices" if model.result else "The matrices", " of this robot", found, ":"))
@@ -75,8 +77,6 @@ def _model(
         yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
     else:
         yield from matrices
-    if short is not None and short.at_symbols:
-        yield from _names(by_id, short)
     yield from _lines(model)
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if not model.lines and all(name in by_id for name in forces):
@@ -87,7 +87,7 @@ def _model(
 
 def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
     """What the names in C, or in all of the matrices, stand for."""
-    where: Prose = ("these",) if short.inertias and short.inertias.definitions else (letters.C,)
+    where: Prose = ("the matrices",) if short.inertias and short.inertias.definitions else (letters.C,)
     below: Prose = ("In ", *where, " and in the rows below")
     defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
     meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
@@ -102,7 +102,7 @@ def _long_model(robot: Robot, model: Step, by_id: Mapping[str, Step], detail: De
     """Of a long model where D, C and g are; these themselves where no stage shows them."""
     if detail is Detail.RESULTS:
         assert model.formula is not None
-        yield Formula(model.formula, source=model.source)
+        yield Formula(model.formula)
         for name in ("D", "christoffel", "g"):
             step = by_id[name]
             yield from (Formula(result, entries=step.entries) for result in step.result)

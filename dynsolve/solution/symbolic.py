@@ -6,7 +6,6 @@ from typing import Any
 
 import sympy
 
-from dynsolve.notation.latex import to_latex
 from dynsolve.notation.tree import (
     Degrees,
     Function,
@@ -22,35 +21,6 @@ from dynsolve.notation.tree import (
     Symbol,
 )
 from dynsolve.notation.tree_values import plain_name
-
-
-class Rate(sympy.Symbol):  # type: ignore[misc]
-    r"""A velocity or an acceleration: the symbol `q1_dot`, which LaTeX shows as \dot{q}_1.
-
-    >>> rate = Rate("q1_dot", real=True)
-    >>> sympy.latex(2 * rate)
-    '2 \\dot{q}_{1}'
-    >>> rate == sympy.Symbol("q1_dot", real=True)
-    True
-    """
-
-    __slots__ = ()
-
-    @classmethod
-    def class_key(cls) -> Any:
-        """That of a symbol, so that expressions are sorted as if it were one."""
-        return sympy.Symbol.class_key()
-
-    def _latex(self, printer: Any) -> str:
-        name, _, dots = self.name.rpartition("_")
-        return to_latex(Symbol(name, len(dots) - len("ot")))
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, sympy.Symbol) and self._hashable_content() == other._hashable_content()
-
-    def __hash__(self) -> int:
-        return hash(sympy.Symbol(self.name, real=True))
-
 
 _FUNCTIONS = {"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt, "sgn": sympy.sign}
 
@@ -83,8 +53,6 @@ class _Converter:
                 return sympy.pi * sympy.Rational(p, 180 * q)
             case Symbol("pi", 0):
                 return sympy.pi
-            case Symbol(dots=dots) if dots:
-                return Rate(plain_name(node), real=True)
             case Symbol():
                 return sympy.Symbol(plain_name(node), real=True)
             case Sum(terms):

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import pytest
 
-from dynsolve.document import Table
+from dynsolve.document import Block, Table, Text
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Symbol
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk, with_children
+from dynsolve.render.references import unfolded
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
 from tests.unit.explain.test_abbreviated_steps import displayed
@@ -144,10 +146,19 @@ def relations(table: Table | None) -> list[Any]:
     return [row[1] for row in table.rows]
 
 
+def told(blocks: Iterable[Block]) -> Iterator[Node]:
+    """The displayed formulas and those in sentences, in their order."""
+    for block in unfolded(blocks):
+        if isinstance(block, Text):
+            yield from (part for part in block.parts if isinstance(part, Relation))
+        else:
+            yield from displayed([block])
+
+
 @pytest.mark.parametrize("detail", list(Detail))
 @pytest.mark.parametrize("problem", ["elbow-3r", "planar-2r", "puma560-first3"])
 def test_names_are_defined_before_they_are_used(detail: Detail, problem: str) -> None:
-    shown = list(displayed(solution_document(solved(problem), detail).blocks))
+    shown = list(told(solution_document(solved(problem), detail).blocks))
     for one in named(problem).definitions:
         first = next(node for node in shown if one.name in set(walk(node)))
         assert isinstance(first, Relation)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import copy
 from html.parser import HTMLParser
 
 import pytest
-import sympy
 
 import dynsolve
 from dynsolve.errors import UsageError
-from dynsolve.solution.symbolic import Rate
 
 
 class _Tags(HTMLParser):
@@ -61,14 +58,3 @@ def test_pages_at_a_depth(solution: dynsolve.Solution) -> None:
     assert 'id="brief" checked' in solution.to_html("brief")
     with pytest.raises(UsageError, match="long is no depth"):
         solution.to_markdown("long")
-
-
-def test_rates_are_symbols_that_latex_shows_with_dots(solution: dynsolve.Solution) -> None:
-    plain = sympy.Symbol("theta1_dot", real=True)
-    (rate,) = (one for one in solution.tau.free_symbols if one.name == "theta1_dot")
-    assert sympy.latex(rate) == "\\dot{\\theta}_{1}"
-    assert {plain: 1}[rate] == {rate: 1}[plain] == 1
-    assert rate - plain == 0
-    assert solution.tau[0].diff(plain) == solution.tau[0].diff(rate) != 0
-    assert copy.deepcopy(rate) == plain
-    assert sympy.latex(Rate("q2_ddot", real=True)) == "\\ddot{q}_{2}"

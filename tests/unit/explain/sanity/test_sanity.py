@@ -208,7 +208,7 @@ def test_joints_that_gravity_does_not_load(problem: str, told: str | None) -> No
 def test_a_check_has_its_id_and_speaks_of_some_robots_only(record: Check) -> None:
     found = [
         record.step(context(problem))
-        for problem in ("planar-2r", "planar-2r-remote", "elbow-3r", "cartesian-pp", "elastic-joint", POINTS)
+        for problem in ("planar-2r", "planar-2r-remote", "elbow-3r", "five-bar", "elastic-joint", POINTS)
     ]
     assert {step.id for step in found if step is not None} == {record.id} and None in found
 
