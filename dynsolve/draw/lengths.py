@@ -63,7 +63,7 @@ class Length:
 
 
 def row_lengths(robot: Robot, pose: Pose) -> list[Length]:
-    """d and a of every row that has them."""
+    """d and a of every row that has them; branches that begin with the same length share it."""
     found = []
     for joint, leg in zip(robot.joints, pose.skeleton.legs, strict=True):
         _, d, a, _ = joint.written
@@ -73,7 +73,7 @@ def row_lengths(robot: Robot, pose: Pose) -> list[Length]:
         start, end = (leg.start, leg.foot) if distance(leg.start, leg.foot) > NEAR else (leg.head, leg.end)
         if distance(start, end) > NEAR:
             found.append(Length(start, end, unsigned(a)))
-    return found
+    return list(dict.fromkeys(found))
 
 
 def unsigned(node: Node) -> Node:

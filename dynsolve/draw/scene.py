@@ -21,7 +21,7 @@ from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose, dressed
 from dynsolve.draw.solids import ground, solids
-from dynsolve.draw.springs import SPRINGS, joint_springs, springs
+from dynsolve.draw.springs import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, joint_springs, springs
 from dynsolve.draw.thicknesses import thicknesses
 from dynsolve.draw.vectors import NEAR, Point, Vector, dot
 from dynsolve.draw.view import View
@@ -116,7 +116,7 @@ def allowed_pose(robot: Robot, values: RobotNumbers, world: Orientation) -> Pose
 
 def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[Label]) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
-    dashed = parallels(robot, pose)
+    dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
     said = (
         (WORLD, has_world(robot, values)),
         (_axis_of_base(robot), has_world(robot, values) and len(robot.base_turns) == 1),
@@ -126,7 +126,9 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (SHAPES, bool(pose.bodies)),
         (POINTS, any(mass.is_point for mass in pose.skeleton.masses)),
         (OFF_LINKS, annotate.has_masses_off_links(pose)),
-        (SPRINGS, bool(joint_springs(robot, values, pose))),
+        (SPRINGS, bool(at_joints)),
+        (OTHER_SPRINGS, len(at_joints) < len(robot.actions.springs)),
+        (NO_DAMPERS, bool(robot.actions.dampers)),
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
     return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])

@@ -19,6 +19,8 @@ from dynsolve.robot.actions import Elastic
 from dynsolve.robot.model import JointType, Robot
 
 SPRINGS = "A spiral or a zigzag at a joint is a spring."
+OTHER_SPRINGS = "Springs on other than one joint, or given by their energy, are not drawn."
+NO_DAMPERS = "Dampers are not drawn."
 
 _INNER, _OUTER, _TURNS = RADIUS + 1.0, RADIUS + 13.0, 1.75
 _STEPS = 72

@@ -7,7 +7,7 @@ import pytest
 from dynsolve.draw.drawn_lengths import numbers
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.springs import SPRINGS, joint_springs
+from dynsolve.draw.springs import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, joint_springs
 from dynsolve.problem import read_problem
 from tests.support import LIBRARY
 from tests.unit.draw.pictures import drawn, drawn_text, names, overlapping
@@ -44,3 +44,22 @@ def test_an_elastic_joint_has_a_spring_between_its_motor_and_its_link() -> None:
 
 def test_without_springs_nothing_is_said_of_them() -> None:
     assert SPRINGS not in drawn(next(path for path in LIBRARY if path.stem == "planar-2r")).caption
+
+
+@pytest.mark.parametrize(
+    ("acts", "said"),
+    [
+        ("springs: [{stiffness: k, of: q2}]", [SPRINGS]),
+        ("springs: [{stiffness: k, of: q1 - q2}]", [OTHER_SPRINGS]),
+        ("springs: [{energy: k*sin(q1)^2}]", [OTHER_SPRINGS]),
+        ("dampers: [{damping: b, of: q1 - q2}]", [NO_DAMPERS]),
+    ],
+)
+def test_what_is_not_drawn_is_said(acts: str, said: list[str]) -> None:
+    caption = drawn_text(f"{ROWS}{acts}").caption
+    assert [each for each in (SPRINGS, OTHER_SPRINGS, NO_DAMPERS) if each in caption] == said
+
+
+def test_branches_share_the_length_that_they_begin_with() -> None:
+    rows = "dh: [{theta: q1*}, {theta: q2*, a: l1}, {from: 1, theta: q3*, a: l1}]"
+    assert names(drawn_text(f"convention: modified\n{rows}\n"), "length") == ["l₁"]
