@@ -18,6 +18,10 @@ quantity, yield a `Step` in the file of its stage:
         result=(equation(letters.K, context.form("K")),),
     )
 
+A step may say more of how it is shown (`step`): which of its parts a worked example has (`normal`), of
+which `group` it is, what it says in a line where it is not shown itself (`outcome`), and what it tells that
+a step like it has told (`said`).  `solution.depths` makes of this what a depth shows.
+
 Everything a step is made from is in its `Context`; `writing` has what several stages write.
 
     step        what a step is, and in which detail it is shown

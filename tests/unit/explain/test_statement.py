@@ -44,7 +44,8 @@ CASES = [
     (
         "knife-edge",
         "Given: Body 1, of mass m, is at (x, y, 0). Body 1 turns by φ about the axis z. Its moment "
-        "of inertia about axis z through its mass centre is J. There is no gravity and no friction. Every motion keeps ẋ sin(φ) - ẏ cos(φ) = 0.",
+        "of inertia about axis z through its mass centre is J. There is no gravity "
+        "and no friction. Every motion keeps ẋ sin(φ) - ẏ cos(φ) = 0.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and "
         "centrifugal terms 𝐂, the gravity terms 𝐠, the matrix of the constraints 𝐀_c, its rate 𝐀̇_c "
         "and the multipliers 𝛌.",
