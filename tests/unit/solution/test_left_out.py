@@ -91,3 +91,14 @@ def test_names_that_fail_leave_the_results_in_full(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr("dynsolve.explain.abbreviated_steps.in_names", fails)
     with pytest.warns(ExplanationWarning, match="names"):
         assert page(Abbreviate.ALWAYS) == in_full
+
+
+CART = "gravity: none\nmodel: {coordinates: {x: prismatic}, bodies: [{mass: m, at: [x, 0, 0]}]}"
+
+
+@pytest.mark.parametrize(("text", "maker"), [(PENDULUM, "scene.scene"), (CART, "placed_bodies.placed_scene")])
+def test_a_picture_that_fails_is_left_out(monkeypatch: pytest.MonkeyPatch, text: str, maker: str) -> None:
+    monkeypatch.setattr(f"dynsolve.draw.{maker}", fails)
+    with pytest.warns(ExplanationWarning, match="the picture is left out: LookupError"):
+        shown = report(dynsolve.solve(text), Format.LATEX).decode()
+    assert r"\section" in shown and r"\begin{picture}" not in shown
