@@ -21,6 +21,7 @@ from dynsolve.explain.pitfalls import pitfalls
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import is_small, listed
 from dynsolve.notation.tree import Node, equation
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import kinematic_families, letters
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.robot_stages import stages_of
@@ -201,7 +202,7 @@ def _grouped(steps: Iterable[Step]) -> Iterator[_Task]:
             continue
         tasks[key] = _Task(title, why)
         formula = step.task or step.formula
-        if formula is not None:
+        if formula is not None and to_unicode(formula) not in map(to_unicode, step.result):
             tasks[key].formulas.append((formula, by_itself(step.source)))
     yield from tasks.values()
 

@@ -137,7 +137,7 @@ def test_a_hand_in_without_answers_is_unreadable_and_says_why(tmp_path: Path, se
         tmp_path / "in", {
             "a/in3140-rp.ipynb": "{",
             "b/in3140-rp.md": "I could not do it.\n",
-            "c/in3140-rp.md": "$$Q_5 = m_1$$\n",
+            "c/in3140-rp.md": "$$2 Q_5 = m_1$$\n",
             "d/in3140-rp.yaml": "",
             "good/in3140-rp.yaml": RIGHT,
         }
@@ -151,7 +151,7 @@ def test_a_hand_in_without_answers_is_unreadable_and_says_why(tmp_path: Path, se
     for reason in (
         "this is no notebook: its JSON cannot be read",
         "no answer was found in it",
-        "not recognized: line 1: Q_5 = m_1",
+        "not recognized: line 1: 2 Q_5 = m_1",
         "there are no answers in this file",
     ):
         assert reason in report
