@@ -46,13 +46,11 @@ class Line:
         together = side_by_side(shown)
         if isinstance(shown[0], Function):  # sines, each with its cosine
             of_sums = [sign for sign in shown if isinstance(sign, Function) and _is_of_sum(sign)]
-            last = side_by_side((of_sums or shown)[-2:]).parts
-            pairs = (*side_by_side(shown[:2]).parts, Words(", …, "), *last)
-            return together if len(shown) <= 4 else Row(pairs)
+            pairs = (*shown[:2], Words("…"), *(of_sums or shown)[-2:])
+            return together if len(shown) <= 4 else side_by_side(pairs)
         if len(shown) > 3 and not self.each and Ruler().width(together) > WIDEST:
             counts = isinstance(shown[-1], Letter) and isinstance(shown[-2], Symbol)  # m_i, after m_1 to m_6
-            last = side_by_side(shown[-2:]).parts if counts else shown[-1:]
-            return Row((*side_by_side(shown[:2]).parts, Words(", …, "), *last))
+            return side_by_side((*shown[:2], Words("…"), *(shown[-2:] if counts else shown[-1:])))
         return together
 
     @property

@@ -61,8 +61,10 @@ def and_joined(names: Sequence[str]) -> str:
     return "".join(part for part in listed(names) if isinstance(part, str))
 
 
-def side_by_side(parts: Sequence[Node]) -> Row:
-    """Formulas on one line, commas between them."""
+def side_by_side(parts: Sequence[Node]) -> Node:
+    """Formulas on one line, commas between them; one alone as it is."""
+    if len(parts) == 1:
+        return parts[0]
     row: list[Node] = []
     for part in parts:
         row += [part] if not row else [Words(", "), part]

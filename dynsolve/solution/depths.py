@@ -361,7 +361,7 @@ def _chained(one: Formula, other: Formula, printer: UnicodePrinter) -> Formula |
     found = [chain for chain in chains if chain is not None]
     if one.label or len(found) < len(pairs):
         return None
-    node = found[0] if len(found) == 1 else side_by_side(found)
+    node = side_by_side(found)
     widest = max(_cells(part, printer) for chain in found for part in chain.parts)
     if widest > _ROOM or (len(found) > 1 and _cells(node, printer) > _ROOM):
         return None

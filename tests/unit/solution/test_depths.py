@@ -15,11 +15,12 @@ from dynsolve.explain import closing
 from dynsolve.explain.sign_kinds import formulas_in, kind_of
 from dynsolve.explain.step import Detail
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Function, Letter, Node, Relation, Symbol
+from dynsolve.notation.tree import Function, Letter, Matrix, Node, Relation, Sum, Symbol
 from dynsolve.notation.unicode import to_unicode, width
 from dynsolve.notation.walk import children, walk
 from dynsolve.render.formats import Format
 from dynsolve.render.page_ends import leads_on
+from dynsolve.solution.depths import condensed
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.reports import report
 from tests.strangers.generator import stranger, written
@@ -190,3 +191,13 @@ def test_a_depth_is_as_long_as_it_is_meant_to_be(problem: str) -> None:
     pages = [report(solved(problem), Format.TEXT, detail=detail).decode() for detail in depths]
     lengths = [len(page.splitlines()) for page in pages]
     assert all(length <= most for length, most in zip(lengths, LINES[problem], strict=True)), lengths
+
+
+def test_a_chain_of_matrices_under_others_stays_one_and_can_be_broken() -> None:
+    """As wide as a line each: none gets a row of its own around it, which a page could not break at =."""
+    long = Sum(tuple(Symbol(f"m{k}") for k in range(1, 9)))
+    chains = tuple(
+        Relation((Symbol(name), Matrix(((long,),)), Matrix(((long,),))), ("=", "=")) for name in "ab"
+    )
+    (shown,) = condensed([Equations(chains)], Style())
+    assert isinstance(shown, Equations) and shown.nodes == chains
