@@ -45,7 +45,7 @@ def steps(context: Context) -> Iterator[Step]:
     yield _general(context)
     for joint in context.robot.joints:
         yield _row(context, joint)
-    frames = Group("H", f"The frames seen from the {context.ground}", _frame_why(context, tells=True))
+    frames = Group("H", f"The frames seen from the {context.ground}", (*OUTWARDS, *_ORIGINS))
     for joint in context.robot.joints:
         yield _frame(context, joint.index, frames)
 
@@ -301,6 +301,9 @@ OUTWARDS: Prose = (
     " leads one frame further along the arm, so it multiplies from the right.",
 )
 """Why the matrices of the rows stand in this order."""
+
+
+_ORIGINS: Prose = (" The fourth column is the origin of the frame, the first three are its axes.",)
 
 
 def _frame_why(context: Context, tells: bool) -> Prose:

@@ -96,13 +96,14 @@ def _told_of_all(
     )
     why = (*at_rest(context), *assumed(context), *_rows_of(context, rows))
     poses = Table(_header(context, names), table)
-    return told(why, (*lines, *shown), concluding, poses, _counted(zero, kinds))
+    return told(why, (*lines, *shown), concluding, poses, _counted(context, zero, kinds))
 
 
-def _counted(zero: Sequence[Pose], kinds: Sequence[Kind]) -> Prose:
+def _counted(context: Context, zero: Sequence[Pose], kinds: Sequence[Kind]) -> Prose:
     """In how many poses gravity is balanced, and at which the equilibrium is stable."""
     poses = "one pose" if len(zero) == 1 else f"{len(zero)} poses"
-    return (f"Gravity is balanced in {poses} (up to full turns); ", *_minima(zero, kinds))
+    where: Prose = (f"Gravity is balanced in {poses} (up to full turns)", *free(context, zero[0]), "; ")
+    return (*where, *_minima(zero, kinds))
 
 
 def _minima(zero: Sequence[Pose], kinds: Sequence[Kind]) -> Prose:

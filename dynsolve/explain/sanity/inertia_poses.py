@@ -55,10 +55,9 @@ def inertia_poses_step(context: Context) -> Step | None:
         source=spong("7.2"),
         table=Table(("pose", "moment of inertia"), tuple(chain(*shown.values()))),
         outcome=(
-            "In simple poses ",
             *listed(names),
-            f" {'is the moment' if one else 'are the moments'} of inertia of all that the joint moves, ",
-            "by the parallel-axis theorem.",
+            f" {'is the moment' if one else 'are the moments'} of inertia of all that the joint moves: ",
+            "in simple poses the parallel-axis theorem gives the same.",
         ),
         is_task=False,
     )
