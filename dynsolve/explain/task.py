@@ -10,7 +10,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.points import point_steps
 from dynsolve.explain.rates import determinant_step
 from dynsolve.explain.step import Detail, Group, Step
-from dynsolve.explain.writing import counted_sum, listed, spong
+from dynsolve.explain.writing import listed, spong, sum_over_coordinates
 from dynsolve.notation.tree import (
     Derivative,
     Letter,
@@ -147,7 +147,7 @@ def _rate(context: Context, name: str, letter: Letter) -> Step:
     changed = letters.rate(letter)
     k = Symbol("k")
     term = Product((Derivative(letter, Letter("q", k)), Letter("q", k, dots=1)))
-    total = counted_sum(term, k, context.robot.n)
+    total = sum_over_coordinates(term, k, context.robot)
     moved = Product((letter, letters.QDD))
     return Step(
         id=f"{name}_dot",

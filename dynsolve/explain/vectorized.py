@@ -17,7 +17,16 @@ from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import STATED, Detail, Part, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums, gravity_rows
-from dynsolve.explain.writing import and_joined, are_counted, counted_sum, listed, spong, sum_of, turns
+from dynsolve.explain.writing import (
+    and_joined,
+    are_counted,
+    counted_sum,
+    listed,
+    spong,
+    sum_of,
+    sum_over_coordinates,
+    turns,
+)
 from dynsolve.notation.tree import (
     Letter,
     Negative,
@@ -175,6 +184,9 @@ def _inertia_direct(context: Context) -> Step:
     linear = Product((Letter("m", i), Transpose(jv), jv))
     angular = Product((Transpose(jw), letters.base_tensor(i), jw))
     total = Parenthesized(Sum((linear, angular)))
+    added = counted_sum(
+        total, i, len(robot.bodies), {Letter("m", i): context.mass(body) for body in robot.bodies[:1]}
+    )
     same = context.values["D"] == context.values["D_direct"]
     terms: list[Node] = []
     for body in robot.bodies:
@@ -205,7 +217,7 @@ def _inertia_direct(context: Context) -> Step:
                 )
             ),
         ),
-        formula=equation(letters.D, sum_of([counted_sum(total, i, len(robot.bodies)), *rotors])),
+        formula=equation(letters.D, sum_of([added, *rotors])),
         source=spong("7.2.2"),
         further=(working,),
         hint=(
@@ -245,8 +257,8 @@ def _is_short(context: Context) -> bool:
 
 def _coriolis(context: Context) -> Step:
     entry, rate = Letter("c", Row((_K, _J))), Letter("q", _I, dots=1)
-    by_symbols = counted_sum(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, context.robot.n)
-    by_slopes = Product((letters.HALF, counted_sum(Product((SLOPES, rate)), _I, context.robot.n)))
+    by_symbols = sum_over_coordinates(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, context.robot)
+    by_slopes = Product((letters.HALF, sum_over_coordinates(Product((SLOPES, rate)), _I, context.robot)))
     Cqd = Product((letters.C, letters.QD))
     none = context.values["C"].is_zero
     why: Prose = ("Row ", _K, ", column ", _J, ". ", Cqd, " holds the centrifugal terms (a rate squared)")

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import islice
+from types import MappingProxyType
 
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.citations import craig as craig  # what stages write, in one place
 from dynsolve.explain.citations import spong as spong
 from dynsolve.notation.build import split_sign
-from dynsolve.notation.tree import ZERO, BigSum, Matrix, Node, Number, Row, Sum, Words
+from dynsolve.notation.tree import ZERO, BigSum, Letter, Matrix, Node, Number, Row, Sum, Symbol, Words
 from dynsolve.notation.walk import mapped, walk
 from dynsolve.robot import units
 from dynsolve.robot.model import Body, Coordinate, JointType, Robot
@@ -98,11 +99,19 @@ def sum_of(terms: Sequence[Node]) -> Node:
     return terms[0] if len(terms) == 1 else Sum(tuple(terms))
 
 
-def counted_sum(body: Node, index: Node, count: int) -> Node:
-    """Σ_{index=1}^{count} body; of one its index put in."""
+def counted_sum(body: Node, index: Node, count: int, own: Mapping[Node, Node] = MappingProxyType({})) -> Node:
+    """Σ_{index=1}^{count} body; of one its index put in, and `own`, what its letters are called."""
     if count > 1:
         return BigSum(body, index, Number(1), Number(count))
-    return mapped(body, lambda node: Number(1) if node == index else node)
+    named = mapped(body, lambda node: own.get(node, node))
+    return mapped(named, lambda node: Number(1) if node == index else node)
+
+
+def sum_over_coordinates(body: Node, index: Node, robot: Robot) -> Node:
+    """Σ_{index=1}^{n} body; a single coordinate is called by its name."""
+    name = robot.coordinates[0].name
+    own: dict[Node, Node] = {Letter("q", index, dots=dots): Symbol(name, dots) for dots in (0, 1)}
+    return counted_sum(body, index, robot.n, own)
 
 
 def column_of(matrix: Matrix, j: int) -> Matrix:

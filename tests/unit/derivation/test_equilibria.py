@@ -48,7 +48,7 @@ def test_a_pole_is_stable_below_wherever_the_cart_is() -> None:
         {"theta": "0", "stability": "unstable"}, {"theta": "pi", "stability": "stable"},
     ]  # fmt: skip
     (step,) = (step for step in solution.steps if step.id == "equilibria_stability")
-    assert "along which nothing changes" in str(step.notes)
+    assert "along which nothing changes" in str(step.concluding)
 
 
 def test_an_elastic_joint_holds_below() -> None:

@@ -6,6 +6,7 @@ import pytest
 
 import dynsolve
 from dynsolve.explain.step import Detail
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.formats import Format
 from dynsolve.solution.reports import report
 from tests.support import ROOT, solved
@@ -93,3 +94,20 @@ def test_a_coordinate_of_another_branch_has_a_column_of_zeros() -> None:
 def test_the_results_alone_answer_the_question(problem: str, told: str) -> None:
     text = " ".join(report(solved(problem), Format.TEXT, detail=Detail.RESULTS).decode().split())
     assert told in text
+
+
+@pytest.mark.parametrize(("mass", "shown"), [("m1", "m₁"), ("M", "M"), ("2", "m₁")])
+def test_a_sum_of_one_has_the_names_of_the_problem(mass: str, shown: str) -> None:
+    """And no letters of the book that read as they do, or that nothing else calls so."""
+    arm = f"""
+gravity: [0, -g, 0]
+dh: [{{theta: theta*, a: L}}]
+masses: [{{mass: {mass}, link: 1, center: midpoint}}]
+task: [tip.x, theta]
+find: [tau, C, D, Jr_dot]
+"""
+    steps = {step.id: step for step in solved(arm).steps}
+    assert f"({shown} J_v1" in to_unicode(steps["D_direct"].formula)
+    for name in ("C", "Jr_dot"):
+        text = to_unicode(steps[name].formula)
+        assert "θ̇" in text and "q̇₁" not in text and "q₁" not in text
