@@ -37,15 +37,17 @@ def test_every_problem_of_the_library_compiles_without_complaint(problem: Path, 
 
 
 @pytest.mark.latex
-@pytest.mark.parametrize("problem", TEXTBOOKS, ids=lambda path: path.stem)
-def test_with_stars_too(problem: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["craig-6-5-rp", "mls-scara", "spong-five-bar-trick"])
+def test_with_stars_too(name: str, tmp_path: Path) -> None:
+    problem = next(path for path in TEXTBOOKS if path.stem == name)
     done = typeset(made(problem, Format.LATEX, star=True).decode(), tmp_path)
     assert (done.code, done.complaints) == (0, [])
 
 
 @pytest.mark.latex
-@pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "puma560-first3"])
-@pytest.mark.parametrize("size", ["10pt", "11pt", "12pt"])
+@pytest.mark.parametrize(
+    ("name", "size"), [("in3140-rp", "11pt"), ("elbow-3r", "12pt"), ("puma560-first3", "10pt")]
+)
 def test_a_fragment_fits_the_standard_classes(name: str, size: str, tmp_path: Path) -> None:
     problem = next(path for path in LIBRARY if path.stem == name)
     (tmp_path / "part.tex").write_bytes(made(problem, Format.LATEX, fragment=True))
