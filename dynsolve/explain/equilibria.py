@@ -34,6 +34,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.walk import names_in
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
 
 STAGE = Stage.EQUILIBRIA
 _SOURCE = SLOTINE_LI.section("3.3")
@@ -41,8 +42,6 @@ _INVERSE = Power(letters.D, Negative(Number(1)))
 _F, _S = letters.bold("F"), letters.bold("S")
 _DG = letters.partial_derivative(letters.G, letters.Q)
 _ZERO, _ONE = letters.bold("0"), letters.bold("E")
-_AT_REST: Prose = ("In an equilibrium rates and accelerations are 0, and of the equations of motion ",
-                   letters.G, " is left. ")  # fmt: skip
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -72,9 +71,12 @@ def _equilibria(context: Context) -> Iterator[Step]:
     result: tuple[Node, ...] = tuple(vanishing(one) for one in cases if one)
     rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
     is_new = bool(rows) and [side_by_side(rows)] != [*result]  # not what the result says again
-    lines = (Line(("Combined, without factors that are never 0:",), rows),) if is_new else ()
+    general = " in general" if _has_angle_of_parameters(robot) else ""
+    factors = "factors of the parameters" if general else "factors that are never 0"
+    lines = (Line((f"Combined, without {factors}:",), rows),) if is_new else ()
     if not cases:
-        notes: tuple[Prose, ...] = (("No configuration makes all of them 0: there is no equilibrium.",),)
+        told_none = f"{general}: there is no equilibrium" + (" but for special parameters" if general else "")
+        notes: tuple[Prose, ...] = ((f"No configuration makes all of them 0{told_none}.",),)
     elif not cases[0]:
         notes = (("Nothing is left to be 0: every configuration is an equilibrium.",),)
     else:
@@ -91,7 +93,11 @@ def _equilibria(context: Context) -> Iterator[Step]:
         id="equilibria",
         stage=STAGE,
         title="Where nothing else moves" if steady else "Where nothing moves",
-        why=(*(moving.why(context) if steady else _AT_REST), *_held(context), *_assumed(context, shown)),
+        why=(
+            *(moving.why(context) if steady else _nothing_moves(robot)),
+            *_held(context),
+            *_assumed(context, shown),
+        ),
         formula=equation(forces, *values, Number(0)),
         task=task,
         source=moving.SOURCE if steady else SLOTINE_LI.section("3.1"),
@@ -103,6 +109,19 @@ def _equilibria(context: Context) -> Iterator[Step]:
     )
     if any(points for points in found.points):
         yield _stability(context, shown, found)
+
+
+def _nothing_moves(robot: Robot) -> Prose:
+    """What is 0 in an equilibrium, and what is left."""
+    idle = "" if robot.questions.model.inputs_given else ", and no motor drives"
+    told = f"In an equilibrium rates and accelerations are 0{idle}: of the equations of motion "
+    return (told, letters.G, " is left. ")
+
+
+def _has_angle_of_parameters(robot: Robot) -> bool:
+    """Whether a factor such as cos β may be 0, being a function of parameters alone."""
+    ring = robot.ring
+    return any(not ring.depends_on_coordinates(ring.generator(pair.cosine)) for pair in ring.pairs)
 
 
 def _at_rest(context: Context) -> tuple[Node, ...]:
