@@ -51,6 +51,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.usefixtures("frozen_heap")
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_file_is_sorted_quickly(problems: ProblemSet, tmp_path: Path, name: str) -> None:
     (tmp_path / "good.yaml").write_text("problem: in3140-rp\n" + ANSWER)
