@@ -11,7 +11,7 @@ from dynsolve.derivation.agreement import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.short_arms import is_short
-from dynsolve.explain.writing import machine
+from dynsolve.explain.writing import are_counted, machine
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
@@ -73,6 +73,14 @@ class Context:
         if isinstance(shown, Symbol) or letters.is_taken(self.robot, "m", body):
             return shown
         return letters.of_body("m", body)
+
+    @property
+    def are_masses_counted(self) -> bool:
+        """Whether the masses are called m_1, m_2, ..., as a sum over the bodies has them."""
+        bodies = self.robot.bodies
+        own = [(Symbol(f"m{body.name}"), letters.of_body("m", body)) for body in bodies]
+        named = all(self.mass(body) in names for body, names in zip(bodies, own, strict=True))
+        return named and are_counted(bodies)
 
     @property
     def end(self) -> str:

@@ -100,9 +100,9 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     formula: Node = equation(letter, sum_of([*bodies, *others]))
     weightless = name == "P" and context.robot.gravity.is_zero
     if len(bodies) > 1 and not weightless:
-        if are_counted(context.robot.bodies):
+        if context.are_masses_counted:
             formula = equation(letter, sum_of([*bodies, *others]), sum_of([_summed(context, name), *others]))
-        else:
+        elif not are_counted(context.robot.bodies):
             formula = side_by_side([formula, equation(Letter(name, Symbol("i")), _of_body(context, name))])
         why += _without_turning(context) if name == "K" else ""
     acting = [name + ("s" if name == "P" else "m")] if others else []

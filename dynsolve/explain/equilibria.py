@@ -25,13 +25,14 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Product,
+    Relation,
     Row,
     Sum,
     Symbol,
     Words,
     equation,
 )
-from dynsolve.notation.walk import names_in
+from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -70,7 +71,8 @@ def _equilibria(context: Context) -> Iterator[Step]:
     cases = shown.equilibria
     result: tuple[Node, ...] = tuple(vanishing(one) for one in cases if one)
     rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
-    is_new = bool(rows) and [side_by_side(rows)] != [*result]  # not what the result says again
+    said = {part for one in result for part in walk(one) if isinstance(part, Relation)}
+    is_new = not said >= set(rows)  # not what the result says again
     general = " in general" if _has_angle_of_parameters(robot) else ""
     factors = "factors of the parameters" if general else "factors that are never 0"
     lines = (Line((f"Combined, without {factors}:",), rows),) if is_new else ()

@@ -104,11 +104,7 @@ def _point(context: Context, body: Body) -> Step:
         title=f"Inertia of {name_of(body)}",
         why=(
             "A point mass has no extent, so its tensor about its own mass centre is zero and it has no "
-            "rotational energy. No ",
-            letters.of_body("R", body, "bold"),
-            " and no ",
-            letters.base_tensor(letters.index_of(body.name)),
-            " are needed.",
+            "rotational energy.",
         ),
         source=spong("7.2.1"),
         result=(equation(tensor, letters.bold("0")),),

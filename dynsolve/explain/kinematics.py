@@ -264,7 +264,8 @@ def _frame(context: Context, i: int, frames: Group) -> Step:
     chain = [letters.A(joint.index) for joint in robot.path(i)]
     if letters.has_base(robot):
         chain = [letters.H(robot, 0), *chain]
-    working = Product((letters.H(robot, start), letters.A(i)))
+    is_row = len(robot.path(start)) == 1 and not letters.has_base(robot)  # of which H is A itself
+    working = Product((letters.A(start) if is_row else letters.H(robot, start), letters.A(i)))
     members: list[Node] = [name, working]
     if is_small(A, before):
         members.append(Product((before, A)))
