@@ -184,7 +184,7 @@ def friction_steps(context: Context) -> Iterator[Step]:
     viscous = [one for one in robot.actions.friction if not one.viscous.is_zero]
     sliding = [one for one in robot.actions.friction if not one.coulomb.is_zero]
     drags = bool(viscous or robot.actions.dampers)
-    why: Prose = ("Friction has no potential energy. The drive has to overcome it, so it stands on the side "
+    why: Prose = ("Friction has no potential energy. It acts against the motion, so it stands on the side "
                   "of the inertial forces, with the sign of the rate.",)  # fmt: skip
     parts: list[Node] = []
     if drags:

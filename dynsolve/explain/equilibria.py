@@ -166,9 +166,8 @@ def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -
     curvature = context.show(linearization.curvature(robot, forces))
     if is_small(curvature):
         working = (*working, equation(second, curvature))
-    several = len(found.alternatives) > 1
     told = [
-        _point(context, shown, point, case if several else ())
+        _point(context, shown, point, case)
         for case, points in zip(shown.equilibria, found.points, strict=True)
         for point in points
     ]
@@ -194,15 +193,16 @@ def _point(context: Context, shown: ConfigurationForms, point: Point, case: tupl
     said: Prose = ({
         Stability.STABLE: "stable",
         Stability.UNSTABLE: "not stable",
-        Stability.UNDECIDED: "second derivatives do not decide for all values of the parameters",
+        Stability.UNDECIDED: "second derivatives alone do not decide",
     }[point.stability],)  # fmt: skip
     if point.conditions:
         said = ("stable where ", side_by_side([shown.inequality(bound) for bound in point.conditions]))
     steady = dict(context.robot.questions.model.steady)
     names = [context.robot.coordinates[k].name for k in point.neutral]
     free = [Symbol(name) for name in names if name not in steady]
-    along: Prose = (", but for ", *listed(free), ", along which nothing changes") if free else ()
-    where: Prose = ("There",)
+    is_told = point.conditions or point.stability is not Stability.UNDECIDED
+    along: Prose = (", but for ", *listed(free), ", along which nothing changes") if free and is_told else ()
+    where: Prose = ("In every configuration",)
     if at:
         where = ("At ", side_by_side(at))
     elif case:
