@@ -82,7 +82,7 @@ def steps(context: Context) -> Iterator[Step]:
         group = Group(f"K{body.name}", f"Kinetic energy of {name_of(body)}")
         yield replace(jacobians, group=group, normal=STATED | (Part.WHY if body is bodies[0] else STATED))
         yield replace(_velocities(context, body), group=group, normal=STATED)
-        yield replace(linear, group=group, normal=WORKED if linear.working else STATED)
+        yield replace(linear, group=group, normal=WORKED if linear.working or linear.lines else STATED)
         yield replace(turning, group=group)
         yield replace(_kinetic(context, body), group=group, normal=STATED)
     yield from rotors
@@ -299,7 +299,7 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         formula=equation(Kv, Product((letters.HALF, context.mass(body), letters.transposed_product(v)))),
         source=spong("7.2"),
         working=working if way.frame is None else (),
-        lines=outlined(way.lines),
+        lines=outlined(way.lines) if way.frame is None else way.lines,
         concluding=way.concluding,
         uses=None if way.frame is None else (f"H{way.frame}", f"v{b}"),
         result=(equation(Kv, form),),

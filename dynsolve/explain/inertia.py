@@ -289,6 +289,7 @@ def has_link_axes(body: Body) -> bool:
 def _rotation(context: Context, body: Body, tells: bool) -> Step:
     rotation = letters.of_body("R", body, "bold")
     why, formula, notes = _orientation(context, body)
+    is_its_links = has_link_axes(body) and body.name == str(body.link)  # R_2 is that of frame 2
     is_unneeded = _is_kept(context, body) and f"R{body.name}" not in context.wanted
     if tells:
         notes = tuple(_right_frame(context, body.link))
@@ -304,7 +305,7 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         notes=notes,
         said="axes of the link" if has_link_axes(body) else "",
         uses=(),
-        detail=Detail.FULL if is_unneeded or has_link_axes(body) else Detail.NORMAL,
+        detail=Detail.FULL if is_unneeded or is_its_links else Detail.NORMAL,
     )
 
 

@@ -279,6 +279,7 @@ def _frame(context: Context, i: int, frames: Group) -> Step:
         working=(equation(*members),),
         concluding=product_named(context, *(context.values[key] for key in (f"H{start}", f"A{i}", f"H{i}"))),
         result=(equation(name, H),),
+        uses=(f"A{start}", f"A{i}") if is_row else None,
         task=equation(name, working) if i > 1 else None,
         detail=detail,
         normal=WORKED,

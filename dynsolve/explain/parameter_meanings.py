@@ -123,7 +123,7 @@ def _of_table(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
                 )
     for joint in robot.joints:
         for name in names_in(joint.a):
-            yield Role.LENGTH, name, _along_x(robot, joint) if _is(joint.a, name) else _in_row(joint)
+            yield Role.LENGTH, name, _along_x(robot, joint, name) if _is(joint.a, name) else _in_row(joint)
         for name in names_in(joint.d):
             yield Role.LENGTH, name, _along_z(robot, joint, name)
 
@@ -132,13 +132,14 @@ def _in_row(joint: Joint) -> Meaning:
     return Meaning("length in row {link} of the table", joint.index)
 
 
-def _along_x(robot: Robot, joint: Joint) -> Meaning:
+def _along_x(robot: Robot, joint: Joint, name: str) -> Meaning:
     """What a is: the length of a link where its d is zero, so that no way along z is added."""
     modified = robot.convention is Convention.MODIFIED
     if joint.d.is_zero and (joint.parent or not modified):
         words = f"length of link {{{'before' if modified else 'link'}}}, from o{{before}} to o{{link}}"
     else:
-        words = f"distance from z{{before}} to z{{link}}, along x{{{'before' if modified else 'link'}}}"
+        way = "along" if joint.a == robot.ring.symbol(name) else "against"
+        words = f"distance from z{{before}} to z{{link}}, {way} x{{{'before' if modified else 'link'}}}"
     return Meaning(words, joint.index, before=joint.parent)
 
 
@@ -149,9 +150,11 @@ def _along_z(robot: Robot, joint: Joint, name: str) -> Meaning:
         if joint.variable == "d":
             return Meaning("constant part of d in row {link} of the table", joint.index)
         return _in_row(joint)
-    if joint.parent == 0 and _is_upright(robot):
+    is_forwards = joint.d == robot.ring.symbol(name)
+    if is_forwards and joint.parent == 0 and _is_upright(robot):
         return Meaning("height of o{link} above o{before}", joint.index, "", 0)
-    return Meaning(f"distance from o{{before}} to o{{link}}, along {axis}", joint.index, "", joint.parent)
+    way = f"{'along' if is_forwards else 'against'} {axis}"
+    return Meaning(f"distance from o{{before}} to o{{link}}, {way}", joint.index, "", joint.parent)
 
 
 def _is_upright(robot: Robot) -> bool:

@@ -138,7 +138,10 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
         if coefficient not in parameters.entries
     ]
     if dependent:
-        yield Line(("What is a combination of others needs no entry of its own:",), tuple(dependent))
+        yield Line(
+            ("Some are combinations of the entries that are chosen below, and need none of their own:",),
+            tuple(dependent),
+        )
 
 
 def _sum(context: Context, names: Sequence[Node], factors: tuple[RationalExpr, ...]) -> Node:

@@ -107,7 +107,7 @@ def _introduced(line: Line) -> Prose:
 def _given(forms: Forms) -> Prose:
     """The table, and what has mass."""
     robot = forms.robot
-    what = f"the table of the {machine(robot)}{hypotheses.joints(robot)} (section 1.1)"
+    what = f"the table of the {machine(robot)}{hypotheses.joints(robot)}"
     if not robot.bodies:
         return (what,)
     if len(robot.bodies) > MOST_BODIES:

@@ -27,6 +27,8 @@ def steps(context: Context) -> Iterator[Step]:
         yield from friction_steps(context)
     for q in context.robot.coordinates:
         why = _held_fixed() if q.index == 1 else ()
+        if q.index - 1 in context.robot.actions.passive:
+            why += (*((" ",) if why else ()), Symbol(q.name), *_driven_by(context, q))
         group = Group(f"tau{q.index}", f"Coordinate {q.index}", why)
         for step in (_momentum(context, q), _rate(context, q), _slope(context, q), _force(context, q)):
             yield replace(step, group=group, normal=STATED)

@@ -68,7 +68,8 @@ def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formu
     place: list[Node] = [Number(i + 1), Number(j + 1)]
     if len(matrix.rows[0]) == 1 or len(matrix.rows) == 1:
         place = [Number(max(i, j) + 1)]
-    index = place[0] if len(place) == 1 else Row(tuple(place))
+    between = [Words(",")] if max(i, j) >= 9 else []  # 1 and 11 are not 11 and 1
+    index = place[0] if len(place) == 1 else Row((place[0], *between, place[1]))
     if isinstance(left, Letter) and left.sub is None and left.sup is None:
         return Letter(left.base, index, None, dots=left.dots)
     if left is None:

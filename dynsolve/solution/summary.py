@@ -14,7 +14,7 @@ from dynsolve.explain.named_steps import labels_of_names
 from dynsolve.explain.statement import CALLED
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed
-from dynsolve.notation.tree import Relation, equation
+from dynsolve.notation.tree import ZERO, Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.robot_stages import stages_of
@@ -80,8 +80,10 @@ def _model(
     yield from _lines(model)
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if not model.lines and all(name in by_id for name in forces):
-        lead = "Row by row" if len(forces) > 1 else "Multiplied out"
-        yield Text((lead, Reference(tuple(forces), ", "), ":"))
+        lead: Prose = ("Row by row" if len(forces) > 1 else "Multiplied out",)
+        passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
+        lead += (", with ", equation(*passive, ZERO)) if passive else ()
+        yield Text((*lead, Reference(tuple(forces), ", "), ":"))
         yield Equations(tuple(by_id[name].result[0] for name in forces))
 
 

@@ -16,7 +16,7 @@ from tests.support import solved
 CASES = [
     (
         "in3140-rp",
-        "Given: the table of the arm with a revolute and a prismatic joint (section 1.1) and two rigid "
+        "Given: the table of the arm with a revolute and a prismatic joint and two rigid "
         "bodies: body 1 in link 1, of mass m₁, its mass centre half-way along the link, its axes "
         "those of the base turned by 𝐑_{z,θ1}; body 2 in link 2, a point of mass m₂ at 𝐨₂. The moment of "
         "inertia of body 1 about the axis through its mass centre parallel to 𝐳₀ is I_1zz. Gravity g acts "
@@ -26,7 +26,7 @@ CASES = [
     ),
     (
         "puma560",
-        "Given: the table of the arm with revolute joints (section 1.1), and mass, mass centre and inertia "
+        "Given: the table of the arm with revolute joints, and mass, mass centre and inertia "
         "tensor of 6 rigid bodies. Gravity g acts along -𝐳₀; there is no friction. In numbers: "
         "a₂ = 0.4318 m, a₃ = 0.0203 m, d₃ = 0.15005 m and d₄ = 0.4318 m.",
         "To be found: the inertia matrix 𝐃, the matrix of Coriolis and centrifugal terms 𝐂, the gravity "
