@@ -25,6 +25,7 @@ from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, negated, number_in_front, split_sign, times, total
 from dynsolve.notation.tree import (
+    ONE,
     Function,
     Negative,
     Node,
@@ -62,7 +63,7 @@ def squared(context: Context, body: Body) -> Node:
     form = context.show(value)
     assert isinstance(form, tree.Matrix)
     entries = [row[0] for row in _written(context, value, form).rows if row[0] != Number(0)]
-    return _energy(context, body, factor, sum_of([Power(without_signs(x), Number(2)) for x in entries]))
+    return _energy(context, body, factor, sum_of([_square(x) for x in entries]))
 
 
 def _with_factor(context: Context, body: Body) -> tuple[squares.Shared, Matrix]:
@@ -81,7 +82,7 @@ def _energy(context: Context, body: Body, factor: squares.Shared | None, added: 
         return Product((letters.HALF, mass, added))
     taken = [(context.show(part), 2) for part in (factor.length, factor.rate) if part != one]
     front = number_in_front(times(Fraction(1, 2), [(mass, 1), *taken]))
-    if added == Power(Number(1), Number(2)):  # nothing is left in the squares
+    if added == ONE:  # nothing is left in the squares
         return front
     return Product((*factors_of(front), added))
 
@@ -179,7 +180,7 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[_Bracket
         first, second = (letters.velocity(coordinates[i]) for i in (j, k))
         value = sum((a * b for a, b in pairs), start=context.robot.ring.zero)
         if j == k:
-            tree = sum_of([Power(without_signs(context.show(a)), Number(2)) for a, _ in pairs])
+            tree = sum_of([_square(context.show(a)) for a, _ in pairs])
             yield _Bracket(tree, value, times(1, [(tree, 1), (first, 2)]))
         else:
             tree = total([times(1, [(context.show(a), 1), (context.show(b), 1)]) for a, b in pairs])
@@ -278,7 +279,13 @@ def _turn(context: Context, found: squares.Turned) -> Prose:
 
 def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:
     """(...)² + (...)², without the signs inside that do not count."""
-    return sum_of([Power(without_signs(context.show(x)), Number(2)) for x in components])
+    return sum_of([_square(context.show(x)) for x in components])
+
+
+def _square(entry: Node) -> Node:
+    """The square of an entry as it stands, without a sign that does not count."""
+    base = without_signs(entry)
+    return base if base == ONE else Power(base, Number(2))
 
 
 def without_signs(node: Node) -> Node:
