@@ -88,7 +88,7 @@ def _source(answer: str) -> tuple[bytes, str]:
 
 def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bool, markdown: bool) -> None:
     from dynsolve.answers.feedback import feedback
-    from dynsolve.explain.style import style_of
+    from dynsolve.explain.context import style_of
 
     document = feedback(report, f"{problem.title}: {report.student or report.file or 'answers'}", view)
     style = style_of(problem.robot)

@@ -1,9 +1,9 @@
 """Quantities -> steps: why, the formula with its source, the formula of this robot, the result.
 
 A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
-`jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with
-`christoffel` and `agreement`); `frames` of a drawing; `points`, `task`, `singular`, `inverse`, `rates`,
-`newton_euler` (made in `recursions`), `parameters`, `equilibria`, `forward_dynamics`, `task_inertia`,
+`jacobian`, `inertia` (with `mass_centers`), `energy`, `torque` (with the Lagrangian), `vectorized` (with
+`christoffel`); `frames` of a drawing; `task` (with points), `singular`, `inverse`, `rates`, `newton_euler`
+(made in `recursions`), `parameters`, `equilibria`, `forward_dynamics` (with the inertia of the task),
 `definite`, `statics` and `constraints` where something of them is asked.  To explain a further
 quantity, yield a `Step` in the file of its stage:
 
@@ -25,90 +25,51 @@ a step like it has told (`said`).  `solution.depths` makes of this what a depth 
 Everything a step is made from is in its `Context`; `writing` has what several stages write.
 
     step        what a step is, and in which detail it is shown
-    context     the robot, its exact values, their compact forms
+    context     the robot, its exact values, their compact forms; how its formulas look
     forms       the compact form of every value; how long ones are put together from parts
-    placed_bodies
-                bodies that are given by their positions: r_c, turns, Jacobians by differentiation
-    turned_tensors
-                R I Rᵀ of a body, or why the rotation keeps the tensor
-    rotational_energy
-                K_ω of a body, along its own axes where these make it short
+    writing     sentences and pieces of formulas; the books and their sections that steps refer to
+    given       what is given of the robot and its bodies
+    given_questions
+                what is given of springs, friction and motors, and asked; what it rests on
     jacobian_columns
                 the columns of Jacobians in letters, and with axes and levers put in
+    mass_centers
+                where mass centres are, tensors turned to the base, bodies with a density
+    placed_bodies
+                bodies that are given by their positions, and models without bodies
+    matrix_factors
+                what all entries of a matrix share, in front of it; how wide matrices are
+    actions     what acts beside gravity: springs, rotors, friction; the potential energy
     body_parts  what each body adds to D, its products multiplied out
-    given_model energies and D of a model that is given without bodies
-    product_forms
-                products and quotients: a determinant in its factors, fractions
-    entry_formulas
-                energies, momenta and forces in the entries of D and g and the Christoffel symbols
-    statement   what is given and what is to be found
-    hypotheses  what it rests on: joints, gravity, friction, values
-    given_bodies
-                what is given of each body: mass, dimensions, mass centre, moments of inertia
-    given_actions, given_questions
-                what is given of springs, friction and motors; of the task, the state, the constraints
-    shapes      what uniform shapes and their dimensions are called
-    style       how a robot's formulas look: s_1 for sin θ_1
-    short_arms  which arms are worked out line by line
-    widths      how wide formulas are as text
-    signs       the style of a report, in which no sign stands for two things
-    citations   the books and their sections that steps refer to
-    writing     sentences and pieces of formulas
-    configurations
-                singular configurations and branches of the inverse, as formulas
-    steady      what the step of equilibria says of motions at constant rates
-    singular_figures
-                drawings of singular configurations: the arm there, and what is lost
+    terms       what each term of a force is, and the step of D q̈ + C q̇ + g = τ
     inverse_formulas
-                the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
-    target, branch_values
-                the configurations that reach a target in numbers
-    inverse_target
-                their steps
-    inverse_way the lines to each of them: components turned, squared and added, sorted
+                the solutions of inverse kinematics as formulas, and their conditions
+    target, inverse_target
+                the configurations that reach a target in numbers, and their steps
     inverse_figures
-                their drawings: a projection, the triangle of two lengths
-    inverse_pose
-                of a full pose: the point that is left in place by the wrist, the rotation that is left for it
+                drawings of the solutions and of singular configurations
     recursions  the Newton-Euler recursions, link by link
-    actions     what acts beside gravity: springs, rotors, friction
-    acting      where their steps are imported, of robots that have any
-    potential   the potential energy of each body
-    base_frame  H_0 in the world, the elementary motions
-    given_axes  axes of a body that are given from the base: how they lie in the frame of the link
-    density     a body with a density, by integration
-    terms       what each term of a force is: inertial, centrifugal, Coriolis, friction, gravity
     sanity      checks that a person can do on the finished model
-    matrix_factors  what all entries of a matrix share, in front of it
-    closing     the step of D q̈ + C q̇ + g = τ
     working     the lines between a formula and its result, each proved before it is shown
 
 What the signs of a report mean:
 
-    notation_list      the list of notation: a line for every sign that occurs
-    definition_units   the units of abbreviations, from the formulas that define them
-    textbook_letters   the lines of the textbook's letters
-    roles              what the parameters of a problem are: a mass, a length of the table
-    parameter_meanings the same in words: the length of link 2, from o_1 to o_2
-    sign_kinds         which signs occur in a document
+    notation_list       the list of notation: a line for every sign that occurs
+    signs               the signs of a document, their styles and their units
+    textbook_letters    the lines of the textbook's letters
+    parameter_meanings  what the parameters of a problem are: the length of link 2, from o_1 to o_2
 
 Long models are written in names (`--abbreviate`):
 
-    abbreviations        which constants and terms get names, and D, C and g in these
-    base_parameters      the inertial constants that D and g are made of
-    recurring            what stands in several places
-    recurring_multiples  sums that are multiples of each other
-    abbreviated_steps    the steps of a derivation in these names
-    named_steps          which sums of a short model have names, where these are introduced; its steps in them
-    inertia_names        names for its long sums of masses and lengths, from the kinetic energy on
-    symbol_names         names for its Christoffel symbols
-    exchanges            a sum or a product exchanged for its name
-    long_model           those of a long model, which stay in d_ij, c_ijk and g_k where they can
+    abbreviations  which constants and terms get names, and D, C and g in these
+    recurring      what stands in several places
+    named_steps    the steps of a derivation in these names, and where they are introduced
+    names          names for long sums of masses and lengths, and for Christoffel symbols
+    long_model     those of a long model, which stay in d_ij, c_ijk and g_k where they can
 
 And hints (`--hint`), made of the same steps:
 
-    hint        what to do in a stage, without its results
-    pitfalls    what goes wrong most often there
+    hint        what to do in a stage, without its results, and what goes wrong most often there
 """
 
 from __future__ import annotations
@@ -130,6 +91,13 @@ __all__ = ["Detail", "Step", "explain"]
 
 _OF_BODIES = (Stage.INERTIA, Stage.ENERGY)
 """The stages whose matrices have the factors that their entries share, masses and lengths, in front."""
+
+
+_BESIDE = {
+    Stage.LAGRANGIAN: ("torque", "lagrangian_steps"),
+    Stage.TASK_INERTIA: ("forward_dynamics", "task_inertia_steps"),
+}
+"""The stages that stand in the file of another, and their functions there."""
 
 
 def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
@@ -172,5 +140,6 @@ def bare_steps(stage: Stage, context: Context) -> Iterator[Step]:
 
 def _steps(stage: Stage) -> Callable[[Context], Iterator[Step]]:
     """The function `steps` of the stage's file, imported when it is asked for."""
-    steps: Callable[[Context], Iterator[Step]] = import_module(f"{__name__}.{stage}").steps
+    file, name = _BESIDE.get(stage, (stage, "steps"))
+    steps: Callable[[Context], Iterator[Step]] = getattr(import_module(f"{__name__}.{file}"), name)
     return steps

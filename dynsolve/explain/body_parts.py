@@ -11,10 +11,8 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.derivatives import are_alike
-from dynsolve.explain.working.identities import Identity, said
-from dynsolve.explain.working.own_axes import turned
-from dynsolve.explain.working.products import cancelled_in_product, used_in_product
-from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
+from dynsolve.explain.working.identities import Identity, cancelled_in_product, said, used_in_product
+from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity, turned
 from dynsolve.explain.writing import name_of, spong, sum_of
 from dynsolve.notation.build import number_in_front
 from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, Symbol, equation

@@ -12,8 +12,10 @@ from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.reduced import Reduced, reduced
 from dynsolve.document import Prose
-from dynsolve.explain.citations import mls
-from dynsolve.explain.closing import (
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.task import with_letters
+from dynsolve.explain.terms import (
     acting_side,
     driving_side,
     equations_of_motion,
@@ -21,10 +23,7 @@ from dynsolve.explain.closing import (
     moving_side,
     with_force_letters,
 )
-from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.task import with_letters
-from dynsolve.explain.writing import is_small, scalar
+from dynsolve.explain.writing import is_small, mls, scalar
 from dynsolve.notation.tree import (
     Derivative,
     Negative,

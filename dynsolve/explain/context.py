@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import fraction
 from dynsolve.derivation.agreement import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.short_arms import is_short
 from dynsolve.explain.writing import are_counted, machine
 from dynsolve.notation import tree
+from dynsolve.notation.names import split
+from dynsolve.notation.printing import Style, decimal_text
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
 from dynsolve.robot.drawing.procedure import Normals
-from dynsolve.robot.model import Body, Convention, Robot
+from dynsolve.robot.model import Body, Convention, JointType, Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,3 +101,58 @@ class Context:
     def machine(self) -> str:
         """What moves, in words."""
         return machine(self.robot)
+
+
+# -- which arms are worked out line by line: of others every line would fill pages -----------------
+
+MOST_JOINTS = 3
+"""Up to this number of coordinates every line is shown."""
+
+MOST_TERMS = 20
+"""The terms in the last frame up to which more coordinates are like these: an arm with parallel axes."""
+
+
+def is_short(robot: Robot, values: Derivation) -> bool:
+    """Whether an arm has few joints, or many of which the last frame has but few terms."""
+    if robot.n <= MOST_JOINTS:
+        return True
+    if not robot.has_table:
+        return False
+    last = values[f"H{len(robot.joints)}"]
+    return sum(len(entry.poly) for entry in last.entries) <= MOST_TERMS
+
+
+# -- how a robot's formulas look: the shorthands s_1 and c_12, decimal numbers ---------------------
+
+
+def style_of(robot: Robot) -> Style:
+    """The style of a robot: s_1 for sin θ_1 unless something else is called like one of these."""
+    subscripts = {
+        q.name: ",".join(split(q.name)[1]) for q in robot.coordinates if q.type is JointType.REVOLUTE
+    }
+    counts = Counter(subscripts.values())
+    taken = set(robot.parameters) | {q.name for q in robot.coordinates}
+    shorthand = {name: s for name, s in subscripts.items() if s and counts[s] == 1}
+    if any({f"s{s}", f"c{s}"} & taken for s in shorthand.values()):
+        shorthand = {}  # no cos(q_1) beside c_3
+    numeric = bool(robot.bodies) and all(body.mass.is_number for body in robot.bodies)
+    return Style(shorthand=shorthand, star=True, decimal=numeric)
+
+
+DIGITS = 4
+"""The significant digits of numbers that are no exact decimals, unless the problem gives more."""
+
+
+def shown_digits(robot: Robot) -> int:
+    """The digits with which numbers are shown: as many as the longest number of the problem has.
+
+    >>> from dynsolve.problem import load
+    >>> from dynsolve.problem.library import find
+    >>> shown_digits(load(find("numeric-2r")).robot)
+    4
+    """
+    given = [*(e for joint in robot.joints for e in (joint.d, joint.a)), *robot.gravity.entries]
+    given += [e for body in robot.bodies for e in (body.mass, *body.center.entries)]
+    numbers = (fraction(factor) for expr in given for factor in expr.poly.to_dict().values())
+    texts = (decimal_text(number.numerator, number.denominator) or "" for number in numbers)
+    return max([DIGITS, *(len(text.replace(".", "").lstrip("-0")) for text in texts)])

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.document import Prose, Reference
-from dynsolve.explain.acting import acting_steps
+from dynsolve.explain.actions import acting_steps, potential_steps
 from dynsolve.explain.context import Context
-from dynsolve.explain.given_model import energy_steps
 from dynsolve.explain.jacobian import where_told_read_off
 from dynsolve.explain.jacobian_columns import (
     BESIDE,
@@ -21,12 +20,11 @@ from dynsolve.explain.jacobian_columns import (
     parallel,
     read_off,
 )
-from dynsolve.explain.placed_bodies import jacobians_step
-from dynsolve.explain.potential import potential_steps
-from dynsolve.explain.rotational_energy import rotational_step
-from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step, outlined
-from dynsolve.explain.working import kinetic
-from dynsolve.explain.working.sums import summed
+from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
+from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
+from dynsolve.explain.working.derivatives import summed
+from dynsolve.explain.working.kinetic import linear, squared, written_velocity
+from dynsolve.explain.working.rotational import along_own_axes, multiplied_out, turned
 from dynsolve.explain.writing import (
     are_counted,
     counted_sum,
@@ -44,7 +42,9 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
+    Parenthesized,
     Product,
+    Relation,
     Row,
     Sum,
     Symbol,
@@ -247,7 +247,7 @@ def _at_the_end(context: Context, body: Body, step: Step) -> Step:
 def _velocities(context: Context, body: Body) -> Step:
     b = body.name
     v, w = letters.of_body("v", body, "bold"), letters.of_body("omega", body, "bold")
-    results = [equation(v, kinetic.velocity(context, body))]
+    results = [equation(v, written_velocity(context, body))]
     formulas: list[Node] = [equation(v, Product((letters.jv(body), letters.QD)))]
     if not body.is_point:
         results.append(equation(w, context.form(f"w{b}")))
@@ -278,7 +278,7 @@ def _times_rates(context: Context, body: Body) -> str:
 def _linear(context: Context, body: Body, tells: bool) -> Step:
     b = body.name
     Kv, v = letters.energy_part("v", body), letters.of_body("v", body, "bold")
-    velocity = kinetic.velocity(context, body)
+    velocity = written_velocity(context, body)
     form = context.form(f"Kv{b}")
     working: tuple[Node, ...] = ()
     still = all(row[0] == Number(0) for row in velocity.rows)
@@ -289,8 +289,8 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
     else:
         why = ("Half the mass times the square of the speed of the mass centre.",)
         if is_small(velocity, velocity):
-            working = (equation(Kv, kinetic.squared(context, body)),)
-    way = kinetic.linear(context, body, squares_shown=bool(working))
+            working = (equation(Kv, squared(context, body)),)
+    way = linear(context, body, squares_shown=bool(working))
     return Step(
         id=f"Kv{b}",
         stage=STAGE,
@@ -348,4 +348,66 @@ def _kinetic(context: Context, body: Body) -> Step:
         lines=way.lines,
         concluding=way.concluding,
         result=(equation(K, context.form(f"K{body.name}")),),
+    )
+
+
+# -- the step of the rotational kinetic energy of a body -------------------------------------------
+
+
+def rotational_step(context: Context, body: Body) -> Step:
+    """K_ω = ½ ωᵀ 𝓘 ω, along the axes of the base or of the body."""
+    b = body.name
+    Kw, w = letters.energy_part("omega", body), letters.of_body("omega", body, "bold")
+    step = Step(
+        id=f"Kw{b}",
+        stage=Stage.ENERGY,
+        title=f"Rotational kinetic energy of {name_of(body)}",
+        source=spong("7.2"),
+        normal=STATED,
+        result=(equation(Kw, context.form(f"Kw{b}")),),
+    )
+    if body.is_point:
+        none: Prose = ("A point mass has no rotational energy.",)
+        return replace(step, why=none, said="point mass", normal=Part.WHY | Part.RESULT)
+    half = Product(
+        (letters.HALF, letters.transposed_product(w, letters.base_tensor(letters.index_of(body.name))))
+    )
+    why: Prose = (w, f" and the tensor, both in {context.ground} coordinates.")
+    step = replace(step, why=why, hint=why, formula=equation(Kw, half))
+    if context.values[f"w{b}"].is_zero:
+        return replace(step, why=("The body does not turn.",), normal=STATED | Part.WHY)
+    product, way = multiplied_out(context, body)
+    step = replace(step, working=(product,) if is_small(product) else (), lines=way.lines)
+    step = replace(step, concluding=way.concluding)
+    return _turned(context, body, step) if along_own_axes(context, body) else step
+
+
+def _turned(context: Context, body: Body, step: Step) -> Step:
+    """K_ω along the axes of the body: ω is brought there, and the tensor is the given one."""
+    b, w = body.name, letters.of_body("omega", body, "bold")
+    R, tensor = letters.of_body("R", body, "bold"), letters.tensor(context.robot, body)
+    own = turned(context, body, "w", w)
+    half = Product((letters.HALF, Transpose(Parenthesized(own.name)), tensor, Parenthesized(own.name)))
+    assert isinstance(step.formula, Relation)
+    why: Prose = (
+        equation(letters.base_tensor(letters.index_of(body.name)), Product((R, tensor, Transpose(R)))),
+        f" is the tensor along the axes of the {context.ground}. Along the body's own axes it is ",
+        tensor,
+        ", and the angular velocity is ",
+        own.name,
+        ".",
+    )
+    put_in = Line(("The tensor along the body's own axes put in:",), step.working, (f"I_body{b}",))
+    return replace(
+        step,
+        why=why,
+        formula=equation(*step.formula.parts, half),
+        working=(),
+        lines=(
+            *own.lines,
+            *(replace(line, detail=Detail.FULL) for line in (put_in, *step.lines) if line.formulas),
+        ),
+        normal=STATED | Part.WHY | Part.LINES,
+        said="own axes",
+        uses=(f"v{b}", own.uses),
     )

@@ -5,24 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant
 from dynsolve.derivation import linearization
 from dynsolve.derivation.equilibria import Equilibria
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.stability import Point, Stability
+from dynsolve.derivation.steady import may_be_held, steady_energy, steady_forces
 from dynsolve.document import Prose
-from dynsolve.explain import steady as moving
-from dynsolve.explain.citations import SLOTINE_LI, spong
-from dynsolve.explain.configurations import ConfigurationForms, vanishing
 from dynsolve.explain.context import Context
+from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
-from dynsolve.explain.writing import is_small, listed, side_by_side
+from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, is_small, listed, side_by_side, spong
+from dynsolve.notation import tree
 from dynsolve.notation.tree import (
     Degrees,
-    Matrix,
     Negative,
     Node,
     Number,
+    Parenthesized,
     Power,
     Product,
     Relation,
@@ -88,21 +89,21 @@ def _equilibria(context: Context) -> Iterator[Step]:
         told: tuple[Prose, ...] = ((*listed(free), f" may have any value{where}."),) if free else ()
         notes = (*told, *shown.existence("equilibria", found.exist))
     steady = bool(robot.questions.model.steady)
-    forces: Node = moving.FORCES if steady else letters.G
+    forces: Node = FORCES if steady else letters.G
     task = equation(forces, Number(0))
-    values = moving.working(context) if steady else _at_rest(context)
+    values = working(context) if steady else _at_rest(context)
     yield Step(
         id="equilibria",
         stage=STAGE,
         title="Where nothing else moves" if steady else "Where nothing moves",
         why=(
-            *(moving.why(context) if steady else _nothing_moves(robot)),
+            *(why(context) if steady else _nothing_moves(robot)),
             *_held(context),
             *_assumed(context, shown),
         ),
         formula=equation(forces, *values, Number(0)),
         task=task,
-        source=moving.SOURCE if steady else SLOTINE_LI.section("3.1"),
+        source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         lines=lines,
         result=result,
         listed=len(result) > 1,
@@ -160,9 +161,9 @@ def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -
     working: tuple[Node, ...] = ()
     second: Node = _DG
     if steady:
-        why, energy = moving.energy(context)
-        forces, working = moving.forces(context), (energy,)
-        second = moving.SECOND
+        why, energy = energy_of_motion(context)
+        forces, working = forces_of_motion(context), (energy,)
+        second = SECOND
     curvature = context.show(linearization.curvature(robot, forces))
     if is_small(curvature):
         working = (*working, equation(second, curvature))
@@ -176,7 +177,7 @@ def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -
         stage=STAGE,
         title="How stable they are",
         why=why,
-        source=moving.SOURCE if steady else SLOTINE_LI.section("3.4"),
+        source=SOURCE if steady else SLOTINE_LI.section("3.4"),
         working=working,
         concluding=tuple(part for sentence in told for part in (*sentence, " ")),
         uses=("equilibria",),
@@ -262,7 +263,7 @@ def _state_matrix(context: Context) -> Step:
         return _skipped("linear_A", value)
     has_friction = "friction" in robot.actions.kinds
     damped: Node = Negative(Product((_INVERSE, _F))) if has_friction else _ZERO
-    blocks = Matrix(((_ZERO, _ONE), (Negative(Product((_INVERSE, _DG))), damped)))
+    blocks = tree.Matrix(((_ZERO, _ONE), (Negative(Product((_INVERSE, _DG))), damped)))
     distance = Sum((letters.Q, Negative(letters.bold("q", Words("e")))))
     why: Prose = (
         "The state is how far the coordinates are from the equilibrium, ", distance,
@@ -314,7 +315,7 @@ def _input_matrix(context: Context) -> Step:
     if isinstance(value, Skipped):
         return _skipped("linear_B", value)
     inputs: list[Node] = [letters.force(robot.coordinates[k]) for k in linearization.driven(robot)]
-    column = Matrix(((_ZERO,), (Product((_INVERSE, _S)),)))
+    column = tree.Matrix(((_ZERO,), (Product((_INVERSE, _S)),)))
     every = len(inputs) == robot.n
     return Step(
         id="linear_B",
@@ -327,3 +328,52 @@ def _input_matrix(context: Context) -> Step:
         result=(equation(letters.LINEAR_B, context.form("linear_B")),),
         detail=Detail.BRIEF,
     )  # fmt: skip
+
+
+# -- what the step of equilibria says of a steady motion, in which some rates are constant ---------
+
+SOURCE = GOLDSTEIN.section("2.7")
+FORCES = Sum((Product((letters.C, letters.QD)), letters.G))
+SECOND = letters.partial_derivative(Parenthesized(FORCES), letters.Q)
+
+
+def why(context: Context) -> Prose:
+    """Which rates are held, by what, and what is left of the equations of the others."""
+    robot = context.robot
+    rates = robot.questions.model.steady
+    passive = {robot.coordinates[k].name for k in robot.actions.passive}
+    free = [Symbol(name) for name, _ in rates if name in passive]
+    driven = [Symbol(name) for name, _ in rates if name not in passive]
+    held = [equation(Symbol(name, 1), value) for name, value in rates]
+    said: Prose = ("In this motion ", side_by_side(held), " all the time; the other rates and all "
+                   "accelerations are 0. ")  # fmt: skip
+    if driven:
+        said = (*said, "Motors keep the rate of ", *listed(driven), ", whatever that takes. ")
+    if free:
+        said = (*said, "No motor drives ", *listed(free), ". ")
+    return (*said, "Of the equations of the others ", FORCES, " is left. ")
+
+
+def forces_of_motion(context: Context) -> Matrix:
+    """C q̇ + g in this motion, n×1."""
+    return steady_forces(context.robot, context.values["C"], context.values["g"])
+
+
+def working(context: Context) -> tuple[Node, ...]:
+    """The values of these forces, where they are not too long."""
+    shown = context.show(forces_of_motion(context))
+    return (shown,) if is_small(shown) else ()
+
+
+def energy_of_motion(context: Context) -> tuple[Prose, Node]:
+    """What the stability follows from, and the energy whose derivatives these forces are."""
+    value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
+    shown = equation(letters.STEADY_ENERGY, Sum((letters.P, Negative(letters.K))), value)
+    said: Prose = (
+        "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
+        "Where the matrix of its second derivatives is positive definite, the motion is stable",
+    )
+    if may_be_held(context.robot, context.values["D"]):
+        return (*said, ". Elsewhere nothing is said: what V alone lets fall may be held by forces of "
+                       "first order in the rates, or by a rate that is free to change. "), shown  # fmt: skip
+    return (*said, "; where it falls in some direction, it is not. "), shown

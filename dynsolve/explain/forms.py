@@ -8,16 +8,23 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from itertools import combinations_with_replacement
-from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr, with_integers
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.transfer import Transfer
+from dynsolve.algebra.trig_factor import trig_factors
 from dynsolve.derivation.graph import Derivation, Skipped
-from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
+from dynsolve.derivation.inverse.unknowns import search_ring
+from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
 from dynsolve.notation.tree import ZERO, Node, Product, Symbol
@@ -27,9 +34,6 @@ from dynsolve.quantities.index import quantities
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
-
-if TYPE_CHECKING:
-    from dynsolve.explain.product_forms import ProductForms
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -94,8 +98,6 @@ class Forms:
     @cached_property
     def _products(self) -> ProductForms:
         """Products and quotients of this robot's ring."""
-        from dynsolve.explain.product_forms import ProductForms
-
         return ProductForms(self.compactor)
 
     def christoffel(self, i: int, j: int, k: int) -> Node:
@@ -274,3 +276,182 @@ def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
         Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
     ]
     return parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)
+
+
+# -- compact forms of products and quotients: a determinant in its factors, fractions --------------
+
+Factors = Sequence[tuple[Node, int]]
+
+LONG_FACTORS = 150
+"""Expressions of more terms are not taken apart: over roots that takes minutes."""
+
+
+class ProductForms:
+    """Writes expressions of one ring as products, where that is shorter than as sums."""
+
+    def __init__(self, compactor: Compactor) -> None:
+        self.compactor = compactor
+        self.ring = compactor.ring
+
+    def form(self, expr: Expr) -> Node:
+        """The shorter of the product of an expression's factors and its compact form."""
+        coefficient, factors = self._factors(expr)
+        return times(coefficient, factors)
+
+    def fraction(self, value: RationalExpr) -> Node:
+        """A fraction, numerator and denominator as products."""
+        value = with_integers(value)
+        above, over = self._factors(value.numerator)
+        if value.divisor is None:
+            return times(above, over)
+        below, under = self._factors(value.divisor)
+        return times(above / below, [*over, *((node, -power) for node, power in under)])
+
+    def _factors(self, expr: Expr) -> tuple[Fraction, Factors]:
+        """(number, factors with their exponents) that make the shortest form."""
+        plain = self.compactor.form(expr)
+        found = None if expr.is_number or len(expr) > LONG_FACTORS else self._product(expr)
+        if found is None or cost(times(*found)) >= cost(plain):
+            return Fraction(1), [(plain, 1)]
+        return found
+
+    def _product(self, expr: Expr) -> tuple[Fraction, Factors] | None:
+        """An expression taken apart; None where its factors have no form in this ring."""
+        relative = search_ring(self.ring, (), {})
+        there, back = Transfer(self.ring, relative), Transfer(relative, self.ring)
+        try:
+            factors = [(back(factor), power) for factor, power in trig_factors(there(expr))]
+        except AlgebraError:
+            return None
+        product = self.ring.one
+        for factor, power in factors:
+            product = product * factor**power
+        coefficient = fraction(expr.poly.leading_coefficient() / product.poly.leading_coefficient())
+        if product * coefficient != expr:
+            return None
+        factors.sort(key=lambda found: (self.ring.depends_on_coordinates(found[0]), len(found[0])))
+        return coefficient, [(self.compactor.form(factor), power) for factor, power in factors]
+
+
+# -- formulas in d_ij, c_ijk and g_k, these being written by their compact forms or by their names
+
+ChristoffelSymbols = Callable[[int, int, int], Node]
+"""c_ijk of i, j, k from 0, and ZERO for one that is zero."""
+
+Factor = tuple[Node, int]
+"""A factor of a product, and its exponent."""
+
+
+ProductWriter = Callable[[Fraction | int, Iterable[Factor]], Node]
+"""Writes coefficient · Π node^exponent."""
+
+
+@dataclass(frozen=True, slots=True)
+class EntryFormulas:
+    """The formulas of the energies, momenta and forces for given ways to write d_ij, c_ijk, g_k and friction.
+
+    Indices count from 0.  Each pair of rates is written once: q̇_i q̇_j with i ≤ j.
+    """
+
+    coordinates: Sequence[str]
+    d: Callable[[int, int], Node]
+    c: ChristoffelSymbols
+    g: Callable[[int], Node]
+    friction: Callable[[int], Node]
+    product: ProductWriter = times
+
+    def kinetic_energy(self) -> Node:
+        """K = Σ_i ½ d_ii q̇_i² + Σ_{i<j} d_ij q̇_i q̇_j"""
+        return total(
+            [
+                self.product(Fraction(1, 2) if i == j else 1, [(self.d(i, j), 1), *self._rates(i, j)])
+                for i, j in pairs(len(self.coordinates))
+            ]
+        )
+
+    def momentum(self, k: int) -> Node:
+        """∂L/∂q̇_k = Σ_j d_kj q̇_j"""
+        return total(self._times_rates(k, dots=1))
+
+    def momentum_rate(self, k: int) -> Node:
+        """d/dt ∂L/∂q̇_k = Σ_j d_kj q̈_j + Σ_ij ∂d_kj/∂q_i q̇_i q̇_j, with ∂d_kj/∂q_i = c_ijk + c_ikj"""
+        terms = self.acceleration_terms(k)
+        for i, j in pairs(len(self.coordinates)):
+            own = self.product(1 if i == j else 2, [(self.c(i, j, k), 1)])
+            others = [self.c(i, k, j)] if i == j else [self.c(i, k, j), self.c(j, k, i)]
+            terms.append(self.product(1, [(total([own, *others]), 1), *self._rates(i, j)]))
+        return total(terms)
+
+    def lagrangian_derivative(self, k: int) -> Node:
+        """∂L/∂q_k = ½ Σ_ij ∂d_ij/∂q_k q̇_i q̇_j - g_k, with ∂d_ij/∂q_k = c_kij + c_kji"""
+        terms = []
+        for i, j in pairs(len(self.coordinates)):
+            factor = self.c(k, i, i) if i == j else total([self.c(k, i, j), self.c(k, j, i)])
+            terms.append(self.product(1, [(factor, 1), *self._rates(i, j)]))
+        return total([*terms, negated(self.g(k))])
+
+    def force(self, k: int) -> Node:
+        """τ_k = Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + friction_k + g_k"""
+        return total([*self.acceleration_terms(k), *self._coriolis_terms(k), self.friction(k), self.g(k)])
+
+    def acceleration_terms(self, k: int) -> list[Node]:
+        """d_kj q̈_j for every j"""
+        return self._times_rates(k, dots=2)
+
+    def coriolis_force(self, k: int) -> Node:
+        """Row k of C q̇: Σ_ij c_ijk q̇_i q̇_j"""
+        return total(self._coriolis_terms(k))
+
+    def _coriolis_terms(self, k: int) -> list[Node]:
+        return [
+            self.product(1 if i == j else 2, [(self.c(i, j, k), 1), *self._rates(i, j)])
+            for i, j in pairs(len(self.coordinates))
+        ]
+
+    def _times_rates(self, k: int, dots: int) -> list[Node]:
+        return [
+            self.product(1, [(self.d(k, j), 1), (Symbol(name, dots), 1)])
+            for j, name in enumerate(self.coordinates)
+        ]
+
+    def _rates(self, i: int, j: int) -> list[Factor]:
+        return rate_factors(self.coordinates, i, j)
+
+
+def pairs(n: int) -> list[tuple[int, int]]:
+    """(i, j) with i ≤ j, from 0."""
+    return [(i, j) for i in range(n) for j in range(i, n)]
+
+
+def rate_factors(coordinates: Sequence[str], i: int, j: int) -> list[Factor]:
+    """q̇_i q̇_j, or q̇_i²"""
+    if i == j:
+        return [(Symbol(coordinates[i], 1), 2)]
+    return [(Symbol(coordinates[i], 1), 1), (Symbol(coordinates[j], 1), 1)]
+
+
+def coriolis_matrix(coordinates: Sequence[str], c: ChristoffelSymbols) -> tree.Matrix:
+    """C with c_kj = Σ_i c_ijk q̇_i; the rates of equal symbols are collected."""
+    n = len(coordinates)
+
+    def entry(k: int, j: int) -> Node:
+        return _collected((c(i, j, k), Symbol(name, 1)) for i, name in enumerate(coordinates))
+
+    return tree.Matrix(tuple(tuple(entry(k, j) for j in range(n)) for k in range(n)))
+
+
+def collected_coriolis_force(coordinates: Sequence[str], c: ChristoffelSymbols, k: int) -> Node:
+    """Row k of C q̇; the rates of equal symbols are collected."""
+    return _collected(
+        (c(i, j, k), times(1 if i == j else 2, rate_factors(coordinates, i, j)))
+        for i, j in pairs(len(coordinates))
+    )
+
+
+def _collected(terms: Iterable[tuple[Node, Node]]) -> Node:
+    """Σ symbol · rate, the rates of each symbol in one sum."""
+    shared: dict[Node, list[Node]] = {}
+    for symbol, rate in terms:
+        if symbol != ZERO:
+            shared.setdefault(symbol, []).append(rate)
+    return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import chain
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
-from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
+from dynsolve.explain.parameter_meanings import roles
 from dynsolve.explain.placed_bodies import turned
 from dynsolve.explain.task import with_letters
 from dynsolve.explain.writing import and_joined, listed, measured, name_of, side_by_side
 from dynsolve.notation.tree import (
     ZERO,
+    Letter,
+    Negative,
     Node,
+    Number,
     Relation,
     Row,
     Symbol,
@@ -24,10 +30,13 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
+from dynsolve.robot import units
+from dynsolve.robot.actions import JointFriction, Motor, Spring
 from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.mechanism import GivenModel
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, JointType, Robot
 from dynsolve.robot.questions import TIP, Load
+from dynsolve.robot.shapes import AXES
 
 # -- what stands in the place of a table -----------------------------------------------------------
 
@@ -140,3 +149,149 @@ def _of_load(forms: Forms, load: Load) -> Prose:
     ]
     acting: Prose = tuple(part for each in told for part in (*each, " and "))[:-1]
     return (f"On link {load.link} acts at {where} ", *acting, f"{along}.")
+
+
+# -- what is given of springs, dampers, friction, rotors and passive coordinates, in words ---------
+
+
+def of_actions(forms: Forms) -> Iterator[Prose]:
+    """A sentence for each thing that acts beside gravity."""
+    actions = forms.robot.actions
+    yield from (_spring(forms, spring) for spring in actions.springs)
+    for damper in actions.dampers:
+        yield ("A damper of coefficient ", forms.of(damper.damping), " acts along ", forms.of(damper.of), ".")
+    yield from (_friction(forms, friction) for friction in actions.friction)
+    yield from (_motor(forms, motor) for motor in actions.motors)
+    passive = [_coordinate(forms, k) for k in actions.passive]
+    if passive:
+        yield ("No motor drives ", *listed(passive), ".")
+
+
+def _coordinate(forms: Forms, k: int) -> Symbol:
+    return Symbol(forms.robot.coordinates[k].name)
+
+
+def _spring(forms: Forms, spring: Spring) -> Prose:
+    """A spring of stiffness k acts along q₁ - q₂ and is at rest where this is 0."""
+    if spring.law is None:
+        return ("A spring has the potential energy ", forms.of(spring.energy), ".")
+    stiffness, along = (forms.of(value) for value in (spring.law.stiffness, spring.law.of))
+    at_rest = equation(along, forms.of(spring.law.rest))
+    return ("A spring of stiffness ", stiffness, " is at rest at ", at_rest, ".")
+
+
+def _friction(forms: Forms, friction: JointFriction) -> Prose:
+    """On q₁ acts viscous friction of coefficient f_v and Coulomb friction of coefficient f_c."""
+    kinds = (("viscous", friction.viscous), ("Coulomb", friction.coulomb))
+    there: list[Prose] = [
+        (f"{kind} friction of coefficient ", forms.of(value)) for kind, value in kinds if not value.is_zero
+    ]
+    what = there[0] if len(there) == 1 else (*there[0], " and ", *there[1])
+    return ("On ", _coordinate(forms, friction.coordinate), " acts ", *what, ".")
+
+
+def _motor(forms: Forms, motor: Motor) -> Prose:
+    """The rotor that turns q₂ has the moment of inertia I_m2 and the gear ratio k_r2; link 1 carries it."""
+    told: Prose = ("The rotor that drives ", _coordinate(forms, motor.turns), " has the moment of inertia ")
+    told += (measured(forms.of(motor.inertia), "kg m^2"),)
+    if motor.ratio != forms.robot.ring.one:
+        told += (" and the gear ratio ", forms.of(motor.ratio))
+    if motor.carrier:
+        axis = Letter(AXES[motor.axis], Number(motor.carrier), style="bold")
+        told += ("; it spins about ", axis, f" and is carried by link {motor.carrier}")
+    return (*told, ".")
+
+
+# -- what an exercise takes for granted and its solution rests on: its joints, gravity, friction, values
+# A drawing or the text of an exercise says it; here it is said in the words of the problem file.
+
+_KINDS = {JointType.REVOLUTE: "revolute", JointType.PRISMATIC: "prismatic"}
+
+# -- the joints ------------------------------------------------------------------------------------
+
+
+def joints(robot: Robot) -> str:
+    """with revolute joints; with a revolute and a prismatic joint; nothing of a table without joints."""
+    types = [joint.type for joint in robot.joints if joint.type]
+    found = [word for kind, word in _KINDS.items() if kind in types]
+    if len(types) == len(found):
+        return f" with {' and '.join(f'a {word}' for word in found)} joint" if found else ""
+    return f" with {' and '.join(found)} joints"
+
+
+# -- the base --------------------------------------------------------------------------------------
+
+
+def of_base(forms: Forms) -> Prose:
+    """Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w; nothing where it is the world."""
+    robot = forms.robot
+    if not letters.has_base(robot):
+        return ()
+    moves = zip("xyz", robot.base_position.entries, strict=True)
+    told: list[tuple[str, Prose]] = [
+        ("moved ", ("by ", measured(forms.of(far), "m"), " along ", _of_world(axis)))
+        for axis, far in moves
+        if not far.is_zero
+    ]
+    told += [("turned ", ("by ", angle, " about ", _of_world(axis))) for axis, angle in robot.base_turns]
+    turned = robot.base_rotation != robot.base_rotation.identity(robot.ring, 3)
+    if len(told) > 2 or (turned and not robot.base_turns):
+        return ("How frame 0 is placed in the world is given (1.2). ",)
+    (first, how), *others = told
+    rest: Prose = ()
+    for verb, by in others:
+        rest += (" and ", *((verb,) if verb != first else ()), *by)
+    return ("Frame 0 is ", first, *how, *rest, " in the world w. ")
+
+
+def _of_world(axis: str) -> Node:
+    """𝐳_w"""
+    return letters.bold(axis, Words("w"))
+
+
+# -- what acts -------------------------------------------------------------------------------------
+
+
+def of_forces(forms: Forms) -> Prose:
+    """Gravity g acts along -𝐲₀, and there is no friction; what else the problem gives."""
+    told = _gravity(forms)
+    if "friction" not in forms.robot.actions.kinds:
+        told += (" and no friction." if forms.robot.gravity.is_zero else "; there is no friction.",)
+    else:
+        told += (".",)
+    return tuple(chain(told, *((" ", *each) for each in of_actions(forms))))
+
+
+def _gravity(forms: Forms) -> Prose:
+    robot = forms.robot
+    entries = zip("xyz", robot.gravity.entries, strict=True)
+    along = [(axis, entry) for axis, entry in entries if not entry.is_zero]
+    if not along:
+        return ("There is no gravity",)
+    if len(along) > 1:
+        return (letters.GRAVITY, ", the acceleration of gravity, is along no axis of ", _ground(robot))
+    ((axis, entry),) = along
+    opposite = leads_with_minus(entry)
+    size = -entry if opposite else entry
+    unit = _of_world(axis) if letters.has_base(robot) else Letter(axis, Number(0), style="bold")
+    named: Prose = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
+    return ("Gravity", *named, " acts along ", Negative(unit) if opposite else unit)
+
+
+def _ground(robot: Robot) -> str:
+    return "the world" if letters.has_base(robot) else "frame 0"
+
+
+# -- numbers ---------------------------------------------------------------------------------------
+
+
+def of_values(robot: Robot, written: Mapping[str, str], own_units: Mapping[str, str]) -> Prose:
+    """In numbers: a₂ = 0.4318 m; nothing where the problem has no values."""
+    known = {name: unit for name, (_, unit) in roles(robot).items()}
+    given: list[Prose] = []
+    for name, text in written.items():
+        unit = own_units.get(name, known.get(name, ""))
+        value = text.replace(" deg", "°").replace("deg", "°")
+        measured = (" ", units.node(unit)) if unit and not value.endswith("°") else ()
+        given.append((equation(Symbol(name), Words(value)), *measured))
+    return (" In numbers: ", *listed(given), ".") if given else ()

@@ -11,18 +11,24 @@ from dataclasses import replace
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose, Reference
-from dynsolve.explain import given_axes
-from dynsolve.explain.citations import GIVEN, LYNCH_PARK
 from dynsolve.explain.context import Context
-from dynsolve.explain.density import density_step
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.mass_centers import mass_center_step
+from dynsolve.explain.kinematics import product_of_axes, why_axes
+from dynsolve.explain.mass_centers import density_step, mass_center_step, turning_of
+from dynsolve.explain.parameter_meanings import SHAPES, letters_of, shape_letters
 from dynsolve.explain.placed_bodies import center_step, orientation_step
-from dynsolve.explain.shapes import SHAPES, letters_of, shape_letters
 from dynsolve.explain.step import TOLD, Detail, Group, Part, Step
-from dynsolve.explain.turned_tensors import turning_of
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
-from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side, spong
+from dynsolve.explain.writing import (
+    GIVEN,
+    LYNCH_PARK,
+    is_small,
+    listed,
+    measured,
+    name_of,
+    side_by_side,
+    spong,
+)
 from dynsolve.notation.tree import (
     Letter,
     Negative,
@@ -342,7 +348,7 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
         case AxesKind.BASE:
             fixed = not inertia.turns_with_link(robot, body, context.values[f"H{link}"])
             note = ("They may still be used: the kinetic energy is the same as with axes that do.",)
-            return given_axes.why(context, body), given_axes.product(context, body), (note,) if fixed else ()
+            return why_axes(context, body), product_of_axes(context, body), (note,) if fixed else ()
 
 
 def _turned_back(context: Context, body: Body, name: Letter) -> tuple[Node, ...]:

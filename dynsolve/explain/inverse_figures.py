@@ -8,6 +8,7 @@ law of cosines          c² = a² + b² + 2 a b cos ψ, where squares were added
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 from math import cos, pi, sin
 
@@ -15,10 +16,12 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.positivity import is_nonnegative
 from dynsolve.derivation.inverse.equations import Equation, Given, OfPoint, Squared, Turned
 from dynsolve.derivation.inverse.subproblems import OneLine, Solved, TwoLines
-from dynsolve.document.figures import Figure, FigureAngle, FigureLine, LineKind, Place
+from dynsolve.document.figures import ArmArrow, ArmFigure, Figure, FigureAngle, FigureLine, LineKind, Place
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, negated, split_sign, total
-from dynsolve.notation.tree import ZERO, Function, Node, Number, Quotient, Symbol
+from dynsolve.notation.tree import ZERO, Function, Matrix, Node, Number, Quotient, Reference, Symbol
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import TIP
 
 MOST = 6
 """Formulas with more operations are not written on a line of a drawing."""
@@ -217,3 +220,56 @@ def _direction(angle: float) -> Place:
 
 def _moved(start: Place, direction: Place, by: float) -> Place:
     return start[0] + by * direction[0], start[1] + by * direction[1]
+
+
+# -- drawings of singular configurations: the arm there, and the directions that are lost at its tip
+
+MOST_ARROWS = 3
+_POSITIONS = 3
+"""The rows of J that are velocities of the tip."""
+
+
+def singular_figure_of(
+    robot: Robot, matrix: str, zeros: Sequence[Node], names: Sequence[Node], lost: Sequence[Matrix]
+) -> ArmFigure | None:
+    """The arm where the conditions hold; None without links, or where no motion of the tip is lost.
+
+    `matrix` is the Jacobian that loses rank, `lost` the columns w with wᵀ J = 0.
+    """
+    axes = _axes_of_rows(robot, matrix)
+    if not robot.has_table or axes is None:
+        return None
+    arrows = tuple(
+        ArmArrow(name, direction)
+        for name, w in zip(names, lost, strict=True)
+        if (direction := _motion(w, axes)) is not None
+    )
+    if not arrows or len(arrows) > MOST_ARROWS:
+        return None
+    those = "the arrow" if len(arrows) == 1 else "the arrows"
+    return ArmFigure(f"The arm in this case: its tip cannot move along {those}.", tuple(zeros), arrows)
+
+
+def _axes_of_rows(robot: Robot, matrix: str) -> tuple[int | None, ...] | None:
+    """The axis of the world along which each row of a Jacobian is a velocity of the tip, or None."""
+    task = robot.questions.task
+    if matrix == "J" or task is None or task.is_twist:
+        return (*range(_POSITIONS), *(None,) * _POSITIONS)
+    return tuple(map(_axis, task.entries))
+
+
+def _axis(entry: Node) -> int | None:
+    if isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None:
+        return entry.row - 1
+    return None
+
+
+def _motion(w: Matrix, axes: Sequence[int | None]) -> tuple[Node, Node, Node] | None:
+    """A lost direction as a motion of the tip; None where something else takes part in it."""
+    found: list[Node] = [ZERO, ZERO, ZERO]
+    for (component,), axis in zip(w.rows, axes, strict=True):
+        if axis is not None:
+            found[axis] = component
+        elif component != ZERO:
+            return None
+    return (found[0], found[1], found[2]) if any(part != ZERO for part in found) else None

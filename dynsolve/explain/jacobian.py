@@ -23,8 +23,8 @@ from dynsolve.explain.jacobian_columns import (
     read_off,
     used_in_cross,
 )
+from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Group, Part, Step
-from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.writing import and_joined, column_of, craig, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (

@@ -12,8 +12,7 @@ from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working import squares
-from dynsolve.explain.working.identities import Identity, said
-from dynsolve.explain.working.products import used_in_product
+from dynsolve.explain.working.identities import Identity, said, used_in_product
 from dynsolve.explain.writing import block_of, column_of, is_small
 from dynsolve.notation.build import total
 from dynsolve.notation.tree import (

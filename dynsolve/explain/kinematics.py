@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation import inertia
+from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose, Reference, Table
-from dynsolve.explain.base_frame import base_step, motion
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step
-from dynsolve.explain.working.products import product_named
-from dynsolve.explain.writing import craig, is_small, listed, side_by_side, spong, turns
+from dynsolve.explain.working.identities import product_named
+from dynsolve.explain.writing import craig, is_small, listed, name_of, side_by_side, spong, turns
+from dynsolve.notation import tree
 from dynsolve.notation.tree import (
     Degrees,
     Function,
     Letter,
-    Matrix,
     Negative,
     Node,
     Number,
     Product,
+    Row,
     Symbol,
+    Words,
     column,
     equation,
     number,
@@ -28,7 +32,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import lowered
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Joint, JointType
+from dynsolve.robot.model import Body, Joint, JointType, Robot
 
 STAGE = Stage.KINEMATICS
 
@@ -174,7 +178,7 @@ def _general(context: Context) -> Step:
         motions = (("x", alpha), ("x", a), ("z", theta), ("z", d))
     product = Product(tuple(motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
     in_full = Product(tuple(_motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
-    matrix = Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
+    matrix = tree.Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
     name = Letter("A", _I, style="bold")
     return Step(
         id="A",
@@ -190,7 +194,7 @@ def _general(context: Context) -> Step:
     )
 
 
-def _motion(axis: str, amount: Node, turns: bool) -> Matrix:
+def _motion(axis: str, amount: Node, turns: bool) -> tree.Matrix:
     """The 4×4 matrix of a rotation about an axis, x or z, or of a translation along it."""
     rows: list[list[Node]] = [[_ONE if i == j else _ZERO for j in range(4)] for i in range(4)]
     first, second, along = (1, 2, 0) if axis == "x" else (0, 1, 2)
@@ -199,7 +203,7 @@ def _motion(axis: str, amount: Node, turns: bool) -> Matrix:
         rows[first][second], rows[second][first] = Negative(_sin(amount)), _sin(amount)
     else:
         rows[along][3] = amount
-    return Matrix(tuple(map(tuple, rows)))
+    return tree.Matrix(tuple(map(tuple, rows)))
 
 
 def _row(context: Context, joint: Joint) -> Step:
@@ -319,3 +323,110 @@ def _frame_why(context: Context, tells: bool) -> Prose:
         "how that frame is turned. In the modified convention it lies in the last joint: the end of the arm "
         "would need a row of its own, without a star.",
     )
+
+
+# -- the step of the base frame, H_0 in the world, and the elementary motions that matrices are products of
+
+
+def motion(axis: str, amount: Node, turns: bool) -> Node:
+    """Rot_{z,θ} or Trans_{z,d}: how far is a value, and set as values are, not as what names an index."""
+    return Letter("Rot" if turns else "Trans", _along(axis, amount), style="upright")
+
+
+def elementary_rotation(axis: str, angle: Node) -> Node:
+    """R_{z,θ}: the 3×3 part of Rot_{z,θ}."""
+    return Letter("R", _along(axis, angle), style="bold")
+
+
+def turned(turns: Sequence[tuple[str, Node]]) -> Node:
+    """R_{z,θ} R_{x,α}: elementary rotations one after the other."""
+    factors = tuple(elementary_rotation(axis, angle) for axis, angle in turns)
+    return Product(factors) if len(factors) > 1 else factors[0]
+
+
+def _along(axis: str, amount: Node) -> Row:
+    return Row((Words(axis), Words(","), Row((amount,))))
+
+
+def base_step(context: Context) -> Step:
+    """H_0, the product of how frame 0 is moved and turned, as the problem writes it."""
+    robot = context.robot
+    H, turned = letters.H(robot, 0), robot.base_rotation
+    moved = tuple(
+        motion(axis, context.show(entry), False)
+        for axis, entry in zip("xyz", robot.base_position.entries, strict=True)
+        if not entry.is_zero
+    )
+    is_turned = turned != turned.identity(robot.ring, 3)
+    how = " and ".join([*["turned"] * is_turned, *["moved"] * bool(moved)])
+    why: Prose = (f"Gravity is given in the world w, in which frame 0 is {how}. ",)
+    factors = (*moved, *(motion(axis, angle, True) for axis, angle in robot.base_turns))
+    is_whole = bool(robot.base_turns) or not is_turned
+    if not is_whole:
+        why += ("Its axes are the columns of the rotation that the problem gives. ",)
+    elif len(factors) > 1:
+        why += ("Each motion is along or about an axis of the frame that those before it have led to. ",)
+    why += ("The heights, and the vectors below where nothing else is said, are in world coordinates.",)
+    return Step(
+        id="H0",
+        stage=Stage.KINEMATICS,
+        title="The base frame in the world",
+        why=why,
+        formula=equation(H, Product(factors) if len(factors) > 1 else factors[0]) if is_whole else None,
+        source=spong("2.7"),
+        result=(equation(H, context.form("H0")),),
+        notes=tuple(_matters_to(robot)),
+        detail=Detail.BRIEF,
+    )
+
+
+def _matters_to(robot: Robot) -> Iterator[Prose]:
+    """Where frame 0 is turned against gravity: which of the results depend on how."""
+    if robot.bodies and robot.base_rotation @ robot.gravity != robot.gravity:
+        yield (
+            "In the results, how the base is turned matters to the potential energy and the gravity terms "
+            "alone: a constant rotation leaves lengths unchanged, so it cancels in the kinetic energy.",
+        )
+
+
+# -- of axes of a body that a problem gives from the base: which frame of the arm they belong to, and how
+
+
+def product_of_axes(context: Context, body: Body) -> Node | None:
+    """The rotation as the problem writes it, behind that of the base where there is one; None of a matrix."""
+    robot = context.robot
+    base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
+    turns = tuple(elementary_rotation(axis, angle) for axis, angle in body.axes.turns)
+    turns = turns or ((context.show(body.axes.rotation),) if base else ())
+    factors = (*base, *turns)
+    return None if not factors else Product(factors) if len(factors) > 1 else factors[0]
+
+
+def why_axes(context: Context, body: Body) -> Prose:
+    """That the problem gives the axes, and how they lie in the frame of the link."""
+    given = f"The problem gives the axes of {name_of(body)} from the base. "
+    frame = f"frame {body.link}"
+    H = context.values[f"H{body.link}"]
+    if not inertia.turns_with_link(context.robot, body, H):
+        return (given, f"They do not turn with link {body.link}.")
+    relative = rotation(H).T @ inertia.body_rotation(context.robot, body, H)
+    if relative == Matrix.identity(relative.ring, 3):
+        return (given, f"They are those of {frame}.")
+    not_equal: Prose = (letters.of_body("R", body, "bold"), " is not ", letters.R(context.robot, body.link))
+    told = list(_parallel(relative, body.link))
+    if len(told) < 3:
+        return (given, f"They are turned in {frame}, and fixed in the same link: ", *not_equal, ".")
+    return (given, f"They are not those of {frame}: ", *listed(told), ", so ", *not_equal, ".")
+
+
+def _parallel(relative: Matrix, link: int) -> Iterator[Prose]:
+    """Of each axis of the frame, the axis of the body that it lies along; none where one is oblique."""
+    one = relative.ring.one
+    for i, axis in enumerate("xyz"):
+        along = [(j, entry) for j, entry in enumerate(relative.rows[i]) if not entry.is_zero]
+        if len(along) != 1:
+            return
+        ((j, entry),) = along
+        lies, whose = ("lies along", "the body's") if i == 0 else ("along", "its")
+        name = Letter(axis, letters.index_of(str(link)), style="bold")
+        yield (name, f" {lies} {whose} {'' if entry == one else '-'}{'xyz'[j]}")

@@ -3,32 +3,44 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
 from dynsolve.errors import ReadError
-from dynsolve.explain.citations import GEOMETRY, GIVEN
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import told_frames
-from dynsolve.explain.step import TOLD, WORKED, Detail, Part, Step
-from dynsolve.explain.writing import block_of, is_small, name_of, spong
+from dynsolve.explain.parameter_meanings import SHAPES
+from dynsolve.explain.step import TOLD, WORKED, Detail, Line, Part, Step
+from dynsolve.explain.working.identities import product_named
+from dynsolve.explain.working.rotational import factor_of_identity
+from dynsolve.explain.writing import GEOMETRY, GIVEN, block_of, is_small, name_of, spong
+from dynsolve.notation.build import number_in_front
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
+    ONE,
+    ZERO,
+    Integral,
     Letter,
     Matrix,
+    Negative,
     Node,
     Number,
     Parenthesized,
+    Power,
     Product,
     Row,
     Sum,
+    Symbol,
+    Transpose,
     Words,
     equation,
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Convention, Robot
+from dynsolve.robot.shapes import Density, SliceMoment
 
 STAGE = Stage.INERTIA
 
@@ -188,3 +200,182 @@ def _not_the_origin(body: Body, H: Letter) -> Prose:
         letters.rc(body),
         ".",
     )
+
+
+# -- how the tensor of a body along the axes of the base comes about: R I Rᵀ, or why it stays as it is
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result.
+
+    `same` is the tensor that it is equal to, where the rotation does not change it, being about its `axis`.
+    """
+
+    lines: tuple[Node, ...]
+    why: Prose = ()
+    concluding: Prose = ()
+    notes: tuple[Prose, ...] = ()
+    same: Letter | None = None
+    axis: str = ""
+
+
+def turning_of(context: Context, body: Body, R: Letter) -> Turning:
+    """By the factor of the identity, by an axis of symmetry, or by two products of matrices."""
+    factor, axis = factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
+    if factor is not None:
+        line = Product((number_in_front(context.show(factor)), R, Transpose(R)))
+        why: Prose = ("The tensor is a multiple of the identity matrix: whatever ", R, " is, ")
+        why += (Product((R, Transpose(R))), " is the identity matrix, and the rotation keeps the tensor.")
+        return Turning((line,), why, same=letters.tensor(context.robot, body))
+    if axis is not None:
+        tensor = context.values[f"I_body{body.name}"]
+        alone = sum(not entry.is_zero for entry in tensor.entries) == 1
+        kept = f"the moment about {axis} alone enters" if alone else f"the moments across {axis} are equal"
+        why = (
+            " Here ",
+            R,
+            f" is a rotation about {axis}, and {kept}, so the tensor stays as it is.",
+        )
+        return Turning((), why, same=letters.tensor(context.robot, body), axis=axis)
+    lines = tuple(_turned(context, body))
+    is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
+    notes: tuple[Prose, ...] = (("This rotation does not change the tensor.",),) if is_kept else ()
+    return Turning(lines, (), _turned_named(context, body) if lines else (), notes)
+
+
+def _axis_of_symmetry(context: Context, body: Body) -> str | None:
+    """The axis of the body that R turns about, where the tensor is the same about all axes across it."""
+    R, tensor = context.values[f"R{body.name}"], context.values[f"I_body{body.name}"]
+    one, unturned = R[0, 0].ring.one, algebra.Matrix.identity(R[0, 0].ring, 3)
+    if R @ tensor @ R.T != tensor or unturned == R:
+        return None
+    return next((name for k, name in enumerate("xyz") if R[k, k] == one), None)
+
+
+def _turned(context: Context, body: Body) -> Iterator[Node]:
+    """R I Rᵀ with their entries, then R (I Rᵀ): one product of matrices from a line to the next."""
+    b = body.name
+    rotation, given = context.form(f"R{b}"), context.form(f"I_body{b}")
+    if not is_small(rotation, rotation, given):
+        return
+    yield Product((rotation, given, Transpose(rotation)))
+    R, tensor, base = (context.values[name] for name in (f"R{b}", f"I_body{b}", f"I{b}"))
+    half = tensor @ R.T
+    if context.is_short and half not in (tensor, R.T, base):
+        shown = context.show(half)
+        if is_small(rotation, shown):
+            yield Product((rotation, shown))
+
+
+def _turned_named(context: Context, body: Body) -> Prose:
+    """The identities by which R (I Rᵀ) becomes what is printed."""
+    R, given, base = (context.values[f"{letter}{body.name}"] for letter in ("R", "I_body", "I"))
+    return product_named(context, R, given @ R.T, base)
+
+
+# -- the step of a body with a density: its mass, centre and moments, by integration along its axis
+
+_X = Symbol("x")
+_RHO = Row((Letter("rho"), Parenthesized(_X)))
+
+
+def density_step(context: Context, body: Body, density: Density) -> Step:
+    """m = ∫ ρ A dx, x_c = ∫ ρ A x dx / m, and the moments, moved to the mass centre by the parallel axes."""
+    m, center = letters.of_body("m", body), Letter("x", Row((Words("c"), letters.index_of(body.name))))
+    square = Product((m, Power(center, Number(2))))
+    across = [
+        (
+            equation(_moment(body, "near", of), _over(density, _squared(of)), of.integral),
+            equation(_moment(body, "c", of), Sum((_moment(body, "near", of), Negative(square))), of.value),
+        )
+        for of in _across(density)
+    ]
+    mass = (_over(density), density.mass) if density.extent is not None else (density.mass,)
+    lines = [Line(("The mass:",), (equation(m, *mass),))]
+    if density.extent is not None:
+        first = equation(Product((m, center)), _over(density, _X), density.first)
+        told: Prose = ("The first moment, and the centre that it gives:",)
+        lines.append(Line(told, (first, equation(center, density.center))))
+    if density.turned.slice != ZERO:
+        own = equation(
+            _moment(body, "axis", None), _over(density, density.turned.slice), density.turned.integral
+        )
+        lines.append(Line(("The moment of inertia about its axis:",), (own,)))
+    if density.extent is not None:
+        told = ("The moment of inertia across it, about its near end:",)
+        lines.append(Line(told, tuple(near for near, _ in across)))
+        concluding: Prose = ("About the mass centre, by the parallel-axis theorem:",)
+        result = tuple(centred for _, centred in across)
+    else:
+        concluding = ("The moment of inertia across it, in its plane:",)
+        result = tuple(
+            equation(_moment(body, "c", of), _over(density, of.slice), of.value) for of in _across(density)
+        )
+    return Step(
+        id=f"density{body.name}",
+        stage=Stage.INERTIA,
+        title=f"Mass, centre and moments of {name_of(body)} by integration",
+        why=_why(density),
+        formula=equation(_RHO, density.formula) if density.varies else None,
+        source=spong("7.2.1"),
+        lines=tuple(lines),
+        concluding=concluding,
+        result=result,
+        uses=(),
+    )
+
+
+def _why(density: Density) -> Prose:
+    assert density.shape is not None
+    what, axis = SHAPES[density.shape.kind], density.shape.axis
+    mass = Product((_rho(density), *_measure(density)))
+    if density.extent is None:
+        return (f"The {what} has the mass ", mass, ", its density times its area.")
+    along = f" runs along {axis} of its frame" if axis else " runs"
+    return (
+        f"The {what} is made of slices dx with the mass ",
+        Product((mass, Words("dx"))),
+        "; ",
+        _X,
+        f"{along} from the near end, 0, to the far one. Each power of ",
+        _X,
+        " is integrated by itself.",
+    )
+
+
+def _rho(density: Density) -> Node:
+    return _RHO if density.varies else density.formula
+
+
+def _measure(density: Density) -> Iterator[Node]:
+    if density.measure != ONE:
+        yield density.measure
+
+
+def _across(density: Density) -> tuple[SliceMoment, ...]:
+    """The moments across the axis; of what is round one, for both."""
+    one, other = density.tilted
+    return (one,) if one.slice == other.slice else density.tilted
+
+
+def _squared(of: SliceMoment) -> Node:
+    """x² and what a slice has about its own centre."""
+    square = Power(_X, Number(2))
+    return square if of.slice == ZERO else Sum((square, of.slice))
+
+
+def _over(density: Density, factor: Node = ONE) -> Node:
+    """The integral of ρ A times a factor over the body; the product where it has no extent."""
+    integrand = Product((_rho(density), *_measure(density), *((factor,) if factor != ONE else ())))
+    if density.extent is None:
+        return integrand
+    return Integral(integrand, _X, Number(0), density.extent)
+
+
+def _moment(body: Body, about: str, of: SliceMoment | None) -> Letter:
+    """I about the `axis`, or across it about the near end or c; with the axes where these differ."""
+    density = body.density
+    assert density is not None
+    axes = (Words(of.axes), Words(",")) if of is not None and len(_across(density)) > 1 else ()
+    return Letter("I", Row((letters.index_of(body.name), Words(","), *axes, Words(about))))

@@ -9,11 +9,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from dynsolve.algebra.compact.matrix_factor import matrix_factor
-from dynsolve.explain.context import Context
+from dynsolve.explain.context import Context, style_of
 from dynsolve.explain.step import Step
-from dynsolve.explain.widths import matrix_width
 from dynsolve.notation.build import factors_of, number_in_front
 from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Relation, Transpose
+from dynsolve.notation.unicode import UnicodePrinter, width
+
+
+def matrix_width(context: Context, matrix: Matrix) -> int:
+    """How wide a matrix is in characters, two blanks between its columns."""
+    printer = UnicodePrinter(style_of(context.robot))
+    columns = zip(*matrix.rows, strict=True)
+    return sum(max(width(printer.text(entry)) for entry in column) + 2 for column in columns)
+
 
 WIDEST = 50
 """The characters up to which a matrix has its factor in front."""

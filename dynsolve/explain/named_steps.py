@@ -22,13 +22,13 @@ from math import gcd
 
 from dynsolve.document import DEFINITIONS, Inline, Prose, Reference
 from dynsolve.explain.abbreviations import Abbreviated, Definition
-from dynsolve.explain.agreement import compared_rows
-from dynsolve.explain.christoffel import with_slopes
-from dynsolve.explain.closing import rows_in_names
+from dynsolve.explain.christoffel import compared_rows, with_slopes
 from dynsolve.explain.context import Context
-from dynsolve.explain.inertia_names import InertiaNames
+from dynsolve.explain.forms import collected_coriolis_force
+from dynsolve.explain.long_model.steps import of_long_model
+from dynsolve.explain.names import InertiaNames
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
+from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, rows_in_names, terms_of
 from dynsolve.explain.working.derivatives import are_alike, inertia_rate, varying
 from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
@@ -40,6 +40,7 @@ from dynsolve.notation.tree import (
     Letter,
     Matrix,
     Node,
+    Product,
     Relation,
     Sum,
     Symbol,
@@ -413,3 +414,74 @@ def _by_name(context: Context, short: Abbreviated, term: Term, k: int) -> Node:
     """The value of a term of force k, its symbol by its name."""
     (i, _), (j, _) = term.rates
     return times(term.count, [(short.symbol(i, j, k), 1), *rates_of(context, term)])
+
+
+# -- the steps of a derivation in the names of `explain.abbreviations` -----------------------------
+# Those of a long model are in `explain.long_model`; of a short one D, the Christoffel symbols, C and g
+# have names in them.
+
+
+def in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
+    """The steps, with names in them and, of a long model, without what fills pages."""
+    if short.at_symbols:
+        return steps_in_names(steps, context, short)
+    return of_long_model(steps, context, short) if short.long else _of_short_model(steps, context, short)
+
+
+def _of_short_model(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
+    forms, names = context.forms, context.robot.ring.names
+    named: dict[Node, Node] = {
+        **{forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()},
+        forms("D"): short.D,
+        forms("C"): short.C,
+        forms("g"): short.g,
+        forms("Cqd"): tree.column(
+            *(collected_coriolis_force(names, short.symbol, k) for k in range(context.robot.n))
+        ),
+    }
+    for step in steps:
+        if step.stage is Stage.VECTORIZED:
+            step = replace(step, result=tuple(_exchanged(node, named) for node in step.result))
+        in_letters = _IN_LETTERS.get(step.id)
+        yield step if in_letters is None else in_letters(step)
+
+
+def _rates_in_letters(step: Step) -> Step:
+    """A step whose lines end in values: Ḋ by the derivatives of D alone, C q̇ by the symbols alone."""
+    lines = (replace(line, formulas=tuple(map(_without_value, line.formulas))) for line in step.lines)
+    return replace(step, lines=tuple(lines))
+
+
+def _terms_in_letters(step: Step) -> Step:
+    """The table of the terms of the forces, each by its name alone."""
+    assert step.table is not None
+
+    def cell(part: Inline) -> Inline:
+        return _without_value(part) if isinstance(part, Node) else part
+
+    rows = tuple(tuple(map(cell, row)) for row in step.table.rows)
+    return replace(step, table=replace(step.table, rows=rows))
+
+
+_IN_LETTERS: Mapping[str, Callable[[Step], Step]] = {
+    "agreement": _rates_in_letters,
+    "skew": _rates_in_letters,
+    "terms": _terms_in_letters,
+}
+"""The steps whose values would not be in names, by their ids."""
+
+
+def _without_value(node: Node) -> Node:
+    """A chain of equations without its last member, which is the value written out."""
+    if not isinstance(node, Relation):
+        return node
+    return node.parts[0] if len(node.parts) == 2 else equation(*node.parts[:-1])
+
+
+def _exchanged(node: Node, named: Mapping[Node, Node]) -> Node:
+    """A formula with parts exchanged for the same in names."""
+    found = named.get(node)
+    if found is not None:
+        return found
+    inside = isinstance(node, Relation | Sum | Product)
+    return with_children(node, lambda part: _exchanged(part, named)) if inside else node

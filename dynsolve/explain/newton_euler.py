@@ -10,18 +10,28 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from dynsolve.document import Prose
-from dynsolve.explain.citations import spong
-from dynsolve.explain.closing import driving_row
-from dynsolve.explain.context import Context
-from dynsolve.explain.recursions.general import general_steps
-from dynsolve.explain.recursions.inwards import inwards
-from dynsolve.explain.recursions.links import links_step, source_of
-from dynsolve.explain.recursions.names import LinkNames
-from dynsolve.explain.recursions.outwards import outwards
-from dynsolve.explain.short_arms import MOST_JOINTS
+from dynsolve.explain.context import MOST_JOINTS, Context
+from dynsolve.explain.recursions import (
+    BodyNames,
+    LinkNames,
+    acceleration,
+    angular_acceleration,
+    angular_velocity,
+    center_acceleration,
+    inertial_force,
+    inwards,
+    is_heavy,
+    links_step,
+    moment_of_body,
+    moment_of_next,
+    outwards,
+    passed_on,
+    source_of,
+)
 from dynsolve.explain.step import Detail, Group, Step
-from dynsolve.explain.writing import listed, sum_of, turns
-from dynsolve.notation.tree import Negative, Node, Product, Transpose, equation, number
+from dynsolve.explain.terms import driving_row
+from dynsolve.explain.writing import listed, spong, sum_of, turns
+from dynsolve.notation.tree import Letter, Negative, Node, Product, Symbol, Transpose, equation, number
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType
@@ -108,4 +118,64 @@ def _lagrange(context: Context) -> Step:
         source=spong("7.6"),
         uses=tuple(f"tau{q.index}" for q in context.robot.coordinates),
         is_task=False,
+    )
+
+
+# -- the recursions said once for all links, of arms of which nobody reads them link by link -------
+
+_I = Symbol("i")
+
+
+def general_steps(context: Context) -> Iterator[Step]:
+    """Outwards for each kind of joint, then inwards, link i standing for all."""
+    for kind, name in ((JointType.REVOLUTE, "revolute"), (JointType.PRISMATIC, "prismatic")):
+        if any(joint.type is kind for joint in context.robot.joints):
+            yield _outwards(context, kind, name)
+    yield _inwards(context)
+
+
+def _outwards(context: Context, kind: JointType, name: str) -> Step:
+    link = LinkNames.general(context.standard)
+    variable = "theta" if kind is JointType.REVOLUTE else "d"
+    rates = Letter(variable, _I, dots=1), Letter(variable, _I, dots=2)
+    spin, slide = (rates, None) if kind is JointType.REVOLUTE else (None, rates)
+    body = BodyNames(_I, link)
+    found: list[tuple[Node, list[Node]]] = [
+        (link.vector("omega"), angular_velocity(link, spin and spin[0])),
+        (link.vector("omega", 1), angular_acceleration(link, spin)),
+        (link.vector("a"), acceleration(link, link.lever, slide)),
+        (body.acceleration, center_acceleration(body, slide)),
+    ]
+    return Step(
+        id=f"outwards_{name}",
+        stage=STAGE,
+        title=f"Outwards over a {name} joint",
+        why=("From the first link to the last, the motion of each follows from that of the one before.",),
+        source=source_of(context),
+        result=tuple(equation(left, sum_of(terms)) for left, terms in found),
+        listed=True,
+        uses=("links",),
+    )
+
+
+def _inwards(context: Context) -> Step:
+    link = LinkNames.general(context.standard)
+    after = LinkNames(letters.AFTER, _I, context.standard)
+    body = BodyNames(_I, link)
+    inertial = inertial_force(body, Letter("m", _I), is_heavy(context))
+    force = [passed_on(after, "f"), inertial]
+    moment = [*moment_of_next(link, after), *moment_of_body(body, inertial, is_point=False)]
+    return Step(
+        id="inwards",
+        stage=STAGE,
+        title="Inwards: the forces and moments in the joints",
+        why=(
+            "From the last link, which holds nothing, to the first: Newton's law and Euler's for each link.",
+        ),
+        source=source_of(context),
+        result=tuple(
+            equation(link.vector(name), sum_of(terms)) for name, terms in (("f", force), ("n", moment))
+        ),
+        listed=True,
+        uses=("links",),
     )

@@ -11,13 +11,9 @@ from dataclasses import dataclass, replace
 
 from dynsolve.document import Block, Inline, Prose, Table
 from dynsolve.explain.abbreviations import Abbreviated
-from dynsolve.explain.definition_units import units_of
-from dynsolve.explain.parameter_meanings import meanings, told_together
+from dynsolve.explain.parameter_meanings import Role, meanings, shape_letters, told_together
 from dynsolve.explain.recurring import Definition
-from dynsolve.explain.roles import Role
-from dynsolve.explain.shapes import shape_letters
-from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
-from dynsolve.explain.signs import shorthands
+from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, shorthands, units_of
 from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.characters import GREEK

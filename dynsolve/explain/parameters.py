@@ -2,24 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations_with_replacement, count
+from typing import TypeVar
 
+from flint import fmpq
+
+from dynsolve.algebra.build import with_symbols
+from dynsolve.algebra.compact.terms import Exponents, primitive
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring import Ring
 from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.regressor import combinations, known_names
 from dynsolve.document import Prose
-from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
-from dynsolve.explain.writing import listed
+from dynsolve.explain.writing import SLOTINE_LI, listed, spong
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Entry, Letter, Node, Number, Product, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
 
 STAGE = Stage.PARAMETERS
 _SOURCE = spong("7.5.3")
@@ -207,3 +218,286 @@ def _with_references(context: Context) -> Step:
                 Row((letters.rate(letters.D), Words(" - 2"), letters.C)), " is skew-symmetric."),),
         detail=Detail.BRIEF,
     )  # fmt: skip
+
+
+# -- base parameters: the few combinations of masses, moments and lengths that the motion depends on
+# D and g are linear in what the links weigh and how their mass is spread, and the ten
+# parameters a link occur in certain combinations only.  Those are found here, exactly:
+# the coefficients of the products of sines and cosines in D and g span, over the
+# polynomials in the lengths of the table, a space of which the base parameters are a
+# basis.  (Khalil and Dombre, Modeling, Identification and Control of Robots, 2002,
+# section 9.4; of the PUMA 560 with ten parameters a link there are 36.)  Their values
+# cannot be told apart further by any measurement of the forces of the joints.
+
+Coefficient = dict[Exponents, Fraction]
+"""A polynomial in the parameters: factors by the exponents of all generators."""
+
+Combination = dict[tuple[Exponents, int], Fraction]
+"""Σ factor · (product of lengths) · (base parameter): factors by those two."""
+
+HIGHEST = 2
+"""The degree up to which lengths multiply a base parameter; a moment of inertia is mass times length²."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """A product of lengths and a base parameter, without what the rows before it hold of it."""
+
+    lead: Exponents
+    values: Coefficient
+    made_of: Combination
+
+
+@dataclass
+class BaseParameters:
+    """The base parameters of a robot, and the ring in which they are symbols.
+
+    `letter` begins their names.  A coefficient that is one symbol keeps it.
+    """
+
+    robot: Robot
+    letter: str
+    _rows: dict[Exponents, _Row] = field(default_factory=dict)
+    _found: list[Coefficient] = field(default_factory=list)
+    _split: dict[Expr, dict[Exponents, Coefficient]] = field(default_factory=dict)
+    _carried: dict[Expr, Expr] = field(default_factory=dict)
+
+    @staticmethod
+    def of(robot: Robot, D: Matrix, g: Matrix, letter: str) -> BaseParameters:
+        """The base parameters that D and g are made of."""
+        found = BaseParameters(robot, letter)
+        coefficients = {
+            frozenset(c.items()): c
+            for expr in dict.fromkeys((*D.entries, *g.entries))
+            for c in found._coefficients(expr).values()
+        }
+        for coefficient in sorted(coefficients.values(), key=_size):
+            found._add(coefficient)
+        return found
+
+    # -- which generator is what -------------------------------------------------------------------
+
+    @cached_property
+    def _lengths(self) -> tuple[int, ...]:
+        """The lengths of the table and of gravity, which are no property of a body."""
+        robot, ring = self.robot, self.robot.ring
+        exprs = [e for joint in robot.joints for e in (joint.d, joint.a)]
+        exprs += [*robot.gravity.entries, *robot.base_position.entries]
+        used = {i for e in exprs for i, degree in enumerate(e.poly.degrees()) if degree > 0}
+        return tuple(i for i in sorted(used) if ring.generators[i].kind == "symbol" and i in self._parameters)
+
+    @cached_property
+    def _parameters(self) -> frozenset[int]:
+        names = set(self.robot.ring.names)
+        return frozenset(
+            g.index for g in self.robot.ring.generators if g.kind == "symbol" and g.name not in names
+        )
+
+    @cached_property
+    def _factors(self) -> tuple[Exponents, ...]:
+        """The products of lengths that are tried, 1 first; gravity is drawn out before."""
+        size = len(self.robot.ring.generators)
+        lengths = [i for i in self._lengths if i not in self._gravity]
+        return tuple(
+            tuple(chosen.count(i) for i in range(size))
+            for degree in range(HIGHEST + 1)
+            for chosen in combinations_with_replacement(lengths, degree)
+        )
+
+    @cached_property
+    def _gravity(self) -> frozenset[int]:
+        entries = self.robot.gravity.entries
+        return frozenset(i for e in entries for i, degree in enumerate(e.poly.degrees()) if degree > 0)
+
+    # -- coefficients ------------------------------------------------------------------------------
+
+    def _coefficients(self, expr: Expr) -> dict[Exponents, Coefficient]:
+        """The coefficient of every product of sines, cosines and coordinates."""
+        found = self._split.get(expr)
+        if found is None:
+            found = self._split[expr] = self._split_up(expr)
+        return found
+
+    def _split_up(self, expr: Expr) -> dict[Exponents, Coefficient]:
+        result: dict[Exponents, Coefficient] = {}
+        for e, f in expr.poly.to_dict().items():
+            motion = tuple(0 if i in self._parameters else int(x) for i, x in enumerate(e))
+            own = tuple(int(x) if i in self._parameters else 0 for i, x in enumerate(e))
+            result.setdefault(motion, {})[own] = fraction(f)
+        return result
+
+    def _without_lengths(self, coefficient: Coefficient) -> tuple[Exponents, Coefficient]:
+        """(the lengths that all terms share, the rest)"""
+        least = [min(column) for column in zip(*coefficient, strict=True)]
+        shared = tuple(x if i in self._lengths else 0 for i, x in enumerate(least))
+        return shared, {_minus(e, shared): f for e, f in coefficient.items()}
+
+    def _reduced(self, coefficient: Coefficient) -> tuple[Coefficient, Combination]:
+        """(the part outside the span of the known base parameters, the combination that gives the rest)"""
+        rest, made_of = dict(coefficient), Combination()
+        for lead in sorted(self._rows.keys() & rest.keys(), reverse=True):
+            self._take(rest, made_of, lead)
+        while leads := self._rows.keys() & rest.keys():
+            self._take(rest, made_of, max(leads))
+        return rest, made_of
+
+    def _take(self, rest: Coefficient, made_of: Combination, lead: Exponents) -> None:
+        factor = rest.get(lead)
+        if factor:
+            row = self._rows[lead]
+            _add_to(rest, row.values, -factor)
+            _add_to(made_of, row.made_of, factor)
+
+    def _add(self, coefficient: Coefficient) -> None:
+        """Make a base parameter of the part outside the span of the known ones."""
+        _, whole = self._without_lengths(coefficient)
+        if not self._reduced(whole)[0]:
+            return
+        number = len(self._found)
+        self._found.append(self._shortened(whole))
+        for factor in self._factors:
+            product = {_plus(e, factor): f for e, f in self._found[number].items()}
+            self._put(product, {(factor, number): Fraction(1)})
+
+    def _shortened(self, coefficient: Coefficient) -> Coefficient:
+        """A coefficient less known base parameters, as long as each makes it shorter."""
+        best = _normalized(coefficient)
+        while True:
+            choices = [
+                _normalized(_weighted_sum(best, product, sign))
+                for product in self._found
+                if not best.keys().isdisjoint(product)
+                for sign in (1, -1)
+            ]
+            shorter = min(choices, key=_length, default=best)
+            if _length(shorter) >= _length(best):
+                return best
+            best = shorter
+
+    def _put(self, product: Coefficient, made_of: Combination) -> None:
+        rest, known = self._reduced(product)
+        if not rest:
+            return
+        made_of = dict(made_of)
+        _add_to(made_of, known, Fraction(-1))
+        lead = max(rest)
+        scale = rest[lead]
+        self._rows[lead] = _Row(
+            lead, {e: f / scale for e, f in rest.items()}, {k: f / scale for k, f in made_of.items()}
+        )
+
+    # -- the ring in which they are symbols --------------------------------------------------------
+
+    @cached_property
+    def symbols(self) -> tuple[str | None, ...]:
+        """The name of each; None where it is a symbol of the problem by itself."""
+        taken = {*self.robot.ring.parameters, *self.robot.ring.names}
+        names = (name for k in count(1) if (name := f"{self.letter}{k}") not in taken)
+        return tuple(next(names) if len(c) > 1 or sum(next(iter(c))) > 1 else None for c in self._found)
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """Those that are a symbol of the problem by themselves, and keep its name."""
+        generators = self.robot.ring.generators
+        alone = [c for c, name in zip(self._found, self.symbols, strict=True) if name is None]
+        return tuple(
+            g.name for c in alone for exponents in c for g, e in zip(generators, exponents, strict=True) if e
+        )
+
+    @cached_property
+    def ring(self) -> Ring:
+        """The robot's ring with the base parameters as further symbols."""
+        return with_symbols(self.robot.ring, [name for name in self.symbols if name])
+
+    @cached_property
+    def meanings(self) -> Mapping[str, Expr]:
+        """The meaning of each, in the robot's ring."""
+        ring = self.robot.ring
+        return {
+            name: Expr(ring, ring.ctx.from_dict({e: fmpq(f.numerator, f.denominator) for e, f in c.items()}))
+            for name, c in zip(self.symbols, self._found, strict=True)
+            if name
+        }
+
+    def matrix(self, matrix: Matrix) -> Matrix:
+        """A matrix in base parameters."""
+        return Matrix.of(self.ring, (map(self.expr, row) for row in matrix.rows))
+
+    def expr(self, expr: Expr) -> Expr:
+        """D's or g's entry in base parameters, in `ring`."""
+        found = self._carried.get(expr)
+        if found is None:
+            found = self._carried[expr] = self._carry(expr)
+        return found
+
+    def _carry(self, expr: Expr) -> Expr:
+        ring = self.ring
+        total: dict[Exponents, Fraction] = {}
+        width = len(ring.generators)
+        for motion, coefficient in self._coefficients(expr).items():
+            for own, f in self._written(coefficient):
+                e = tuple(x + (motion[i] if i < len(motion) else 0) for i, x in enumerate(own))
+                assert len(e) == width
+                total[e] = total.get(e, Fraction(0)) + f
+        terms = {e: fmpq(f.numerator, f.denominator) for e, f in total.items() if f}
+        return Expr(ring, ring.reduce(ring.ctx.from_dict(terms)))
+
+    def _written(self, coefficient: Coefficient) -> Iterator[tuple[Exponents, Fraction]]:
+        shared, whole = self._without_lengths(coefficient)
+        rest, made_of = self._reduced(whole)
+        names = [name for name in self.symbols if name]
+        for e, f in rest.items():  # beyond HIGHEST: it stays as it is
+            yield (*_plus(e, shared), *(0 for _ in names)), f
+        for (factor, number), f in made_of.items():
+            name = self.symbols[number]
+            own = _plus(shared, factor)
+            if name is None:
+                ((symbol, scale),) = self._found[number].items()
+                own, f = _plus(own, symbol), f * scale
+            yield (*own, *(int(other == name) for other in names)), f
+
+
+_K = TypeVar("_K", bound=Hashable)
+
+
+def _normalized(coefficient: Coefficient) -> Coefficient:
+    """Whole numbers without a common divisor, and positive for the most part."""
+    scale: Fraction = Fraction(primitive(coefficient)[1])
+    positive = sum(f * scale > 0 for f in coefficient.values())
+    if 2 * positive < len(coefficient):
+        scale = -scale
+    return {e: f / scale for e, f in coefficient.items()}
+
+
+def _length(coefficient: Coefficient) -> float:
+    """Its length to a reader: its terms, with a small extra for a minus sign or a number."""
+    return len(coefficient) + sum(0.5 * (abs(f) != 1) + 0.2 * (f < 0) for f in coefficient.values())
+
+
+def _size(coefficient: Coefficient) -> tuple[int, int]:
+    return len(coefficient), sum(map(sum, coefficient))
+
+
+def _plus(a: Exponents, b: Exponents) -> Exponents:
+    return tuple(x + y for x, y in zip(a, b, strict=True))
+
+
+def _minus(a: Exponents, b: Exponents) -> Exponents:
+    return tuple(x - y for x, y in zip(a, b, strict=True))
+
+
+def _weighted_sum(a: Coefficient, b: Coefficient, factor: int) -> Coefficient:
+    """a + factor · b"""
+    total = dict(a)
+    _add_to(total, b, Fraction(factor))
+    return total
+
+
+def _add_to(total: dict[_K, Fraction], other: Mapping[_K, Fraction], factor: Fraction) -> None:
+    """total += factor · other"""
+    for key, f in other.items():
+        value = total.get(key, 0) + factor * f
+        if value:
+            total[key] = value
+        else:
+            del total[key]

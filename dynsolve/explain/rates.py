@@ -12,11 +12,10 @@ from dynsolve.algebra.pseudoinverse import is_solvable, rank_parts
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.rates import MOST_PRODUCTS, squared, wanted_by_accelerations, whole_or_task
 from dynsolve.document import Prose
-from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.statics import state_prose
 from dynsolve.explain.step import TOLD, Detail, Part, Step
-from dynsolve.explain.writing import is_small, side_by_side
+from dynsolve.explain.writing import is_small, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
     Negative,

@@ -7,12 +7,11 @@ from dataclasses import replace
 
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
-from dynsolve.explain.citations import spong
-from dynsolve.explain.configurations import ConfigurationForms, vanishing
 from dynsolve.explain.context import Context
-from dynsolve.explain.singular_figures import figure_of
+from dynsolve.explain.inverse_figures import singular_figure_of
+from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
-from dynsolve.explain.writing import listed
+from dynsolve.explain.writing import listed, spong
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Transpose, Words, equation
 from dynsolve.quantities import letters
@@ -161,7 +160,7 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
         source=_LOST if lost else "",
         working=(equation(J, there),) if lost and exact else (),
         result=tuple(equation(name, value) for name, value in zip(names, lost, strict=True)),
-        figure=figure_of(context.robot, _matrix(context), forms.singular[case], names, lost),
+        figure=singular_figure_of(context.robot, _matrix(context), forms.singular[case], names, lost),
         uses=(_matrix(context), f"singular#{case + 1}"),
         hint=(
             "In each case: how great is the rank, and which w is orthogonal to every velocity that the "

@@ -9,10 +9,9 @@ from dynsolve.derivation import statics
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.derivation.static_rules import jacobians
 from dynsolve.document import Prose
-from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, Detail, Group, Step
-from dynsolve.explain.writing import is_small, side_by_side, sum_of
+from dynsolve.explain.writing import is_small, side_by_side, spong, sum_of
 from dynsolve.notation.tree import (
     Letter,
     Negative,

@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from dynsolve.explain.sign_kinds import MOTIONS, Kind, kind_of
-from dynsolve.explain.signs import CONSTANTS_OF_SOLUTIONS
+from dynsolve.explain.signs import CONSTANTS_OF_SOLUTIONS, MOTIONS, Kind, kind_of
 from dynsolve.explain.writing import machine, side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from dynsolve.document import Prose
-from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import STATED, Detail, Group, Step
-from dynsolve.explain.working import derivatives
+from dynsolve.explain.terms import driving_row
+from dynsolve.explain.working.derivatives import cancelling, coordinate_derivative, momentum_rate
 from dynsolve.explain.writing import listed, spong, turns
 from dynsolve.notation.tree import Letter, Negative, Node, Number, Sum, Symbol, equation, number
 from dynsolve.quantities import letters
@@ -65,7 +65,7 @@ def _partial(context: Context, by: Node, held: str, like: str) -> Prose:
 
 
 def _rate(context: Context, q: Coordinate) -> Step:
-    way = derivatives.momentum_rate(context, q)
+    way = momentum_rate(context, q)
     momentum = letters.partial_derivative(letters.L, letters.velocity(q))
     return Step(
         id=f"ddt{q.index}",
@@ -104,7 +104,7 @@ def _slope(context: Context, q: Coordinate) -> Step:
         why = (Symbol(q.name), " itself does not occur in ℒ.")
     elif context.robot.given is None and context.robot.ring.diff(context.values["K"], q.index - 1).is_zero:
         why = _of_potential_energy(context, q)
-    way = derivatives.coordinate_derivative(context, q)
+    way = coordinate_derivative(context, q)
     return Step(
         id=f"dLdq{q.index}",
         stage=STAGE,
@@ -140,7 +140,7 @@ def _force(context: Context, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_driven_by(context, q)),
         formula=equation(force, Sum((momentum, Negative(derivative), *_resisted(context, q)))),
         source=spong("7.1"),
-        concluding=derivatives.cancelling(context, q),
+        concluding=cancelling(context, q),
         result=(equation(force, context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )
@@ -170,3 +170,22 @@ def _driven_by(context: Context, q: Coordinate) -> Prose:
         own = "torque" if joint.type is JointType.REVOLUTE else "force"
         parts += (sign, *factor, f"the {own} of joint {joint.index}")
     return (f" is not the variable of one joint alone. By virtual work its {kind} is", *parts, ".")
+
+
+# -- the step to the Lagrangian --------------------------------------------------------------------
+
+STAGE_OF_LAGRANGIAN = Stage.LAGRANGIAN
+
+
+def lagrangian_steps(context: Context) -> Iterator[Step]:
+    """L = K - P"""
+    yield Step(
+        id="L",
+        stage=STAGE_OF_LAGRANGIAN,
+        title="Kinetic minus potential energy",
+        why=("The one function from which every equation of motion follows.",),
+        formula=equation(letters.L, Sum((letters.K, Negative(letters.P)))),
+        source=spong("7.1"),
+        result=(equation(letters.L, context.form("L")),),
+        detail=Detail.BRIEF,
+    )

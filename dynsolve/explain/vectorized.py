@@ -6,16 +6,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from dynsolve.document import Prose
-from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
-from dynsolve.explain.christoffel import SLOPES, christoffel_step
-from dynsolve.explain.closing import closing_step, driving_side
+from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
 from dynsolve.explain.context import Context
-from dynsolve.explain.given_model import inertia_step
 from dynsolve.explain.matrix_factors import with_factors_in_front
+from dynsolve.explain.placed_bodies import inertia_step
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import STATED, Detail, Part, Step
-from dynsolve.explain.terms import terms_step
+from dynsolve.explain.terms import closing_step, driving_side, terms_step
 from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums, gravity_rows
 from dynsolve.explain.writing import (
     and_joined,

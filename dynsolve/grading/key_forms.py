@@ -9,8 +9,8 @@ from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.sandbox import Stopped, limited
 from dynsolve.answers.submission import Submission
 from dynsolve.document import Document, Formula
+from dynsolve.explain.context import style_of
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.style import style_of
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.render.html import render
 

@@ -8,7 +8,7 @@ import zlib
 from dynsolve.answers.feedback import FeedbackView, not_recognized, opening, readings, slips
 from dynsolve.answers.verdict import Report
 from dynsolve.document import Block, Document, Note, Text
-from dynsolve.explain.style import style_of
+from dynsolve.explain.context import style_of
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.problem.model import Problem
 from dynsolve.render.html import stylesheet

@@ -3,7 +3,8 @@
 `tree`: the classes of nodes.  `walk`: visiting a tree and rebuilding it.  `build`: sums and
 products as they are written, and how many operations a formula has.
 
-Read: `text` reads plain text, `tokens` cuts it, `mistakes` says what is wrong with it;
+Read: `text` reads plain text, `tokens` cuts it, `mistakes` says what is wrong with it; `template` reads the
+formulas of the textbook that steps are written with;
 `characters` and `names` say what names are made of and how they are set.  `size` measures a
 tree before it is multiplied out, `limits` bounds it for problem files.
 

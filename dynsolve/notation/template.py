@@ -159,8 +159,9 @@ class _Reader:
         return self.tokens[self.place]
 
     def take(self) -> _Token:
-        self.place += 1
-        return self.tokens[self.place - 1]
+        token = self.token
+        self.place += token.kind != "end"
+        return token
 
     def taken(self, text: str) -> bool:
         """Whether a sign stands here; it is taken."""

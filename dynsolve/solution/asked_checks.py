@@ -68,7 +68,7 @@ def _verify_constraints(
 def _verify_reduced(robot: Robot, values: Derivation, forms: Forms) -> None:
     """Hold the equations without multipliers, as printed."""
     from dynsolve.derivation.reduced_check import constrained_names, verify_reduced
-    from dynsolve.explain.configurations import ConfigurationForms
+    from dynsolve.explain.inverse_formulas import ConfigurationForms
 
     sides = ConfigurationForms(robot, values).reduced
     residuals = [Sum((left, Negative(right))) for left, right in sides]
@@ -90,7 +90,7 @@ def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:
         if isinstance(value, Skipped):
             yield name, value.why
         elif name == "inverse" and robot.questions.target is not None:
-            from dynsolve.explain.configurations import ConfigurationForms
+            from dynsolve.explain.inverse_formulas import ConfigurationForms
 
             lacking = ConfigurationForms(robot, values).without_number
             if lacking:
@@ -101,7 +101,7 @@ def _verify_equilibria(robot: Robot, values: Derivation, forms: Forms, wanted: f
     """Hold the equilibria, and the conditions that balance gravity, as printed, in numbers."""
     if not {"equilibria", "balance"} & wanted:
         return
-    from dynsolve.explain.configurations import ConfigurationForms
+    from dynsolve.explain.inverse_formulas import ConfigurationForms
 
     if "balance" in wanted:
         from dynsolve.derivation.balance_check import verify_balance
@@ -127,7 +127,7 @@ def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wante
         verify_target,
     )
     from dynsolve.derivation.reached import angle_rows
-    from dynsolve.explain.configurations import ConfigurationForms
+    from dynsolve.explain.inverse_formulas import ConfigurationForms
 
     shown = ConfigurationForms(robot, values)
     if "inverse" in wanted and shown.solved is not None:

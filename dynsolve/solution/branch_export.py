@@ -14,7 +14,7 @@ from dynsolve.notation.walk import mapped
 
 if TYPE_CHECKING:
     from dynsolve.document import Prose
-    from dynsolve.explain.configurations import ConfigurationForms
+    from dynsolve.explain.inverse_formulas import ConfigurationForms
     from dynsolve.explain.target import TargetForms
 
 _DIGITS = 15

@@ -18,19 +18,12 @@ from dynsolve.document import (
     Text,
 )
 from dynsolve.errors import attempted
-from dynsolve.explain import closing
-from dynsolve.explain.abbreviations import (
-    CONSTANTS_LIST,
-    SUMS_LIST,
-    Abbreviate,
-    Abbreviated,
-    Definition,
-)
-from dynsolve.explain.citations import GAUTIER_KHALIL, KHALIL_DOMBRE, cited
+from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
+from dynsolve.explain.given import statement
 from dynsolve.explain.notation_list import notation, shorthands_in
-from dynsolve.explain.statement import statement
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import listed, machine
+from dynsolve.explain.terms import ID
+from dynsolve.explain.writing import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, listed, machine
 from dynsolve.notation.tree import Number, Power, Relation, Row, Words, equation
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
@@ -189,7 +182,7 @@ def _stages(
         drawn,
         in_summary(solution.robot, steps, solution.problem.find, solution.is_short),
     )
-    own = (step for step in steps if step.id != closing.ID)  # that stands in the summary
+    own = (step for step in steps if step.id != ID)  # that stands in the summary
     for stage, of_stage in groupby(own, attrgetter("stage")):
         if short is not None and stage is named_from and not short.at_symbols and detail > Detail.RESULTS:
             yield from definition_blocks(short, machine(solution.robot))

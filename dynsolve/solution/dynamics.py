@@ -146,7 +146,7 @@ class Dynamics:
     ) -> Iterator[Step]:
         """The steps of some stages, in the order of the course; with `short`, in its names."""
         from dynsolve.explain import explain
-        from dynsolve.explain.abbreviated_steps import in_names
+        from dynsolve.explain.named_steps import in_names
 
         if stages is None:
             steps = self.steps
@@ -187,7 +187,7 @@ class Dynamics:
 
     @cached_property
     def _with_symbols_named(self) -> Abbreviated | None:
-        from dynsolve.explain.symbol_names import name_symbols
+        from dynsolve.explain.names import name_symbols
 
         short = name_symbols(self.forms)
         return None if short is None else self._verified(short)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from dynsolve.derivation.configurations import NO_CLOSED_FORM
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Inline, Prose, Reference, Verbatim
-from dynsolve.explain.citations import by_itself
 from dynsolve.explain.step import Line, Step
+from dynsolve.explain.writing import by_itself
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Matrix, Node, Words
@@ -37,7 +37,7 @@ from dynsolve.solution.verdict_export import verdict_results
 
 if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
-    from dynsolve.explain.configurations import ConfigurationForms
+    from dynsolve.explain.inverse_formulas import ConfigurationForms
 
 FORMAT = "dynsolve-solution/1"
 
@@ -164,7 +164,7 @@ class _Exporter:
     @cached_property
     def configurations(self) -> ConfigurationForms:
         """Singular configurations and the inverse kinematics, as formulas."""
-        from dynsolve.explain.configurations import ConfigurationForms
+        from dynsolve.explain.inverse_formulas import ConfigurationForms
 
         return ConfigurationForms(self.solution.robot, self.solution.values)
 
@@ -173,7 +173,7 @@ class _Exporter:
         """The same of the robot with the numbers that are put in, where there are any."""
         if self.of is None:
             return self.configurations
-        from dynsolve.explain.configurations import ConfigurationForms
+        from dynsolve.explain.inverse_formulas import ConfigurationForms
 
         return ConfigurationForms(self.of.robot, self.of.values)
 

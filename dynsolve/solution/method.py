@@ -7,7 +7,7 @@ from dataclasses import replace
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import UsageError, VerificationError
-from dynsolve.explain.short_arms import MOST_JOINTS
+from dynsolve.explain.context import MOST_JOINTS
 from dynsolve.problem import Problem
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage

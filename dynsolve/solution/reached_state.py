@@ -7,7 +7,7 @@ from dataclasses import replace
 from dynsolve.algebra.at_state import needed_roots
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import AlgebraError, ProblemError
-from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.target import Configuration
 from dynsolve.notation.python import to_python
 from dynsolve.problem import Problem

@@ -8,7 +8,7 @@ from typing import Any
 from dynsolve.algebra.inequality import Bound
 from dynsolve.derivation.equilibria import Equilibria
 from dynsolve.derivation.stability import Point, Values
-from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.solution.verdict_export import plain_inequality
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from dynsolve.document import Block, Equations, Formula, Heading, List, Prose, Reference, Table, Text
-from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.given import CALLED
 from dynsolve.explain.named_steps import labels_of_names
-from dynsolve.explain.statement import CALLED
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.terms import ID
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import ZERO, Relation, equation
 from dynsolve.quantities import letters
@@ -27,7 +27,7 @@ _MATRICES = ("D", "C", "friction", "g")
 
 def in_summary(robot: Robot, steps: Sequence[Step], asked: Sequence[str], is_short: bool) -> frozenset[str]:
     """The steps whose results stand in the summary as well."""
-    has_model = is_short and any(step.id == closing.ID for step in steps)
+    has_model = is_short and any(step.id == ID for step in steps)
     return (frozenset(asked) - in_model(robot)) | (in_model(robot) if has_model else frozenset())
 
 
@@ -42,7 +42,7 @@ def summary_blocks(
 ) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force, and whatever else the exercise asks for."""
     by_id = {step.id: step for step in steps}
-    model = by_id.get(closing.ID)
+    model = by_id.get(ID)
     of_model = in_model(robot) if model else frozenset()
     others = [block for name in asked if name not in of_model for block in _asked_for(name, robot, steps)]
     if model is None and not others:

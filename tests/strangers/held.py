@@ -20,8 +20,7 @@ from dynsolve.document import Block, Document
 from dynsolve.errors import InputError
 from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.notation_list import COUNTING, notation
-from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
-from dynsolve.explain.signs import shorthands
+from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, shorthands
 from dynsolve.explain.step import Detail
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import Style

@@ -15,8 +15,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.compact.proof import Proof
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Formula
-from dynsolve.explain.abbreviations import Abbreviate
-from dynsolve.explain.exchanges import Exchange
+from dynsolve.explain.abbreviations import Abbreviate, Exchange
 from dynsolve.explain.recurring import _Writer
 from dynsolve.explain.step import Detail
 from dynsolve.notation.build import negated, times

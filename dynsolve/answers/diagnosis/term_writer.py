@@ -9,8 +9,8 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.answers.judging.answer_ring import AnswerRing
+from dynsolve.explain.context import style_of
 from dynsolve.explain.forms import leading_names, parallel_coordinates
-from dynsolve.explain.style import style_of
 from dynsolve.notation.build import power
 from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter

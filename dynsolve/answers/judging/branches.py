@@ -16,7 +16,7 @@ from dynsolve.answers.judging.set_verdict import INCOMPLETE, SetVerdict
 from dynsolve.answers.submission import Part
 from dynsolve.derivation.configuration_check import reaches, solution_of
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
-from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tokens import ARCS
 from dynsolve.notation.tree import Function, Node, Symbol

@@ -33,8 +33,8 @@ from dynsolve.derivation.configuration_check import (
 )
 from dynsolve.derivation.equilibrium_check import balanced_forces, in_balance
 from dynsolve.derivation.graph import Derivation, Skipped
-from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.notation.walk import names_in

@@ -14,7 +14,7 @@ from dynsolve.answers.reading.sources import Source, decoded, plain_signs
 from dynsolve.answers.reading.vocabulary import counted_from_zero, vocabulary
 from dynsolve.answers.submission import Submission
 from dynsolve.errors import Finding, ReadError
-from dynsolve.explain.style import style_of
+from dynsolve.explain.context import style_of
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.problem.model import Problem
 

@@ -8,19 +8,34 @@ tensors that are given, is shown in any case.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from itertools import groupby
+from math import prod
+from operator import itemgetter
 
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import fraction
+from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.document import Prose
+from dynsolve.explain.actions import gravity_row
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
-from dynsolve.explain.jacobian_columns import ZERO
-from dynsolve.explain.long_model.body_jacobians import kinetic_step
-from dynsolve.explain.long_model.heights import heights
-from dynsolve.explain.potential import gravity_row
+from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
+from dynsolve.explain.kinematics import OUTWARDS
+from dynsolve.explain.long_model.inertia_entry import kinetic_step
+from dynsolve.explain.long_model.model import Change, LongModel, halves, product
+from dynsolve.explain.matrix_factors import matrix_width
+from dynsolve.explain.sanity.poses import at, turning_in
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.writing import listed, side_by_side, spong
+from dynsolve.explain.working.identities import said, used_in_product
+from dynsolve.explain.writing import column_of, listed, side_by_side, spong
+from dynsolve.notation import tree
+from dynsolve.notation.build import cost
 from dynsolve.notation.tree import (
     BigSum,
     Cross,
@@ -30,6 +45,7 @@ from dynsolve.notation.tree import (
     Number,
     Parenthesized,
     Product,
+    Relation,
     Row,
     Sum,
     Symbol,
@@ -40,7 +56,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body, JointType
+from dynsolve.robot.model import Body, Joint, JointType
 from dynsolve.robot.questions import Method
 
 _I, _J, _K = (Symbol(name) for name in "ijk")
@@ -304,3 +320,194 @@ def _over_rates(n: int, factor: Node) -> BigSum:
 
 def _sum_over(n: int, index: Symbol, body: Node) -> BigSum:
     return BigSum(body, index, Number(1), Number(n))
+
+
+# -- the last frame of a long chain, and the axes of the others ------------------------------------
+
+LONGEST_ENTRY = 40
+"""The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
+
+
+def frame_changes(model: LongModel) -> dict[str, Change]:
+    """The changes by the ids of their steps."""
+    last = len(model.context.robot.joints)
+    return {
+        f"H{last}": partial(last_frame, model),
+        "axes": partial(axes, model),
+        "J": partial(jacobian, model),
+    }
+
+
+def last_frame(model: LongModel, step: Step) -> Step:
+    """The last frame by the matrices of the rows: the products of two halves, and the product of these."""
+    context = model.context
+    robot = context.robot
+    assert isinstance(step.formula, Relation)
+    inner, outer = halves(robot)
+    end, half = outer[-1].index, inner[-1].index
+    names = letters.H(robot, half), replace(letters.H(robot, end), sup=Number(half))
+    (first, before), (second, after) = product(context, inner), product(context, outer)
+    used = list(dict.fromkeys((*before, *after)))
+    told = f"the two halves of the product, the second being frame {end} seen from frame {half}:"
+    whole = used_in_product(context, first, second, context.values[f"H{end}"])
+    return replace(
+        step,
+        why=step.why if step.why[: len(OUTWARDS)] == OUTWARDS else (*OUTWARDS, " ", *step.why),
+        formula=equation(*step.formula.parts, Product(names)),
+        working=(),
+        lines=(
+            Line(
+                ("With ", *said(used), f", {told}") if used else (told.capitalize(),),
+                (
+                    equation(names[0], _rows_of_frame(context, inner), context.show(first)),
+                    equation(names[1], _rows_of_frame(context, outer), context.show(second)),
+                ),
+            ),
+        ),
+        concluding=("With ", *said(whole), ", their product:") if whole else ("Their product:",),
+        notes=(*step.notes, *((check,) if (check := at_zero_angles(context)) else ())),
+    )
+
+
+def _rows_of_frame(context: Context, rows: Sequence[Joint]) -> Node:
+    """A_4 A_5 A_6, from the base on with the frame of the base before them."""
+    matrices = [letters.A(row.index) for row in rows]
+    if rows[0].parent == 0 and letters.has_base(context.robot):
+        matrices = [letters.H(context.robot, 0), *matrices]
+    return Product(tuple(matrices))
+
+
+def axes(model: LongModel, step: Step) -> Step:
+    """The frames on the way, which are not shown, by their products."""
+    robot = model.context.robot
+    if robot.is_tree or letters.has_base(robot):
+        return step
+    i = Symbol("i")
+    frame = replace(letters.H(robot, 1), sub=i)
+    product = Product((letters.A(1), Words("…"), Letter("A", i, style="bold")))
+    before: Prose = ("Frame i is ", equation(frame, product), ". ")
+    return replace(step, why=(*before, *step.why))
+
+
+def jacobian(model: LongModel, step: Step) -> Step:
+    """J_v by its columns, equal neighbours in one chain: all side by side are too wide for a page."""
+    context = model.context
+    J, last = context.matrix("Jv"), len(context.robot.joints)
+    names = [coordinate_column(context, k, last, letters.o(last)) for k in range(model.n)]
+    if None in names or max(cost(entry) for row in J.rows for entry in row) > LONGEST_ENTRY:
+        return step
+    columns = [(column_of(J, k), name[0]) for k, name in enumerate(names) if name]
+    shown = []
+    for value, equal in groupby(columns, itemgetter(0)):
+        is_zero = all(row == (tree.ZERO,) for row in value.rows)
+        shown.append(equation(*(name for _, name in equal), ZERO if is_zero else value))
+    angular = [part for part in step.result if isinstance(part, Relation) and part.parts[0] == letters.JW]
+    return replace(
+        step,
+        concluding=("The columns of ", letters.JV, " from the first to the last, and ", letters.JW, ":"),
+        result=(side_by_side(shown), *angular),
+    )
+
+
+# -- a check of the last frame: where the end of the arm is with all joint angles 0, and in numbers
+
+
+def at_zero_angles(context: Context) -> Prose:
+    """To check: with all joint angles 0 the entries of o_6 are a₂ + a₃ = 0.4521, -d₃ = -0.15005 and so on.
+
+    Nothing where an angle has no sine and cosine of its own.
+    """
+    ring, last = context.robot.ring, len(context.robot.joints)
+    end = origin(context.values[f"H{last}"])
+    turning = turning_in(context.robot, *end.entries)
+    if not turning:
+        return ()
+    place = [at(ring, entry, dict.fromkeys(turning, 0)) for entry in end.entries]
+    lengths = {name: value for name, text in context.lengths.items() if (value := _decimal(text)) is not None}
+    known = all(_symbols(entry) <= lengths.keys() for entry in place)
+    entries = [
+        equation(*dict.fromkeys((context.show(entry), _shown(_value(entry, lengths)))))
+        if known
+        else context.show(entry)
+        for entry in place
+    ]
+    unit = " (in m)." if known else "."
+    return (
+        "To check: with all joint angles 0 the entries of ",
+        letters.o(last),
+        " are ",
+        *listed(entries),
+        unit,
+    )
+
+
+def _decimal(text: str) -> Fraction | None:
+    try:
+        return Fraction(text)
+    except ValueError:  # an angle in degrees, or a formula
+        return None
+
+
+def _symbols(expr: Expr) -> set[str]:
+    """The names in a value without sines and cosines."""
+    generators = expr.ring.generators
+    return {generators[i].name for i, degree in enumerate(expr.poly.degrees()) if degree > 0}
+
+
+def _value(expr: Expr, values: Mapping[str, Fraction]) -> Fraction:
+    """The number that a value is."""
+    names = [generator.name for generator in expr.ring.generators]
+    total = Fraction(0)
+    for powers, factor in expr.poly.to_dict().items():
+        used = zip(names, map(int, powers), strict=True)
+        total += fraction(factor) * prod(values[name] ** power for name, power in used if power)
+    return total
+
+
+def _shown(value: Fraction) -> Node:
+    """A number with a decimal point."""
+    size = Number(abs(value.numerator), value.denominator, decimal=value.denominator > 1)
+    return Negative(size) if value < 0 else size
+
+
+# -- the rows of rotations that give the heights of the mass centres of far links, where each fits a line
+
+WIDEST = 80
+"""The characters of a row up to which the rows are shown; wider ones would be a page of entries."""
+
+
+def heights(context: Context) -> Iterator[Line]:
+    """z₀ᵀ R of the links between the two frames that are shown, where gravity is along z₀."""
+    robot = context.robot
+    if robot.is_tree or not robot.has_table or letters.has_base(robot) or not _is_along_z0(robot.gravity):
+        return
+    inner, outer = halves(robot)
+    shown = (1, inner[-1].index, outer[-1].index)  # the first row is its own frame
+    between = [body for body in robot.bodies if body.link not in shown]
+    rows = {body.link: _row(context, body) for body in between if _is_tilted(context, body)}
+    if rows and all(matrix_width(context, row) <= WIDEST for row in rows.values()):
+        named = tuple(equation(_name(context, link), row) for link, row in rows.items())
+        yield Line(("The third rows of the rotations that give heights, where they were not shown:",), named)
+
+
+def _is_along_z0(gravity: Matrix) -> bool:
+    across = gravity.entries[0].is_zero and gravity.entries[1].is_zero
+    return across and not gravity.entries[2].is_zero
+
+
+def _is_tilted(context: Context, body: Body) -> bool:
+    """Whether the height of a body off the origin of its frame changes as the frame turns."""
+    ring, row = context.robot.ring, rotation(context.values[f"H{body.link}"]).rows[2]
+    turned = any(not ring.diff(entry, k).is_zero for entry in row for k in range(context.robot.n))
+    return turned and not body.center.is_zero
+
+
+def _row(context: Context, body: Body) -> tree.Matrix:
+    shown = context.show(Matrix.of(context.robot.ring, [rotation(context.values[f"H{body.link}"]).rows[2]]))
+    assert isinstance(shown, tree.Matrix)
+    return shown
+
+
+def _name(context: Context, link: int) -> Node:
+    """z₀ᵀ R"""
+    return Product((Transpose(letters.z(0)), letters.R(context.robot, link)))

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.kinematics import base_transform, dh_matrix
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
-from dynsolve.explain.entry_formulas import EntryFormulas, Factor
+from dynsolve.explain.forms import EntryFormulas, Factor
 from dynsolve.explain.step import Step
-from dynsolve.notation.build import times
-from dynsolve.notation.tree import ZERO, Node, Number, Product
+from dynsolve.explain.working.identities import Identity, used_in_product
+from dynsolve.notation import tree
+from dynsolve.notation.build import cost, times
+from dynsolve.notation.tree import ZERO, Node, Number, Product, Relation
 from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Joint, Robot
 
 QUADRATIC = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
 """½ q̇ᵀ D q̇"""
@@ -73,3 +79,60 @@ def with_result(step: Step, result: Node, *more: Inline) -> Step:
     """The step with a result in names, and what there is to say about it."""
     why: Prose = (*step.why, *more)
     return replace(step, result=(result,), why=why)
+
+
+# -- which results would fill pages, and what stands in their place --------------------------------
+
+LONGEST = 80
+"""The operations up to which a result on the way to D, c_ijk and g is written out."""
+
+
+def is_too_long(step: Step) -> bool:
+    """Whether a step on the way would fill pages."""
+    on_the_way = step.stage is Stage.INERTIA or step.stage is Stage.ENERGY
+    return on_the_way and max(map(_size, step.result), default=0) > LONGEST
+
+
+def _size(node: Node) -> int:
+    """The operations in a result."""
+    value = node.parts[-1] if isinstance(node, Relation) else node
+    if isinstance(value, tree.Matrix):
+        return sum(_size(entry) for row in value.rows for entry in row)
+    try:
+        return cost(value)
+    except TypeError:  # a formula in letters
+        return 0
+
+
+def left_out(step: Step) -> Step:
+    """The step with its formula as its result."""
+    if step.formula is None:
+        return step
+    note: Prose = ("Written out it would be too long to be useful; the formula defines it.",)
+    return replace(step, result=(), notes=(*step.notes, note))
+
+
+# -- half-way along an arm: where a long product is parted, and the halves worked out --------------
+
+
+def halves(robot: Robot) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+    """The rows up to the last frame in two halves: of six joints, the arm and its wrist."""
+    rows = robot.path(len(robot.joints))
+    return rows[: len(rows) // 2], rows[len(rows) // 2 :]
+
+
+def product(context: Context, rows: Sequence[Joint]) -> tuple[Matrix, list[Identity]]:
+    """The matrices of rows multiplied from the left, 4×4, and the identities that are used on the way.
+
+    From the base on, with the frame of the base before them.
+    """
+    robot = context.robot
+    matrices = [dh_matrix(robot, row) for row in rows]
+    if rows[0].parent == 0:
+        matrices = [base_transform(robot), *matrices]
+    used: dict[Identity, None] = {}
+    made = matrices[0]
+    for A in matrices[1:]:
+        before, made = made, made @ A
+        used |= dict.fromkeys(used_in_product(context, before, A, made))
+    return made, list(used)

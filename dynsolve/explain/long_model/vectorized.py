@@ -2,42 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import chain
+from itertools import chain, pairwise
 
+from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.derivation.kinematics import axis
 from dynsolve.document import Prose, Reference
-from dynsolve.explain import closing
-from dynsolve.explain.entry_formulas import coriolis_matrix
+from dynsolve.explain.context import Context
+from dynsolve.explain.forms import coriolis_matrix
 from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.long_model.model import QUADRATIC, Change, LongModel
-from dynsolve.explain.long_model.one_row import shortest_row
-from dynsolve.explain.long_model.parallel_axes import on_parallel_axes
 from dynsolve.explain.long_model.slopes import christoffel_example, gravity_example
-from dynsolve.explain.sanity.dependence import is_carried_along, on_last_entry
+from dynsolve.explain.sanity.conserved import is_carried_along, on_last_entry
 from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.terms import ID, driving_row, has_friction
 from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign
 from dynsolve.notation.tree import (
     ZERO,
+    Cross,
     Function,
     Letter,
     Negative,
     Node,
+    Number,
+    Parenthesized,
     Product,
     Relation,
     Row,
     Sum,
     Symbol,
+    Transpose,
     equation,
 )
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
+from dynsolve.robot.model import Coordinate, JointType
 
 
-def changes(model: LongModel) -> dict[str, Change]:
+def matrix_changes(model: LongModel) -> dict[str, Change]:
     """The changes by the ids of their steps."""
     return {
         "Cqd": partial(rest, model),
@@ -46,7 +52,7 @@ def changes(model: LongModel) -> dict[str, Change]:
         "C": partial(coriolis, model),
         "g": partial(gravity, model),
         "dependence": partial(last_entry, model),
-        closing.ID: partial(shortest_row, model),
+        ID: partial(shortest_row, model),
     }
 
 
@@ -248,3 +254,91 @@ def _terms(value: Node) -> frozenset[Node]:
 def _chain(named: Sequence[tuple[int, Node]], value: Node) -> Relation:
     """c_121 = -c_112 = ... = value, in the order of the names, of which the first has a plus"""
     return equation(*(name if s > 0 else Negative(name) for s, name in named), value)
+
+
+# -- why Christoffel symbols of joints with parallel axes are equal --------------------------------
+
+_I, _J, _K = Symbol("i"), Symbol("j"), Symbol("k")
+
+
+def on_parallel_axes(context: Context) -> Prose:
+    """c_2jk = c_3jk where 3 ≤ j, of neighbours that turn about parallel axes.
+
+    ∂²r/∂q_i ∂q_j = z_i × (∂r/∂q_j) of a point that joints i ≤ j move, and ∂(J_ω)_j/∂q_i = z_i × z_j,
+    speak of joint i by the direction of its axis alone.
+    """
+    why: Prose = ()
+    for first, second in _parallel(context):
+        of_first, of_second = (Letter("c", Row((Number(q.index), _J, _K))) for q in (first, second))
+        why += (
+            "The axes of joints ",
+            *listed([Number(first.index), Number(second.index)]),
+            " are parallel, so ",
+            equation(of_first, of_second),
+            " where ",
+            Relation((Number(second.index), _J), ("≤",)),
+            ". ",
+        )
+    return (*_by_points(context), *why) if why else ()
+
+
+def _by_points(context: Context) -> Prose:
+    """c_ijk = Σ m (∂p/∂q_k)ᵀ ∂²p/∂q_i∂q_j over points p; joint i ≤ j turns ∂p/∂q_j about its axis."""
+    p = letters.ANY_POINT
+    by_j, by_k = (letters.partial_derivative(p, Letter("q", index)) for index in (_J, _K))
+    axis_of_i = letters.bold("z", Sum((_I, Negative(Number(1)))) if context.standard else _I)
+    slope = letters.partial_derivative(by_j, Letter("q", _I))
+    return (
+        Letter("d", Row((_J, _K))),
+        " is the sum over all points ",
+        p,
+        " of the bodies of their mass times ",
+        Product((Transpose(Parenthesized(by_k)), by_j)),
+        ". Put into the formula below, four of six terms cancel: ",
+        Letter("c", Row((_I, _J, _K))),
+        " is the sum of the masses times ",
+        Product((Transpose(Parenthesized(by_k)), slope)),
+        ". Where ",
+        Relation((_I, _J), ("≤",)),
+        ", joint i turns ",
+        by_j,
+        " about its axis: ",
+        equation(slope, Cross(axis_of_i, by_j)),
+        ". ",
+    )
+
+
+def _parallel(context: Context) -> Iterator[tuple[Coordinate, Coordinate]]:
+    """Neighbouring joints that turn about the same direction, in the same sense."""
+    robot = context.robot
+    if robot.is_tree or not robot.has_table or not robot.moves_each_joint_alone or robot.actions.motors:
+        return
+    moving = [joint for joint in robot.joints if joint.type]
+    for (q, joint), (following, after) in pairwise(zip(robot.coordinates, moving, strict=True)):
+        if joint.type is after.type is JointType.REVOLUTE:
+            here, there = (axis(context.values[f"H{joint_frame(robot, each)}"]) for each in (joint, after))
+            if here == there:
+                yield q, following
+
+
+# -- one row of τ in full, at the end of a long model ----------------------------------------------
+
+MOST_TERMS = 30
+"""The terms up to which a row of τ is shown."""
+
+
+def shortest_row(model: LongModel, step: Step) -> Step:
+    """The closing step with the row of τ of the fewest terms, of equally short ones the last."""
+    context = model.context
+    if has_friction(context):
+        return step
+    rows = [(q, model.formulas.force(q.index - 1)) for q in reversed(context.robot.coordinates)]
+    q, row = min(rows, key=lambda each: _terms_of_one_row(each[1]))
+    if _terms_of_one_row(row) > MOST_TERMS:
+        return step
+    by = ("The shortest row as an example", Reference(("D", "christoffel", "g"), ", "), ":")
+    return replace(step, lines=(Line(by, (equation(driving_row(context, q), row),)),))
+
+
+def _terms_of_one_row(node: Node) -> int:
+    return len(node.terms) if isinstance(node, Sum) else 1

@@ -1,24 +1,12 @@
 """Checks that a person can do on a finished model, each found by the program and proved before it is said.
 
-    conserved     how the energy changes, and the momentum of a coordinate that does not appear in L
+    conserved     how the energy changes, the momentum of a coordinate that does not appear in L, and the
+                  coordinates on which D cannot depend
     definite      D is positive definite, by its diagonal and its determinants or body by body
-    decoupled     the relation between parameters that makes D diagonal
-    inertia_poses the moments of inertia on the diagonal of D, in poses of right angles
+    determinant   the determinant of two coupled coordinates, line by line; what makes D diagonal; signs
     equilibrium   the poses in which g is zero, hanging and upright among them, or that there are none
-    point_masses  D without the moments of inertia of the bodies, and what is left over
-    dependence    the coordinates on which D cannot depend, and its constant entry
-    unloaded      the joints that gravity does not load
-
-They are made of
-
-    pose          a value in which some angles have values
-    determinant   the determinant of two coupled coordinates, line by line
-    sign          a formula that is positive for positive masses, moments and lengths
-    balance       how g = 0 is solved, row by row
-    cases         how it is solved where a row has two factors
-    sliding       how it is solved where a joint slides up and down
-    curvature     what P has there, by the minors of its second derivatives
-    at_rest       what is said of every equilibrium
+    balance       how g = 0 is solved, row by row, what P has there, and the joints that gravity does not load
+    poses         D in poses of right angles, and without the moments of inertia of the bodies
 
 Of longer arms those are done that read off a result what its pages hide: a coordinate that is
 cyclic, on what D depends, entries of g that are zero.
@@ -33,14 +21,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.conserved import conserved_step, momenta_step
-from dynsolve.explain.sanity.decoupled import decoupled_step
+from dynsolve.explain.sanity.balance import unloaded_step
+from dynsolve.explain.sanity.conserved import conserved_step, dependence_step, momenta_step
 from dynsolve.explain.sanity.definite import definite_step
-from dynsolve.explain.sanity.dependence import dependence_step
+from dynsolve.explain.sanity.determinant import decoupled_step
 from dynsolve.explain.sanity.equilibrium import equilibrium_step
-from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
-from dynsolve.explain.sanity.point_masses import point_masses_step
-from dynsolve.explain.sanity.unloaded import unloaded_step
+from dynsolve.explain.sanity.poses import inertia_poses_step, point_masses_step
 from dynsolve.explain.step import Detail, Step
 
 

@@ -18,8 +18,14 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.sanity.determinant import MULTIPLIED_OUT, Determinant, determinant_of_two, said_of
-from dynsolve.explain.sanity.sign import is_positive, masses_and_moments
+from dynsolve.explain.sanity.determinant import (
+    MULTIPLIED_OUT,
+    Determinant,
+    determinant_of_two,
+    is_positive,
+    masses_and_moments,
+    said_of,
+)
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.writing import listed, spong, sum_of
 from dynsolve.notation.build import cost, times

@@ -7,25 +7,36 @@ entries share is gone.  Of a robot in numbers nothing is gained by it: sums of n
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
+from fractions import Fraction
+from functools import reduce
+from itertools import combinations, product
 
+from flint import fmpq_mpoly
+
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.monomials import Monomial
 from dynsolve.algebra.compact.terms import Rational
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator, Pair
+from dynsolve.algebra.inequality import Bound
 from dynsolve.document import Prose
+from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.step import Line
+from dynsolve.explain.inverse_formulas import ConfigurationForms
+from dynsolve.explain.sanity.poses import Pose, at, degrees, written_pose
+from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import product_of
-from dynsolve.explain.working.identities import Identity, identities, said
+from dynsolve.explain.working.identities import Identity, equals, identities, said
 from dynsolve.explain.working.kinetic import without_signs
-from dynsolve.explain.working.proved import equals
-from dynsolve.explain.writing import listed
+from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.build import cost, factors_of, negated, total
 from dynsolve.notation.tree import (
+    ZERO,
     Function,
     Negative,
     Node,
@@ -33,10 +44,97 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Power,
     Product,
+    Quotient,
+    Relation,
+    Row,
     Sum,
+    Symbol,
+    Words,
     equation,
 )
 from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
+
+Names = frozenset[str]
+"""The parameters that are positive."""
+
+
+def masses_and_moments(robot: Robot) -> Names:
+    """The masses and the moments of inertia of a problem; products of inertia may be negative."""
+    tensors = [body.inertia for body in robot.bodies if body.inertia is not None]
+    places = [(i, j) for i in range(3) for j in range(3)]
+    products = {name for t in tensors for i, j in places if i != j for name in _names(t[i, j])}
+    moments = {name for t in tensors for i, j in places if i == j for name in _names(t[i, j])}
+    masses = {name for body in robot.bodies for name in _names(body.mass)}
+    rotors = {name for motor in robot.actions.motors for name in _names(motor.inertia)}
+    return frozenset((masses | moments | rotors) - products)
+
+
+def with_lengths(robot: Robot) -> Names:
+    """Every parameter but the products of inertia: lengths and the size of gravity too."""
+    tensors = [body.inertia for body in robot.bodies if body.inertia is not None]
+    products = {name for t in tensors for i in range(3) for j in range(i) for name in _names(t[i, j])}
+    return frozenset(robot.ring.parameters) - products
+
+
+def _names(expr: Expr) -> set[str]:
+    """The parameters that occur in an expression."""
+    degrees = expr.poly.degrees()
+    return {g.name for g in expr.ring.generators if g.name in expr.ring.parameters and degrees[g.index] > 0}
+
+
+def is_nonnegative(node: Node, positive: Names) -> bool:
+    """Whether no part of a formula can make it negative."""
+    match node:
+        case Number():
+            return True
+        case Symbol(name, 0):
+            return name in positive
+        case Function("sqrt", _):
+            return True
+        case Parenthesized(argument):
+            return is_nonnegative(argument, positive)
+        case Power(base, Number(p, 1)):
+            return p % 2 == 0 or is_nonnegative(base, positive)
+        case Sum(parts) | Product(parts):
+            return all(is_nonnegative(part, positive) for part in parts)
+        case Quotient(numerator, denominator):
+            return is_nonnegative(numerator, positive) and is_nonnegative(denominator, positive)
+    return False
+
+
+def is_positive(node: Node, positive: Names, constant: Names) -> bool:
+    """Whether a formula is positive in every pose; `constant` are the parameters, none of which is 0.
+
+    >>> l, m, q = map(Symbol, "lmq")
+    >>> square = Product((m, Power(l, Number(2))))
+    >>> names = frozenset("m"), frozenset("lm")
+    >>> is_positive(square, *names), is_positive(Product((square, Function("sin", q))), *names)
+    (True, False)
+    """
+    match node:
+        case Number(p, _):
+            return p > 0
+        case Power(base, _):
+            nonzero = isinstance(base, Symbol) and base.name in constant and not base.dots
+            return is_nonnegative(node, positive) and (nonzero or is_positive(base, positive, constant))
+        case Sum(parts):
+            return is_nonnegative(node, positive) and any(is_positive(p, positive, constant) for p in parts)
+        case Product(parts):
+            return all(is_positive(part, positive, constant) for part in parts)
+        case Quotient(numerator, denominator):
+            return is_positive(numerator, positive, constant) and is_positive(denominator, positive, constant)
+        case Parenthesized(argument) | Function("sqrt", argument):
+            return is_positive(argument, positive, constant)
+    return isinstance(node, Symbol) and is_nonnegative(node, positive)
+
+
+def sign_of(context: Context, value: Expr) -> int:
+    """The sign of a value in every pose, lengths positive: 1 or -1; 0 where none is seen."""
+    positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
+    return next((sign for sign in (1, -1) if is_positive(context.show(value * sign), positive, constant)), 0)
+
 
 MOST_TERMS = 16
 """Up to this number of terms a determinant is multiplied out."""
@@ -198,3 +296,179 @@ def _terms(node: Node) -> Iterator[Node]:
             yield from map(Product, product(*(tuple(_terms(factor)) for factor in factors)))
         case _:
             yield node
+
+
+# -- how g = 0 is solved where a row has two factors: each is 0 in a case of its own, and leaves one angle
+
+_WITH_KNOWN_TANGENT = (30, 45, 60, -30, -45, -60)
+"""The angles in degrees, between -90 and 90, that have a tangent without cosines of further angles."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cases:
+    """Where g = 0 of two angles: the lines that lead there, and all poses up to full turns."""
+
+    lines: tuple[Line, ...]
+    poses: tuple[Pose, ...]
+
+
+def cases(context: Context, names: Sequence[str]) -> Cases | None:
+    """The cases of the first row, from the last on, that has two factors; None where there is none."""
+    g = context.values["g"]
+    rows = [k for k in reversed(range(context.robot.n)) if not g[k, 0].is_zero]
+    found = next(((k, factors) for k in rows if (factors := _factors(context, g[k, 0]))), None)
+    if found is None or len(names) != 2 or len(rows) != 2:
+        return None
+    row, factors = found
+    other = next(k for k in rows if k != row)
+    by_factor = [_branch(context, factor, other, names) for factor in factors]
+    if any(each is None for each in by_factor):
+        return None
+    either = [equation(_shown(context, factor), ZERO) for factor in factors]
+    value = equation(letters.entry("g", row + 1), context.show(g[row, 0]), ZERO)
+    lines = [Line((), (Row((value, Words(", so "), either[0], Words(" or "), either[1])),))]
+    poses: dict[tuple[int, ...], Pose] = {}
+    for zero, branch in zip(either, by_factor, strict=True):
+        assert branch is not None
+        lines.append(Line(("Where ", zero, ":"), branch.formulas))
+        poses |= {tuple(pose[name] for name in names): pose for pose in branch.poses}
+    return Cases(tuple(lines), tuple({name: pose[name] for name in names} for pose in poses.values()))
+
+
+@dataclass(frozen=True, slots=True)
+class _Branch:
+    formulas: tuple[Node, ...]
+    poses: tuple[Pose, ...]
+
+
+def _factors(context: Context, row: Expr) -> tuple[Generator, Generator] | None:
+    """The sines or cosines of two angles whose product, times what surely has a sign, is a row of g."""
+    ring, used = row.ring, row.poly.degrees()
+    turning = [g for g in ring.generators if g.kind in ("sin", "cos") and used[g.index] > 0]
+    if len(turning) != 2 or turning[0].angle == turning[1].angle:
+        return None
+    first, second = turning
+    beside = Expr(ring, row.poly.derivative(first.index).derivative(second.index))
+    product = beside * ring.generator(first.index) * ring.generator(second.index)
+    is_whole = product == row and sign_of(context, beside) and all(_name(g.angle) for g in turning)
+    return (first, second) if is_whole else None
+
+
+def _branch(context: Context, factor: Generator, row: int, names: Sequence[str]) -> _Branch | None:
+    """What a row says of the other angle where a factor is 0; None where it does not say it."""
+    name = _name(factor.angle)
+    left = next(each for each in names if each != name)
+    formulas: list[Node] = []
+    poses: list[Pose] = []
+    for angle in (0, 180) if factor.kind == "sin" else (90, -90):
+        here = {name: angle}
+        value = at(context.robot.ring, context.values["g"][row, 0], here)
+        found = solved(context, value, left)
+        if found is None:
+            return None
+        said, angles = found
+        both = Row((degrees(angles[0]), Words(" or "), degrees(angles[1])))
+        zero = equation(letters.entry("g", row + 1), context.show(value), ZERO)
+        where = (*written_pose(here), Words(": "), zero, Words(", so "), said, Words(", "))
+        formulas.append(Row((*where, equation(Symbol(left), both))))
+        poses += [{**here, left: other} for other in angles]
+    return _Branch(tuple(formulas), tuple(poses))
+
+
+def solved(context: Context, value: Expr, name: str) -> tuple[Node, tuple[int, int]] | None:
+    """The angle where a s + b c is 0: what follows for s, c or its tangent, and the two angles."""
+    ring, q = context.robot.ring, Symbol(name)
+    pair = next((pair for pair in ring.pairs if _name(pair.angle) == name), None)
+    if pair is None:
+        return None
+    for index, zeros in ((pair.sine, (0, 180)), (pair.cosine, (90, -90))):
+        beside = Expr(ring, value.poly.derivative(index))
+        if value == beside * ring.generator(index) and sign_of(context, beside):
+            return equation(context.show(ring.generator(index)), ZERO), zeros
+    if not (_is_linear(value, pair) and sign_of(context, Expr(ring, value.poly.derivative(pair.sine)))):
+        return None
+    for angle, tangent in _tangents(context):
+        if at(ring, value, {name: angle}).is_zero:
+            opposite = angle - 180 if angle > 0 else angle + 180
+            return equation(Function("tan", q), tangent), (angle, opposite)
+    return None
+
+
+def _tangents(context: Context) -> Iterator[tuple[int, Node]]:
+    """The angles with a known tangent in the ring of a robot, and what it is."""
+    ring = context.robot.ring
+    for angle in _WITH_KNOWN_TANGENT:
+        try:
+            s, c = ring.sin(Angle((), Fraction(angle))), ring.cos(Angle((), Fraction(angle)))
+        except AlgebraError:
+            continue
+        yield angle, context.show(s * ring.inverse(c))
+
+
+def _is_linear(value: Expr, pair: Pair) -> bool:
+    """Whether a value is a s + b c with constant a and b."""
+    ring = value.ring
+    parts = [Expr(ring, value.poly.derivative(index)) for index in (pair.sine, pair.cosine)]
+    total = parts[0] * ring.generator(pair.sine) + parts[1] * ring.generator(pair.cosine)
+    return value == total and not any(map(ring.depends_on_coordinates, parts))
+
+
+def _name(angle: Angle) -> str:
+    """The coordinate that an angle is; "" where it is a sum, a multiple or a constant more."""
+    if angle.degrees or len(angle.terms) != 1:
+        return ""
+    ((atom, rate),) = angle.terms
+    return atom[0][0] if rate == 1 and len(atom) == 1 else ""
+
+
+def _shown(context: Context, factor: Generator) -> Node:
+    return context.show(context.robot.ring.generator(factor.index))
+
+
+# -- the relation between parameters that makes D diagonal: a factor of all entries beside the diagonal
+
+
+def decoupled_step(context: Context) -> Step | None:
+    """What makes D diagonal in every configuration; None where no relation between parameters does."""
+    n, D = context.robot.n, context.values["D"]
+    coupling = [D[i, j] for i, j in combinations(range(n), 2) if not D[i, j].is_zero]
+    if not coupling:
+        return None
+    factor = _of_parameters(coupling)
+    if factor is None:
+        return None
+    shown = ConfigurationForms(context.robot, context.values).inequality(Bound(factor))
+    told: Prose = ("Where ", Relation(shown.parts, ("=",)), ", ", letters.D, " is diagonal in every ")
+    told += ("configuration: no coordinate is coupled with another by its acceleration.",)
+    ring = context.robot.ring
+    if not any(ring.depends_on_coordinates(D[i, i]) for i in range(n)):
+        told += (" ", letters.D, " is then constant, and ", equation(letters.C, letters.bold("0")), ".")
+    return Step(
+        id="decoupled",
+        stage=Stage.VECTORIZED,
+        title="What decouples the coordinates",
+        why=told,
+        source=spong("7.4"),
+        outcome=told,
+        is_task=False,
+    )
+
+
+def _of_parameters(values: Iterable[Expr]) -> Expr | None:
+    """A sum of parameters alone, of both signs, that divides all values: it may be 0 for positive ones."""
+    values = list(values)
+    ring = values[0].ring
+    own = [
+        g.index for g in ring.generators if g.kind == "symbol" and not g.dots and g.name in ring.parameters
+    ]
+    parts: dict[tuple[int, ...], fmpq_mpoly] = defaultdict(lambda: ring.zero.poly)
+    for number, value in enumerate(values):
+        for exponents, size in value.poly.to_dict().items():
+            alone = tuple(e if k in own else 0 for k, e in enumerate(exponents))
+            rest = tuple(0 if k in own else e for k, e in enumerate(exponents))
+            parts[(number, *rest)] += ring.ctx.from_dict({alone: size})
+    common = reduce(lambda one, other: one.gcd(other), parts.values())
+    _, found = common.factor()
+    both = (one for one, _ in found if len({sign > 0 for sign in one.to_dict().values()}) == 2)
+    factor = next(both, None)
+    return None if factor is None else Expr(ring, factor)

@@ -8,20 +8,191 @@ Where a joint slides up and down, `sliding` has the answer.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from math import lcm
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import cross
 from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity import balance, cases, curvature, sliding
-from dynsolve.explain.sanity.at_rest import assumed, at_rest, free, in_no_others, told
-from dynsolve.explain.sanity.curvature import Kind
-from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
+from dynsolve.explain.sanity.balance import (
+    MOST_SHOWN,
+    Kind,
+    Zero,
+    assumed,
+    at_rest,
+    free,
+    how_multiplied,
+    in_no_others,
+    kind_of,
+    leading_minors,
+    shown,
+    signs_of,
+    slope,
+    slope_of_last,
+    told,
+    written_zero,
+    zeros,
+)
+from dynsolve.explain.sanity.determinant import cases, is_positive, sign_of, solved, with_lengths
+from dynsolve.explain.sanity.poses import Pose, at, degrees, poses, turning_in, written_pose
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.writing import as_row, listed, side_by_side
-from dynsolve.notation.tree import Row, Symbol, equation
+from dynsolve.explain.working.derivatives import are_alike
+from dynsolve.explain.working.kinetic import without_signs
+from dynsolve.explain.writing import as_row, listed, side_by_side, sum_of
+from dynsolve.notation.build import times, total
+from dynsolve.notation.tree import (
+    ZERO,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Quotient,
+    Relation,
+    Row,
+    Sum,
+    Symbol,
+    Words,
+    equation,
+)
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType
+
+
+def rests_nowhere(context: Context) -> Step | None:
+    """An entry of g that is 0 in no pose; None where there is none."""
+    g = context.values["g"]
+    k, sign = next(((k, sign) for k in range(context.robot.n) if (sign := sign_of(context, g[k, 0]))), (0, 0))
+    if not sign:
+        return None
+    value = Relation(
+        (letters.entry("g", k + 1), context.show(g[k, 0]), ZERO), ("=", ">" if sign > 0 else "<")
+    )
+    why: Prose = (*at_rest(context), *assumed(context), "But ", value, Reference(("g",), " in "))
+    outcome = ("Gravity is balanced in no pose: ", value, " in each.")
+    return told((*why, " in every pose, so gravity is balanced in none."), outcome=outcome)
+
+
+def at_one_length(context: Context) -> Step | None:
+    """The two poses in which the axis of sliding is level, each with the length that balances the moments."""
+    robot, g = context.robot, context.values["g"]
+    loaded = [k for k in range(robot.n) if not g[k, 0].is_zero]
+    slides = [k for k in loaded if robot.coordinates[k].type is JointType.PRISMATIC]
+    angles = turning_in(robot, *g.entries)
+    if len(loaded) != 2 or len(slides) != 1 or angles is None or len(angles) != 1:
+        return None
+    (turned,) = (k for k in loaded if k not in slides)
+    (slid,), (angle,) = slides, angles
+    level = solved(context, g[slid, 0], angle)
+    if level is None or robot.ring.depends_on_coordinates(robot.ring.diff(g[slid, 0], slid)):
+        return None
+    said, values = level
+    poses = [_moment(context, turned, slid, {angle: value}) for value in values]
+    lengths = {pose.length for pose in poses if pose is not None}
+    if None in poses or len(lengths) != 1:
+        return None
+    either = equation(Symbol(angle), Row((degrees(values[0]), Words(" or "), degrees(values[1]))))
+    zero = equation(letters.entry("g", slid + 1), context.show(g[slid, 0]), ZERO)
+    rows = (Row((zero, Words(", so "), said, Words(", "), either)), *(pose.zero for pose in poses if pose))
+    name = robot.coordinates[slid].name
+    why = (*at_rest(context), *assumed(context), "The rows of ", letters.G, Reference(("g",), " in "))
+    why += ("; what ", equation(letters.entry("g", slid + 1), ZERO), " says is put into the other:")
+    balanced = equation(Symbol(name), *lengths)
+    only = in_no_others("this pose" if len(values) == 1 else "these poses")
+    concluding: Prose = ("So ", balanced, " in both. ", only)
+    concluding += (*free(context, (angle, name)), ". ", *_saddles(context, slid, turned))
+    concluding += _not_extended(context, name, *lengths)
+    outcome = (
+        "Gravity is balanced in two poses, with ",
+        balanced,
+        ": saddle points of the potential energy.",
+    )
+    return told(why, (Line((), rows),), concluding, outcome=outcome)
+
+
+@dataclass(frozen=True, slots=True)
+class _Moment:
+    """The moment of gravity in a pose, as an equation that it is 0, and the length at which it is."""
+
+    zero: Node
+    length: Node
+
+
+def _moment(context: Context, row: int, slid: int, pose: Pose) -> _Moment | None:
+    """θ = 180°: g_2 = -g (m_2 l_c2 + m_3 d_3) = 0, and -m_2 l_c2/m_3"""
+    ring, d = context.robot.ring, Symbol(context.robot.coordinates[slid].name)
+    value = at(ring, context.values["g"][row, 0], pose)
+    by_d = ring.diff(value, slid)
+    rest = value - by_d * ring.symbol(d.name)
+    if not sign_of(context, by_d) or ring.depends_on_coordinates(rest):
+        return None
+    common, factor, constant = _parts(context, by_d, rest)
+    linear = total([times(1, [(context.show(factor), 1), (d, 1)]), context.show(constant)])
+    shown, collected = context.show(value), times(1, [(context.show(common), 1), (linear, 1)])
+    members = (shown,) if are_alike(shown, collected) else (shown, collected)
+    zero = Row((*written_pose(pose), Words(": "), equation(letters.entry("g", row + 1), *members, ZERO)))
+    return _Moment(zero, _length(context, factor, constant))
+
+
+def _parts(context: Context, by_d: Expr, rest: Expr) -> tuple[Expr, Expr, Expr]:
+    """p, a, b of by_d = p a and rest = p b; a is positive, a and b have no fraction and no common factor."""
+    ring, sign = rest.ring, sign_of(context, by_d)
+    common = rest.poly.gcd(by_d.poly)
+    a, b = (Expr(ring, each.poly / common) * sign for each in (by_d, rest))
+    whole = lcm(*(int(each.poly.factor()[0].q) for each in (a, b) if not each.is_zero))
+    return Expr(ring, common) * sign / whole, a * whole, b * whole
+
+
+def _length(context: Context, a: Expr, b: Expr) -> Node:
+    """Where a d + b = 0: d = -b/a"""
+    if a.is_number or b.is_zero:
+        return context.show(-b / a.number) if a.is_number else ZERO
+    if sign_of(context, b) > 0:
+        return Negative(Quotient(context.show(b), context.show(a)))
+    return Quotient(context.show(-b), context.show(a))
+
+
+def _saddles(context: Context, slid: int, turned: int) -> Prose:
+    """Why P has a saddle point there: g_d does not depend on d, but on the angle it does."""
+    names = [context.robot.coordinates[k].name for k in (slid, turned)]
+    by_d, by_angle = (slope(context, names[0], name) for name in names)
+    ring, place = context.robot.ring, context.robot.ring.names.index(names[1])
+    rate = context.show(ring.diff(context.values["g"][slid, 0], place))
+    det, value = (Negative(Power(x, Number(2))) for x in (Parenthesized(by_angle), without_signs(rate)))
+    why: Prose = ("In both ", letters.P, " has a saddle point: as ", equation(by_d, ZERO))
+    why += (", the determinant of the symmetric matrix of its second derivatives with respect to ",)
+    why += (
+        Symbol(names[1]),
+        " and ",
+        Symbol(names[0]),
+        " is ",
+        equation(det, value),
+        ", which is negative there. So they are unstable.",
+    )
+    return why
+
+
+def _not_extended(context: Context, name: str, length: Node) -> Prose:
+    """That the length is on the other side of 0, where it is seen to be."""
+    positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
+    if isinstance(length, Quotient) and isinstance(length.numerator, Sum):
+        return _where_extended(name, length.numerator.terms)
+    if not isinstance(length, Negative) or not is_positive(length.argument, positive, constant):
+        return ()
+    return (" With ", Relation((Symbol(name), ZERO), (">",)), " no pose is balanced.")
+
+
+def _where_extended(name: str, terms: Sequence[Node]) -> Prose:
+    """Where the length is on the side of 0 that it should be: its positive terms are the larger ones."""
+    positive = [term for term in terms if not isinstance(term, Negative)]
+    negative = [term.argument for term in terms if isinstance(term, Negative)]
+    if not (positive and negative):
+        return ()
+    where = Relation((sum_of(negative), sum_of(positive)), ("<",))
+    return (" Here ", Relation((Symbol(name), ZERO), (">",)), " only if ", where, ".")
+
 
 QUARTER_TURNS = (0, 90, 180, -90)
 
@@ -33,10 +204,10 @@ def equilibrium_step(context: Context) -> Step | None:
         return None
     if context.values["g"].is_zero:
         return told(_everywhere(context))
-    if (nowhere := sliding.nowhere(context)) is not None:
+    if (nowhere := rests_nowhere(context)) is not None:
         return nowhere
     if _slides(context):
-        return sliding.at_one_length(context)
+        return at_one_length(context)
     zero = _balanced(context)
     return (_all_poses(context, zero) or _extrema(context, zero)) if zero else None
 
@@ -60,33 +231,33 @@ def _everywhere(context: Context) -> Prose:
 def _all_poses(context: Context, zero: Sequence[Pose]) -> Step | None:
     """All poses in which g is zero, by its rows; None where these do not give them, or what P has there."""
     names = list(zero[0])
-    rows = balance.zeros(context)
+    rows = zeros(context)
     if rows is not None and len(rows) == len(names):  # each row leaves two quarter turns of an angle
-        lines = (Line((), tuple(balance.written(context, row) for row in rows)),)
+        lines = (Line((), tuple(written_zero(context, row) for row in rows)),)
         return _told_of_all(context, zero, lines, rows)
-    by_cases = cases.cases(context, names) if rows is None else None
+    by_cases = cases(context, names) if rows is None else None
     return None if by_cases is None else _told_of_all(context, by_cases.poses, by_cases.lines, None)
 
 
 def _told_of_all(
-    context: Context, zero: Sequence[Pose], lines: Sequence[Line], rows: Sequence[balance.Zero] | None
+    context: Context, zero: Sequence[Pose], lines: Sequence[Line], rows: Sequence[Zero] | None
 ) -> Step | None:
     """What P has in each of the poses, by its second derivatives; None where a sign is not seen.
 
     `rows` are the zeros that are put into these, None where they differ from case to case.
     """
     names = list(zero[0])
-    minors = curvature.minors(context, names, rows or ())
-    signs = [curvature.signs_of(context, minors, pose) for pose in zero]
-    kinds = [kind for each in signs if (kind := curvature.kind_of(each)) is not None]
+    minors = leading_minors(context, names, rows or ())
+    signs = [signs_of(context, minors, pose) for pose in zero]
+    kinds = [kind for each in signs if (kind := kind_of(each)) is not None]
     if len(kinds) != len(zero):
         return None
-    shows = len(names) <= curvature.MOST_SHOWN
+    shows = len(names) <= MOST_SHOWN
     found = (
         (*_signs(each, shows), *_told(context, pose, kind))
         for pose, each, kind in zip(zero, signs, kinds, strict=True)
     )
-    table = tuple((side_by_side(written(pose)), *row) for pose, row in zip(zero, found, strict=True))
+    table = tuple((side_by_side(written_pose(pose)), *row) for pose, row in zip(zero, found, strict=True))
     shown = (_second_derivatives(context, names, rows),) if shows else ()
     concluding: Prose = (
         in_no_others(f"the pose{'s' * (len(zero) > 1)} of the table"),
@@ -109,14 +280,16 @@ def _counted(context: Context, zero: Sequence[Pose], kinds: Sequence[Kind]) -> P
 def _minima(zero: Sequence[Pose], kinds: Sequence[Kind]) -> Prose:
     """In which poses P has a minimum."""
     stable = [
-        side_by_side(written(pose)) for pose, kind in zip(zero, kinds, strict=True) if kind is Kind.MINIMUM
+        side_by_side(written_pose(pose))
+        for pose, kind in zip(zero, kinds, strict=True)
+        if kind is Kind.MINIMUM
     ]
     if not stable:
         return ("the potential energy has a minimum in none.",)
     return ("the potential energy has a minimum at ", *listed(stable), ".")
 
 
-def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:
+def _rows_of(context: Context, rows: Sequence[Zero] | None) -> Prose:
     """How the rows of g are gone through."""
     found = (letters.G, Reference(("g",), " in "))
     if rows is None:
@@ -134,7 +307,7 @@ def _by_minors(context: Context, names: Sequence[str]) -> Prose:
     if len(names) == 1:
         where: Prose = ("a minimum where the second derivative is positive, a maximum where it is negative",)
     elif len(names) == 2:
-        where = ("a minimum where ", curvature.slope_of_last(context, names), " and det are positive, ")
+        where = ("a minimum where ", slope_of_last(context, names), " and det are positive, ")
         where += ("a maximum where det alone is (Sylvester's criterion), ",)
         where += ("a saddle point where det is negative",)
     else:
@@ -146,11 +319,9 @@ def _by_minors(context: Context, names: Sequence[str]) -> Prose:
     return (letters.P, " has ", *where, *stable, ", elsewhere it is not:")
 
 
-def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero] | None) -> Line:
+def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[Zero] | None) -> Line:
     if len(names) == 1:
-        return Line(
-            ("The second derivative of ", letters.P, ":"), tuple(curvature.shown(context, names, rows))
-        )
+        return Line(("The second derivative of ", letters.P, ":"), tuple(shown(context, names, rows)))
     of_some: Prose = ()
     if len(names) < context.robot.n:
         of_some = (
@@ -159,12 +330,12 @@ def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[b
             " (it depends on no other coordinate)",
         )
     by = ("The second derivatives of ", letters.P, *of_some, "; det is the determinant of their matrix")
-    by += (*curvature.how_multiplied(context, names, rows), ":")
-    return Line(by, tuple(curvature.shown(context, names, rows)))
+    by += (*how_multiplied(context, names, rows), ":")
+    return Line(by, tuple(shown(context, names, rows)))
 
 
 def _header(context: Context, names: Sequence[str]) -> tuple[Inline, ...]:
-    slope = curvature.slope_of_last(context, names)
+    slope = slope_of_last(context, names)
     of_minors: tuple[Inline, ...] = {1: (slope,), 2: (slope, "det")}.get(len(names), ())
     return ("pose", *of_minors, "potential energy", "equilibrium")
 
@@ -207,7 +378,7 @@ def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
     found = [(pose, kind) for pose in zero if (kind := _kind(context, pose)) in (Kind.MINIMUM, Kind.MAXIMUM)]
     if not found:
         return None
-    rows = [(side_by_side(written(pose)), *_told(context, pose, kind)) for pose, kind in found]
+    rows = [(side_by_side(written_pose(pose)), *_told(context, pose, kind)) for pose, kind in found]
     why = (*assumed(context), equation(letters.G, letters.bold("0")))
     outcome = ("Of the poses in which gravity is balanced, ", *_minima(*zip(*found, strict=True)))
     why += (" in this pose" if len(rows) == 1 else " in these poses", *free(context, zero[0]), ":")
@@ -217,7 +388,7 @@ def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
 
 def _kind(context: Context, pose: Pose) -> Kind | None:
     """What P has in a pose of quarter turns."""
-    return curvature.kind_of(curvature.signs_of(context, curvature.minors(context, list(pose)), pose))
+    return kind_of(signs_of(context, leading_minors(context, list(pose)), pose))
 
 
 def _balanced(context: Context) -> list[Pose]:

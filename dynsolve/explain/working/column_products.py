@@ -18,16 +18,20 @@ from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Line
-from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.derivatives import are_alike
-from dynsolve.explain.working.expansion import is_trigonometric
-from dynsolve.explain.working.identities import Identity, identities, pythagoras, said
-from dynsolve.explain.working.kinetic import MOST_GROUPS, without_signs
-from dynsolve.explain.working.other_axes import turned_name, turning_line
-from dynsolve.explain.working.products import products_cancel
-from dynsolve.explain.working.proved import equals
+from dynsolve.explain.working.differentiation import is_trigonometric
+from dynsolve.explain.working.identities import (
+    Identity,
+    equals,
+    identities,
+    products_cancel,
+    pythagoras,
+    said,
+)
+from dynsolve.explain.working.kinetic import MOST_GROUPS, turned_name, turning_line, without_signs
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, negated, number_in_front, times, total

@@ -5,7 +5,7 @@ A line is spent where there is something to see: several factors vary, or an ide
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 
@@ -14,10 +14,18 @@ from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
-from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, differentiated
-from dynsolve.explain.working.expansion import brackets, by_rates, has_rates, multiplied_out, sums_of_rates
-from dynsolve.explain.working.identities import Identity, identities, said
-from dynsolve.explain.working.proved import SILENT, Way, chain, equals
+from dynsolve.explain.working.differentiation import (
+    Rule,
+    brackets,
+    by_rates,
+    by_symbol,
+    by_time,
+    differentiated,
+    has_rates,
+    multiplied_out,
+    sums_of_rates,
+)
+from dynsolve.explain.working.identities import SILENT, Identity, Way, chain, equals, identities, said
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
@@ -27,12 +35,13 @@ from dynsolve.notation.tree import (
     Node,
     Number,
     Parenthesized,
+    Power,
     Product,
     Sum,
     Symbol,
     equation,
 )
-from dynsolve.notation.walk import mapped
+from dynsolve.notation.walk import mapped, walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, Robot
 
@@ -348,3 +357,54 @@ def _symbol(context: Context, i: int, j: int, k: int) -> Expr:
     """c_ijk, the same as c_jik."""
     found: Expr = context.values["christoffel"][min(i, j), max(i, j), k]
     return found
+
+
+# -- the lines from a sum of earlier results to what is printed ------------------------------------
+
+
+def summed(
+    context: Context, parts: Sequence[str], result: str, name: Node, *, stand_above: bool = False
+) -> Way:
+    """The plain sum of scalar quantities, and what it takes to collect it.
+
+    Silent of longer arms, and where the terms are only sorted.  Of terms that `stand_above`, just
+    before, the plain sum is shown where a square is opened, an identity used, numbers are added, or
+    coefficients come together in a bracket.
+    """
+    if not context.is_short:
+        return SILENT
+    forms = [context.form(part) for part in parts]
+    before, after = sum_of([form for form in forms if form != ZERO]), context.form(result)
+    used = identities(context.robot.ring, before, after)
+    opened = _squares_of_sums(before) - _squares_of_sums(after)
+    is_sorted = numbers_in(after) <= numbers_in(before) and not _brackets_change(before, after)
+    is_seen = are_alike(before, after) or (stand_above and is_sorted)
+    if is_seen and not (used or opened):
+        return SILENT
+    by = _opened(opened) if opened else ("Collected",)
+    by += (", with ", *said(used), ":") if used else (":",)
+    return chain(context.values[result], [((), before)], lambda tree: equation(name, tree), by)
+
+
+def _opened(squares: Collection[Node]) -> Prose:
+    """Which square of a sum is multiplied out."""
+    if len(squares) > 1:
+        return ("The squares of sums multiplied out, and collected",)
+    return ("The square ", *squares, " multiplied out, and collected")
+
+
+def numbers_in(node: Node) -> set[Node]:
+    """The numbers that stand in a tree."""
+    return {part for part in walk(node) if isinstance(part, Number)}
+
+
+def _brackets_change(before: Node, after: Node) -> bool:
+    """Whether brackets of the terms are opened, and coefficients come together in new ones."""
+    first, last = brackets(before), brackets(after)
+    new = {each for each in last - first if not has_rates(each)}
+    return bool(first - last and new)
+
+
+def _squares_of_sums(node: Node) -> set[Node]:
+    """The powers of sums that stand in a tree."""
+    return {part for part in walk(node) if isinstance(part, Power) and isinstance(part.base, Sum)}

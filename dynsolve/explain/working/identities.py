@@ -8,26 +8,36 @@ does not equal the one before it has no identities at all: `identities` gives No
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from flint import fmpq_mpoly
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Prose
 from dynsolve.errors import AlgebraError
-from dynsolve.explain.working.unreduced import Unreduced
-from dynsolve.explain.writing import listed
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Line
+from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.tree import (
     Function,
     Negative,
     Node,
     Number,
+    Parenthesized,
     Power,
     Product,
+    Quotient,
     Relation,
     Sum,
+    Symbol,
     equation,
 )
 from dynsolve.notation.walk import mapped, walk
@@ -181,3 +191,156 @@ def _addition(ring: Ring, name: str, angle: Angle, a: Angle, b: Angle, sign: int
         squares = Sum((Power(of("cos", a), Number(2)), Negative(Power(of("sin", a), Number(2)))))
         left = squares if name == "cos" else Product((Number(2), of("sin", a), of("cos", a)))
     return Identity(f"the {_FULL[name]} of {words}", equation(left, of(name, angle)))
+
+
+# -- the identities by which the entries of a product of matrices become what is printed, and what cancels
+
+
+def used_in_product(context: Context, left: Matrix, right: Matrix, result: Matrix) -> list[Identity]:
+    """Those that lead from Σ_k left_ik right_kj to the entries of the result, each once."""
+    used: dict[Identity, None] = {}
+    for row, entries in zip(left.rows, result.rows, strict=True):
+        for column, entry in zip(right.T.rows, entries, strict=True):
+            pairs = [(a, b) for a, b in zip(row, column, strict=True) if not (a.is_zero or b.is_zero)]
+            products = [Product((context.show(a), context.show(b))) for a, b in pairs]
+            if len(products) > 1:
+                found = identities(context.robot.ring, sum_of(products), context.show(entry))
+                used |= dict.fromkeys(found or ())
+    return list(used)
+
+
+def cancelled_in_product(context: Context, left: Matrix, right: Matrix) -> Prose:
+    """That the terms with s₁ c₁ cancel, where a product of matrices loses all of them without an identity."""
+    ring = context.robot.ring
+    left_over: set[tuple[int, ...]] = set()
+    gone: set[tuple[int, ...]] = set()
+    for row in left.rows:
+        for column in right.T.rows:
+            products = [a.poly * b.poly for a, b in zip(row, column, strict=True)]
+            kept = set(sum(products, start=ring.zero.poly).to_dict())
+            left_over |= kept
+            gone |= {term for each in products for term in each.to_dict()} - kept
+    for pair in ring.pairs:
+        if _have_both(gone, pair) and not _have_both(left_over, pair):
+            return products_cancel(ring, pair)
+    return ()
+
+
+def _have_both(terms: Iterable[tuple[int, ...]], pair: Pair) -> bool:
+    """Whether the sine and the cosine of an angle stand in one of the terms, given by their exponents."""
+    return any(term[pair.sine] and term[pair.cosine] for term in terms)
+
+
+def products_cancel(ring: Ring, pair: Pair) -> Prose:
+    """(the terms with s₁ c₁ cancel)"""
+    angle = angle_node(pair.angle, ring.names)
+    return (" (the terms with ", Product((Function("sin", angle), Function("cos", angle))), " cancel)")
+
+
+def product_named(context: Context, left: Matrix, right: Matrix, result: Matrix) -> Prose:
+    """The sentence before the result of a product; nothing of longer arms, or where none is used."""
+    if not context.is_short:
+        return ()
+    used = used_in_product(context, left, right, result)
+    return ("With ", *said(used), ":") if used else ()
+
+
+# -- the value of a tree as a polynomial before any relation is used: s² + c² is not yet 1 ---------
+# Two trees of the same exact value have the same unreduced value where only products were
+# multiplied out and terms collected on the way from one to the other.  Where the unreduced values
+# differ, an identity of sine and cosine was used; `identities` finds which.
+
+
+class Unreduced:
+    """Polynomials of scalar trees in one ring, products multiplied out and nothing else done.
+
+    Raises AlgebraError for a tree without a value in the ring.
+    """
+
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+        self._turned: dict[Node, tuple[fmpq_mpoly, fmpq_mpoly]] = {}
+
+    def __call__(self, node: Node) -> fmpq_mpoly:
+        """The polynomial of a tree."""
+        ring = self.ring
+        match node:
+            case Sum(terms):
+                return sum(map(self, terms), start=ring.zero.poly)
+            case Product(factors):
+                product = ring.one.poly
+                for factor in factors:
+                    product = product * self(factor)
+                return product
+            case Negative(argument):
+                return -self(argument)
+            case Parenthesized(argument):
+                return self(argument)
+            case Power(base, Number(p, 1)):
+                return self(base) ** p
+            case Quotient(numerator, Number(p, q)):
+                return self(numerator) * rational(Fraction(q, p))
+            case Quotient(numerator, denominator):
+                return self(numerator) * ring.inverse(value_of(ring, denominator)).poly
+            case Symbol(name, dots):
+                return ring.symbol(name, dots).poly
+            case Function("sin" | "cos" as name, argument):
+                return self._cosine_and_sine(argument)[name == "sin"]
+        return value_of(ring, node).poly
+
+    def _cosine_and_sine(self, argument: Node) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+        found = self._turned.get(argument)
+        if found is None:
+            found = self._turned[argument] = turned(self.ring, angle_from_tree(argument))
+        return found
+
+
+def turned(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """(cos, sin) of an angle by the addition theorems alone: cos 2θ = c² - s²."""
+    if angle.degrees:
+        return ring.cos(angle).poly, ring.sin(angle).poly
+    c, s = ring.one.poly, ring.zero.poly
+    for pair, times in zip(ring.pairs, ring.multiples(angle), strict=True):
+        c1, s1 = ring.generator(pair.cosine).poly, ring.generator(pair.sine).poly
+        for _ in range(abs(times)):
+            turn = s1 if times > 0 else -s1
+            c, s = c * c1 - s * turn, s * c1 + c * turn
+    return c, s
+
+
+# -- a chain of lines, each of which is proved equal to the value it claims before it is shown -----
+# `chain` is the only way by which the stages get their lines: what it cannot prove in the ring is
+# not said.
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """The lines to a result, and what is said of the last operation.
+
+    With a `frame` they begin afresh from the formula, along the axes of that frame.
+    """
+
+    lines: tuple[Line, ...] = ()
+    concluding: Prose = ()
+    frame: int | None = None
+
+
+SILENT = Way()
+
+
+def equals(tree: Node, value: Expr) -> bool:
+    """Whether a scalar tree has an exact value, and this one."""
+    try:
+        return value_of(value.ring, tree) == value
+    except AlgebraError:
+        return False
+
+
+def chain(
+    value: Expr, lines: Iterable[tuple[Prose, Node]], written: Callable[[Node], Node], concluding: Prose
+) -> Way:
+    """The lines as they are written, if each of them is the value; else nothing."""
+    lines = tuple(lines)
+    if not all(equals(tree, value) for _, tree in lines):
+        return SILENT
+    return Way(tuple(Line(by, (written(tree),)) for by, tree in lines), concluding)

@@ -16,17 +16,25 @@ from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
-from dynsolve.explain.working.expansion import brackets, sums_of_rates
-from dynsolve.explain.working.identities import Identity, identities, said
-from dynsolve.explain.working.other_axes import turning_line
-from dynsolve.explain.working.proved import SILENT, Way, chain
-from dynsolve.explain.writing import listed, sum_of
+from dynsolve.explain.working.differentiation import brackets, sums_of_rates
+from dynsolve.explain.working.identities import (
+    SILENT,
+    Identity,
+    Way,
+    chain,
+    identities,
+    said,
+    used_in_product,
+)
+from dynsolve.explain.writing import block_of, is_small, listed, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, negated, number_in_front, split_sign, times, total
 from dynsolve.notation.tree import (
     ONE,
     Function,
+    Letter,
     Negative,
     Node,
     Number,
@@ -35,6 +43,7 @@ from dynsolve.notation.tree import (
     Product,
     Sum,
     Symbol,
+    Transpose,
     equation,
 )
 from dynsolve.notation.unicode import to_unicode
@@ -52,7 +61,7 @@ def collected(before: Node, after: Node) -> Prose:
     return ("The sums of rates multiplied out, and collected:",) if opened else ("Collected:",)
 
 
-def velocity(context: Context, body: Body) -> tree.Matrix:
+def written_velocity(context: Context, body: Body) -> tree.Matrix:
     """v of a mass centre, as U s + V c where two components are a vector turned by an angle."""
     return _written(context, context.values[f"v{body.name}"], context.matrix(f"v{body.name}"))
 
@@ -123,26 +132,26 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
 
     Those along the base's axes are of use where they are shown before.
     """
-    velocity = context.values[f"v{body.name}"]
-    if not context.is_short or velocity.is_zero or body.mass.is_zero:
+    written_velocity = context.values[f"v{body.name}"]
+    if not context.is_short or written_velocity.is_zero or body.mass.is_zero:
         return SILENT
     factor, shown = _with_factor(context, body)
     found = _from_components(context, body, shown, factor) if squares_shown else None
     if found is not None:
         return found
     if not context.robot.has_table:
-        return _from_components(context, body, velocity) or _squared(context, body, velocity)
+        return _from_components(context, body, written_velocity) or _squared(context, body, written_velocity)
     for i in range(body.link + 1):
-        turned = rotation(context.values[f"H{i}"]).T @ velocity
+        turned = rotation(context.values[f"H{i}"]).T @ written_velocity
         way = _from_components(context, body, turned)
         if way is not None:
             return _begun_along(context, body, i, way)
     return _begun_along(context, body, body.link, _squared(context, body, turned))
 
 
-def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
+def _squared(context: Context, body: Body, written_velocity: Matrix) -> Way:
     """The squares of some components, and these by the products of the rates, which become the result."""
-    components = [x for x in velocity.entries if not x.is_zero]
+    components = [x for x in written_velocity.entries if not x.is_zero]
     lines: list[tuple[Prose, Node]] = [
         (("The squares of its entries:",), _sum_of_squares(context, components))
     ]
@@ -190,21 +199,21 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[_Bracket
 def _begun_along(context: Context, body: Body, i: int, way: Way) -> Way:
     """The lines from v along the axes of another frame, with v brought there before them."""
     v, value = letters.of_body("v", body, "bold"), context.values[f"v{body.name}"]
-    line = turning_line(context, i, v, value, velocity(context, body), ("the length of ", v))
+    line = turning_line(context, i, v, value, written_velocity(context, body), ("the length of ", v))
     return Way((line, *way.lines), way.concluding, frame=i)
 
 
 def _from_components(
-    context: Context, body: Body, velocity: Matrix, factor: squares.Shared | None = None
+    context: Context, body: Body, written_velocity: Matrix, factor: squares.Shared | None = None
 ) -> Way | None:
     """The lines from the squares of some components on; None where these do not come apart plainly.
 
     With a `factor` that the components share the squares are shown already.
     """
     ring = context.robot.ring
-    components = [x for x in velocity.entries if not x.is_zero]
+    components = [x for x in written_velocity.entries if not x.is_zero]
     lines: list[tuple[Prose, Node]] = []
-    if factor is None and velocity != context.values[f"v{body.name}"]:
+    if factor is None and written_velocity != context.values[f"v{body.name}"]:
         lines.append((("The squares of its entries:",), _sum_of_squares(context, components)))
     turned = False  # where one pair of squares is exchanged the next is too, plain as it may be
     while (found := squares.turned(ring, components)) is not None and (turned or not _is_plain(found)):
@@ -338,3 +347,29 @@ def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) 
 def _which(count: int, come_last: bool) -> str:
     """Which of the squares are multiplied out, where it is not all of them; of one alone, none would be."""
     return f"The {'last' if come_last else 'other'} {({2: 'two', 3: 'three'}).get(count, '')}".rstrip()
+
+
+# -- a velocity, or the columns of a Jacobian, brought to the axes of frame i by (R_i^w)ᵀ ----------
+# A rotation leaves lengths and products of vectors unchanged: where the entries are long in the world, their
+# squares and products are worked out along the axes of a frame in which they come apart.
+
+
+def turned_name(context: Context, i: int, letter: Letter) -> Product:
+    """(R_i^w)ᵀ v, in letters."""
+    return Product((Transpose(letters.R(context.robot, i)), letter))
+
+
+def turning_line(
+    context: Context, i: int, letter: Letter, value: Matrix, written: tree.Matrix, kept: Prose
+) -> Line:
+    """(R_i^w)ᵀ v with both matrices, and what it is; `kept` says what the rotation leaves unchanged."""
+    R = rotation(context.values[f"H{i}"])
+    turned = R.T @ value
+    block = block_of(context.matrix(f"H{i}"), 3, 0, 3)
+    members: list[Node] = [turned_name(context, i, letter)]
+    if is_small(block, written):
+        members.append(Product((Transpose(block), written)))
+    used = used_in_product(context, R.T, value, turned)
+    by: Prose = ("A rotation leaves ", *kept, f" unchanged; along the axes of frame {i}")
+    by += (", with ", *said(used), ":") if used else (":",)
+    return Line(by, (equation(*members, context.show(turned)),))

@@ -129,7 +129,7 @@ class State(_NumericResults):
 
     def _form(self, value: Exact) -> Node:
         if isinstance(value, FractionMatrix):
-            from dynsolve.explain.product_forms import ProductForms
+            from dynsolve.explain.forms import ProductForms
 
             forms = ProductForms(self._compactor)
             return tree.Matrix(tuple(tuple(map(forms.fraction, row)) for row in value.rows))

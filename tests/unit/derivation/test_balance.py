@@ -10,8 +10,8 @@ import dynsolve
 from dynsolve.derivation.balance_check import verify_balance
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import ProblemError, VerificationError
-from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.problem import read_problem
 
 ARM = """

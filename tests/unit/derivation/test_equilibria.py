@@ -11,8 +11,8 @@ from dynsolve.derivation.equilibrium_check import Case, verify_equilibria
 from dynsolve.derivation.rules import derive
 from dynsolve.derivation.stability import Stability
 from dynsolve.errors import VerificationError
-from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.tree import Symbol
 from dynsolve.problem import read_problem
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE

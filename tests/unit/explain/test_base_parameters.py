@@ -13,8 +13,8 @@ import dynsolve
 from dynsolve.derivation.arm_values import arm_at
 from dynsolve.derivation.newton_euler import Arm, inverse_dynamics
 from dynsolve.derivation.rules import derive
-from dynsolve.explain.base_parameters import BaseParameters
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.parameters import BaseParameters
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.walk import walk
 from dynsolve.robot.model import Robot

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.explain.definition_units import units_of
 from dynsolve.explain.recurring import Definition
+from dynsolve.explain.signs import units_of
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Symbol
 from tests.support import solved

@@ -10,10 +10,10 @@ from functools import cache
 import pytest
 
 from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text
+from dynsolve.explain.context import style_of
 from dynsolve.explain.notation_list import COUNTING, notation
-from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
+from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.step import Detail
-from dynsolve.explain.style import style_of
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.mathml import MathMLPrinter

@@ -7,7 +7,7 @@ from typing import TypeGuard
 import pytest
 
 from dynsolve.document import Block, Text
-from dynsolve.explain.statement import statement
+from dynsolve.explain.given import statement
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.dynamics import Dynamics

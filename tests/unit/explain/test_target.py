@@ -8,7 +8,7 @@ import pytest
 
 from dynsolve import solve
 from dynsolve.derivation.rules import derive
-from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.target import TargetForms
 from dynsolve.notation.python import to_python
 from dynsolve.problem import read_problem

@@ -11,9 +11,9 @@ from itertools import pairwise
 import pytest
 
 from dynsolve.document import Block, Equations, Fold, Formula, Heading, List, Table, Text, Uses
-from dynsolve.explain import closing
-from dynsolve.explain.sign_kinds import formulas_in, kind_of
+from dynsolve.explain.signs import formulas_in, kind_of
 from dynsolve.explain.step import Detail
+from dynsolve.explain.terms import ID
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Function, Letter, Matrix, Node, Relation, Sum, Symbol
 from dynsolve.notation.unicode import to_unicode, width
@@ -175,7 +175,7 @@ def test_normal_has_the_result_of_every_stage(problem: str) -> None:
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_full_has_every_step(problem: str) -> None:
     titles = {title.partition(" ")[2] for title, _ in sections(blocks_of(problem, Detail.FULL))}
-    assert {step.title for step in solved(problem).steps if step.id != closing.ID} <= titles
+    assert {step.title for step in solved(problem).steps if step.id != ID} <= titles
 
 
 LINES = {

@@ -88,7 +88,7 @@ def test_a_part_of_the_document_that_fails_is_left_out(part: str, monkeypatch: p
 
 def test_names_that_fail_leave_the_results_in_full(monkeypatch: pytest.MonkeyPatch) -> None:
     in_full = page("never")
-    monkeypatch.setattr("dynsolve.explain.abbreviated_steps.in_names", fails)
+    monkeypatch.setattr("dynsolve.explain.named_steps.in_names", fails)
     with pytest.warns(ExplanationWarning, match="names"):
         assert page(Abbreviate.ALWAYS) == in_full
 

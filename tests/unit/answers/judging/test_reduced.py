@@ -10,8 +10,8 @@ import dynsolve
 from dynsolve.derivation.reduced_check import constrained_names, verify_reduced
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
-from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.build import negated, total
 from dynsolve.problem import read_problem
 

@@ -13,7 +13,7 @@ from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.sandbox import check_file
 from dynsolve.answers.submission import Submission
 from dynsolve.errors import ReadError
-from dynsolve.explain.style import style_of
+from dynsolve.explain.context import style_of
 from dynsolve.notation.latex import to_latex
 from tests.unit.answers.hands import checker, problem
 from tests.unit.answers.reading.test_yaml_libraries import trees

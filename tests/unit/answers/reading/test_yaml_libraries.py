@@ -15,8 +15,8 @@ from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.submission import Submission
+from dynsolve.explain.context import style_of
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.style import style_of
 from dynsolve.notation.latex import to_latex
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Matrix

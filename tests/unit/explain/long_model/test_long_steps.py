@@ -10,7 +10,7 @@ import pytest
 import dynsolve
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Reference
-from dynsolve.explain.long_model.parallel_axes import on_parallel_axes
+from dynsolve.explain.long_model.vectorized import on_parallel_axes
 from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Letter, Matrix, Number, Product, Relation, Row, Symbol
 from dynsolve.notation.unicode import to_unicode

@@ -10,12 +10,10 @@ from hypothesis import given, settings
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity import curvature
-from dynsolve.explain.sanity.balance import zeros
-from dynsolve.explain.sanity.cases import cases
-from dynsolve.explain.sanity.curvature import Kind
+from dynsolve.explain.sanity.balance import Kind, kind_of, leading_minors, signs_of, zeros
+from dynsolve.explain.sanity.determinant import cases
 from dynsolve.explain.sanity.equilibrium import QUARTER_TURNS
-from dynsolve.explain.sanity.pose import Pose, poses, turning_in
+from dynsolve.explain.sanity.poses import Pose, poses, turning_in
 from tests.robots import robots
 from tests.unit.explain.sanity.checks import check, context, lines, rows, said, values_of, words
 
@@ -216,8 +214,8 @@ def test_what_the_minors_say_of_a_balanced_pose_is_true(problem: str) -> None:
     state = values_of(found, seed=1)
     names = turning_in(found.robot, *found.values["g"].entries)
     for pose in poses(names, QUARTER_TURNS) if names else ():
-        minors = curvature.minors(found, list(pose))
-        kind = curvature.kind_of(curvature.signs_of(found, minors, pose))
+        minors = leading_minors(found, list(pose))
+        kind = kind_of(signs_of(found, minors, pose))
         if kind is not None and is_balanced(found, state, pose):
             assert kinds_of(found, state, pose) == [kind]
 

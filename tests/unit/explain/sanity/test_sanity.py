@@ -11,8 +11,8 @@ from dynsolve.algebra.floats import evaluate
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, Check, sanity_steps
 from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
-from dynsolve.explain.sanity.pose import at
-from dynsolve.explain.sanity.sign import is_nonnegative, is_positive, masses_and_moments
+from dynsolve.explain.sanity.determinant import is_nonnegative, is_positive, masses_and_moments
+from dynsolve.explain.sanity.poses import at
 from dynsolve.notation.text import read
 from dynsolve.notation.unicode import to_unicode
 from tests.robots import robots

@@ -3,24 +3,38 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, product
 from math import isqrt
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Ring
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.document import Inline, Prose, Reference, Table
+from dynsolve.explain.body_parts import linear_name
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
 from dynsolve.explain.step import Step
-from dynsolve.explain.working.sums import numbers_in
-from dynsolve.explain.writing import and_joined, listed, measured, side_by_side, spong, sum_of
+from dynsolve.explain.working.derivatives import numbers_in
+from dynsolve.explain.writing import and_joined, is_small, listed, measured, side_by_side, spong, sum_of
 from dynsolve.notation.build import cost
-from dynsolve.notation.tree import Node, Number, Power, Product, Sum, equation
+from dynsolve.notation.tree import (
+    ZERO,
+    Degrees,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    equation,
+)
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body, Coordinate, Joint, JointType
+from dynsolve.robot.model import Body, Coordinate, Joint, JointType, Robot
 
 LONGEST = 40
 """The operations up to which a moment of inertia is of use to a reader."""
@@ -104,7 +118,7 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
             entry = equation(name, _summed(context, q, pose), measured(form, "kg m²"))
         else:
             entry = equation(name, *_body_by_body(context, q, pose, form))
-        yield side_by_side(written(pose)), entry
+        yield side_by_side(written_pose(pose)), entry
 
 
 def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> tuple[Node, ...]:
@@ -153,3 +167,152 @@ def _simple(names: Sequence[str]) -> Iterator[Pose]:
     yield rest
     for name in names:
         yield from ({**rest, name: value} for value in (90, 180))
+
+
+# -- poses: some joint angles at so many degrees, mostly quarter turns, everything else as it was --
+
+Pose = Mapping[str, int]
+"""Angles in degrees by the names of coordinates."""
+
+
+def at(ring: Ring, expr: Expr, pose: Pose) -> Expr:
+    """The value where the angles of a pose have their values."""
+    point = [ring.generator(g.index).poly for g in ring.generators]
+    used = expr.poly.degrees()
+    for pair in ring.pairs:
+        if used[pair.sine] > 0 or used[pair.cosine] > 0:
+            angle = _angle_at(pair.angle, pose)
+            point[pair.sine], point[pair.cosine] = ring.sin(angle).poly, ring.cos(angle).poly
+    return Expr(ring, ring.reduce(expr.poly.compose(*point, ctx=ring.ctx)))
+
+
+def _angle_at(angle: Angle, pose: Pose) -> Angle:
+    moved = Angle((), angle.degrees)
+    for atom, rate in angle.terms:
+        name = atom[0][0]
+        fixed = atom == ((name, 1),) and name in pose
+        moved = moved + (Angle((), rate * pose[name]) if fixed else Angle(((atom, rate),)))
+    return moved
+
+
+def turning_in(robot: Robot, *values: Expr) -> list[str] | None:
+    """The angles that stand in values; None where a pose has no exact value for one."""
+    ring = robot.ring
+    found = []
+    for k, q in enumerate(robot.coordinates):
+        if q.type is JointType.REVOLUTE and any(not ring.diff(value, k).is_zero for value in values):
+            if any(_stands_bare(ring, value, q.name) for value in values):
+                return None
+            found.append(q.name)
+    return found
+
+
+def _stands_bare(ring: Ring, value: Expr, name: str) -> bool:
+    """Whether a coordinate stands outside of sines and cosines, or halved or in a product inside of them."""
+    inside = [(atom, rate) for pair in ring.pairs for atom, rate in pair.angle.terms if name in dict(atom)]
+    odd = any(atom != ((name, 1),) or rate.denominator != 1 for atom, rate in inside)
+    return odd or value.poly.degrees()[ring.symbol_indices[(name, 0)]] > 0
+
+
+def poses(names: Iterable[str], values: tuple[int, ...]) -> Iterator[Pose]:
+    """Every choice of values for the angles."""
+    names = list(names)
+    for chosen in product(values, repeat=len(names)):
+        yield dict(zip(names, chosen, strict=True))
+
+
+def written_pose(pose: Pose) -> list[Node]:
+    """q₁ = -90°, q₂ = 0"""
+    return [equation(Symbol(name), degrees(value)) for name, value in pose.items()]
+
+
+def degrees(value: int) -> Node:
+    """-90°; 0 without a sign of degrees."""
+    if not value:
+        return ZERO
+    node = Degrees(abs(value))
+    return Negative(node) if value < 0 else node
+
+
+# -- d where every body is a point at its mass centre, and what the moments of inertia add ---------
+
+
+def point_masses_step(context: Context) -> Step | None:
+    """D_points = Σ m J_vᵀ J_v and D - D_points; None where the one or the other is nothing.
+
+    None of numbers either, in which what is left over cannot be seen, nor where it is the same in
+    every pose and stands beside the masses in the moments of inertia in simple poses.
+    """
+    values, robot = context.values, context.robot
+    if not robot.parameters:
+        return None
+    parts = [values[f"Dv{body.name}"] for body in robot.bodies]
+    points = sum(parts, start=Matrix.zero(robot.ring, robot.n, robot.n))
+    if points.is_zero or points == values["D"]:
+        return None
+    left_over = values["D"] - points
+    varies = any(robot.ring.depends_on_coordinates(entry) for entry in left_over.entries)
+    mass, rest = context.show(points), context.show(left_over)
+    if not is_small(rest) or (not varies and inertia_poses_step(context) is not None):
+        return None
+    linear = [linear_name(context, body) for body in _with_linear_part(context)]
+    return Step(
+        id="point_masses",
+        stage=Stage.VECTORIZED,
+        title="Check: point masses",
+        why=_why(context),
+        formula=equation(letters.D_POINTS, sum_of(linear)),
+        source=spong("7.2.2"),
+        result=(
+            equation(letters.D_POINTS, mass),
+            equation(Sum((letters.D, Negative(letters.D_POINTS))), rest),
+        ),
+        uses=(*(f"D_direct{body.name}" for body in _with_linear_part(context)), "D"),
+        is_task=False,
+    )
+
+
+def _with_linear_part(context: Context) -> list[Body]:
+    """The bodies whose mass centres move."""
+    return [body for body in context.robot.bodies if not context.values[f"Dv{body.name}"].is_zero]
+
+
+def _left_out(context: Context) -> Prose:
+    """That the linear part of body 1 is zero, where the mass centre of some body does not move."""
+    moving = _with_linear_part(context)
+    still = [body.name for body in context.robot.bodies if body not in moving]
+    if not still:
+        return ()
+    zero = f"those of bodies {and_joined(still)} are" if len(still) > 1 else f"that of body {still[0]} is"
+    return (f" ({zero} zero)",)
+
+
+def _why(context: Context) -> Prose:
+    """What is left of D, and which entries the rest cannot have."""
+    robot = context.robot
+    rotors = " and of the rotors" if robot.actions.motors else ""
+    why: Prose = (
+        f"Without the moments of inertia of the bodies{rotors} each body is a point at its mass centre, and ",
+        letters.D,
+        " is ",
+        letters.D_POINTS,
+        ", the sum of the linear parts",
+        *_left_out(context),
+        ". What is left over of ",
+        letters.D,
+        Reference(("D",), " in "),
+        f" is what the turning of the bodies{rotors} adds: the rotational parts",
+        Reference(tuple(_rotational(context)), " in "),
+    )
+    sliding = [Symbol(q.name) for q in robot.coordinates if q.type is JointType.PRISMATIC]
+    if robot.has_table and sliding and not robot.actions.motors:
+        why += ("; nothing for ", *listed(sliding), f", which turn{'s' * (len(sliding) == 1)} no body")
+    return (*why, ".")
+
+
+def _rotational(context: Context) -> Iterator[str]:
+    """The labels of the rotational parts of D: by themselves, or beside a linear part that is zero."""
+    values = context.values
+    for body in context.robot.bodies:
+        if not values[f"Dw{body.name}"].is_zero:
+            yield f"Dw{body.name}" if body in _with_linear_part(context) else f"D_direct{body.name}"

@@ -1,26 +1,163 @@
-"""What an exercise says of a body: its mass, the dimensions of its shape, its mass centre, its moments.
-
-It is said before the solution, so that the problem can be solved from it alone.
-"""
+"""What is given, a line for each symbol with its unit, and what is to be found: the exercise."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.document import Inline, Prose
-from dynsolve.explain import base_frame
+from dynsolve.document import Block, Inline, List, Prose, Text
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.given_questions import (
+    joints,
+    of_actions,
+    of_axes,
+    of_base,
+    of_forces,
+    of_model,
+    of_questions,
+    of_values,
+)
 from dynsolve.explain.inertia import has_link_axes, is_moved, stays_with_base
+from dynsolve.explain.kinematics import turned
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
-from dynsolve.explain.shapes import DIMENSIONS, SHAPES
-from dynsolve.explain.writing import listed, measured, name_of, side_by_side
+from dynsolve.explain.notation_list import problem_names
+from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES
+from dynsolve.explain.textbook_letters import Line
+from dynsolve.explain.writing import listed, machine, measured, name_of, side_by_side
 from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Symbol, Words
+from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
+from dynsolve.quantities.index import quantities
 from dynsolve.robot.model import AxesKind, Body
 from dynsolve.robot.shapes import KINDS, Density, Shape
+from dynsolve.robot.units import node as unit_node
 
-AXES = "xyz"
+MOST_BODIES = 4
+"""Up to this number of bodies each is named."""
+
+_COUNTS = {2: "two", 3: "three", 4: "four"}
+
+CALLED = {
+    "K": "the kinetic energy",
+    "P": "the potential energy",
+    "L": "the Lagrangian",
+    "tau": "the generalized forces",
+    "D": "the inertia matrix",
+    "C": "the matrix of Coriolis and centrifugal terms",
+    "g": "the gravity terms",
+    "Ps": "the potential energy of the springs",
+    "Km": "the kinetic energy of the rotors",
+    "friction": "the friction",
+    "DH": "the Denavit-Hartenberg parameters",
+    "J": "the Jacobian",
+    "r": "the task vector",
+    "Jr": "the Jacobian of the task",
+    "det": "the determinant",
+    "singular": "the singular configurations",
+    "inverse": "the inverse kinematics",
+    "qd": "the rates of the coordinates",
+    "qdd": "the accelerations of the coordinates",
+    "Y": "the regressor",
+    "a": "the dynamic parameters",
+    "equilibria": "the equilibria",
+    "balance": "the conditions for balance",
+    "Ac": "the matrix of the constraints",
+    "Ac_dot": "its rate",
+    "lambda": "the multipliers",
+    "reduced": "the equations without multipliers",
+    "Lambda": "the inertia matrix of the task",
+    "definite": "which of the matrices can be inertia matrices",
+}
+"""What whole answers are called; others are told by their letters."""
+
+
+def statement(forms: Forms, problem: Problem, sines: Iterable[Line] = ()) -> Iterator[Block]:
+    """Given: the arm or the mechanism, what acts on it, what is asked of it; its symbols; To be found."""
+    given = [sentence for sentence in _sentences(forms, problem) if sentence]
+    if given:
+        yield Text(("Given: ", *sentences(given)))
+    names = [*map(_introduced, problem_names(forms.robot)), *((line.words,) for line in sines)]
+    if names:
+        yield List(tuple(names))
+    found = [called for name in problem.find if (called := _called(forms, name)) is not None]
+    if found:
+        yield Text(("To be found: ", *listed(found), "."))
+
+
+def sentences(parts: Sequence[Prose]) -> Iterator[Inline]:
+    """Sentences with a blank between them."""
+    for place, sentence in enumerate(parts):
+        *before, last = sentence
+        yield from (" ", *before) if place else before
+        yield last.rstrip() if isinstance(last, str) else last
+
+
+def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
+    """What is given, sentence by sentence."""
+    robot = forms.robot
+    if problem.normals is not None:
+        yield ("the axes of the arm as they are drawn.",)
+        yield from of_axes(problem.normals)
+    elif robot.has_table:
+        yield (*_given(forms), ".")
+    else:
+        yield from of_model(forms)
+    if robot.has_table and 0 < len(robot.bodies) <= MOST_BODIES:
+        yield of_tensors(forms)
+    yield of_base(forms)
+    if robot.has_dynamics and robot.given is None:
+        yield of_forces(forms)
+    elif robot.has_dynamics:
+        yield from of_actions(forms)
+    yield from of_questions(forms)
+    yield of_values(robot, problem.written, problem.units)
+
+
+def _introduced(line: Line) -> Prose:
+    """l₁, l₂: length of link i (m)"""
+    unit: Prose = (" (", unit_node(line.unit), ")") if line.unit else ()
+    return (line.sign, f": {line.meaning}", *unit)
+
+
+def _given(forms: Forms) -> Prose:
+    """The table, and what has mass."""
+    robot = forms.robot
+    what = f"the table of the {machine(robot)}{joints(robot)}"
+    if not robot.bodies:
+        return (what,)
+    if len(robot.bodies) > MOST_BODIES:
+        return (f"{what}, and mass, mass centre and inertia tensor of {len(robot.bodies)} rigid bodies",)
+    told = [of_body(forms, body) for body in robot.bodies]
+    count = "one rigid body" if len(told) == 1 else f"{_COUNTS[len(told)]} rigid bodies"
+    parts: Prose = told[0]
+    for each in told[1:]:
+        parts += ("; ", *each)
+    return (f"{what} and {count}: ", *parts)
+
+
+def _called(forms: Forms, name: str) -> Prose | None:
+    """the inertia matrix D; None for what has neither words nor a letter"""
+    words = CALLED.get(name, "")
+    letter = None if name == "DH" else _letter(forms, name)
+    if not words and letter is None:
+        return None
+    both: list[Node | str] = [words] if words else []
+    if letter is not None:
+        both += [" ", letter] if words else [letter]
+    return tuple(both)
+
+
+def _letter(forms: Forms, name: str) -> Node | None:
+    try:
+        return quantities(forms.robot)[name].letter(forms.robot)
+    except LookupError:
+        return None
+
+
+# -- what an exercise says of a body: its mass, the dimensions of its shape, its mass centre, its moments
+# It is said before the solution, so that the problem can be solved from it alone.
+
+_XYZ = "xyz"
 
 
 def of_body(forms: Forms, body: Body) -> Prose:
@@ -41,7 +178,7 @@ def _from_the_base(body: Body) -> Prose:
     """How the axes of a body lie, where the problem gives turns that take those of the base to them."""
     if body.axes.kind is not AxesKind.BASE or not body.axes.turns:
         return ()
-    return (", its axes those of the base turned by ", base_frame.turned(body.axes.turns))
+    return (", its axes those of the base turned by ", turned(body.axes.turns))
 
 
 def _with_density(forms: Forms, body: Body, density: Density) -> Prose:
@@ -85,7 +222,7 @@ def axis_of(forms: Forms, body: Body, name: str) -> Prose:
     """𝐳₁ of a body with the axes of frame 1; 𝐳₀ where it always is this; else its z-axis."""
     if has_link_axes(body):
         return (Letter(name, Number(body.link), style="bold"),)
-    if stays_with_base(forms, body, AXES.index(name)):
+    if stays_with_base(forms, body, _XYZ.index(name)):
         return (Letter(name, Number(0), style="bold"),)
     return (f"its {name}-axis",)
 
@@ -114,7 +251,7 @@ def _center(forms: Forms, body: Body) -> Prose:
 
 def _place(forms: Forms, entries: Sequence[Expr], start: int, frame: int) -> Prose:
     """Where a vector leads from an origin: along an axis of a frame, or by its coordinates there."""
-    along = [(axis, entry) for axis, entry in zip(AXES, entries, strict=True) if not entry.is_zero]
+    along = [(axis, entry) for axis, entry in zip(_XYZ, entries, strict=True) if not entry.is_zero]
     if not along:
         return ("at ", letters.o(start))
     if len(along) > 1:
@@ -195,7 +332,7 @@ def _by_value(forms: Forms, body: Body) -> list[tuple[Node, list[Prose]]]:
 
 def _nonzero(body: Body) -> list[tuple[str, Expr]]:
     assert body.inertia is not None
-    return [(axis, body.inertia[i, i]) for i, axis in enumerate(AXES) if not body.inertia[i, i].is_zero]
+    return [(axis, body.inertia[i, i]) for i, axis in enumerate(_XYZ) if not body.inertia[i, i].is_zero]
 
 
 def _is_diagonal(body: Body) -> bool:

@@ -1,0 +1,319 @@
+"""Names for the moments of inertia that come up again and again, from the kinetic energy on: σ₁, σ₂, ...
+
+The kinetic energy of an arm with bodies of many parts has long sums of masses and lengths as factors:
+
+    m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12) + m₄ d₃²
+
+Each stands in L, in momenta, forces, D, C and the summary.  It is named where it is met first
+(`explain.named_steps`), with its derivative where a joint that slides changes it.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring_values import value_of
+from dynsolve.explain.abbreviations import RECURRING, SINGLE, Abbreviated, Exchange, Index, free_names
+from dynsolve.explain.context import is_short
+from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric
+from dynsolve.explain.recurring import Definition, expanded
+from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
+from dynsolve.notation import tree
+from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.printing import flat_factors
+from dynsolve.notation.tree import (
+    ZERO,
+    Function,
+    Matrix,
+    Negative,
+    Node,
+    Relation,
+    Sum,
+    Symbol,
+    equation,
+)
+from dynsolve.notation.walk import children, walk
+from dynsolve.quantities import letters
+
+LEAST_SAVED = 80
+"""The operations that a name saves in the energies, momenta, forces and D, at least: four lines of text."""
+
+SHORTEST = 4
+"""The operations from which on such a sum, or one in its derivative, is worth a name."""
+
+
+@dataclass(frozen=True, slots=True)
+class InertiaNames:
+    """The definitions in order, their derivatives by the coordinates, and the formulas in these names.
+
+    `by` are the coordinates, from 1, that the named sums depend on.
+    """
+
+    definitions: tuple[Definition, ...] = ()
+    slopes: tuple[Relation, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
+    by: frozenset[int] = frozenset()
+
+    def put(self, node: Node) -> Node:
+        """The tree with the names in the places of what they mean."""
+        for exchange in self.exchanges:
+            node = exchange.put(node)
+        return node
+
+    @property
+    def symbols(self) -> frozenset[Node]:
+        """The names."""
+        return frozenset(one.name for one in self.definitions)
+
+
+# -- which sums get a name -------------------------------------------------------------------------
+
+
+def name_inertias(forms: Forms, names: Iterator[Symbol]) -> InertiaNames:
+    """Names for the sums by which LEAST_SAVED operations are saved; none of robots in numbers."""
+    robot = forms.robot
+    if is_numeric(robot):
+        return InertiaNames()
+    trees = [forms(name) for name in _counted(robot.n) if name in forms.values.rules]
+    found: list[Definition] = []
+    while (best := _worth_a_name(trees)) is not None:
+        found.append(Definition(next(names), best))
+        trees = [Exchange.of(found[-1]).put(node) for node in trees]
+    return _with_slopes(forms, found, names)
+
+
+def _counted(n: int) -> Iterator[str]:
+    """The values in which sums are counted."""
+    yield from ("K", "D", "Cqd")
+    for k in range(1, n + 1):
+        yield from (f"dLdqd{k}", f"ddt{k}", f"dLdq{k}", f"tau{k}")
+
+
+def _worth_a_name(trees: Iterable[Node]) -> Sum | None:
+    """The sum without sines and rates by which most operations are saved."""
+    uses = Counter(part for tree in trees for part in _sums(tree) if _is_inertia(part))
+    saved = {part: (count - 1) * cost(part) for part, count in uses.items() if cost(part) >= SHORTEST}
+    best = max(saved, key=lambda part: saved[part], default=None)
+    return None if best is None or saved[best] < LEAST_SAVED else best
+
+
+def _sums(node: Node) -> Iterator[Sum]:
+    """The sums in a tree but those of angles."""
+    if isinstance(node, Sum):
+        yield node
+    if not isinstance(node, Function):
+        for part in children(node):
+            yield from _sums(part)
+
+
+def _is_inertia(node: Sum) -> bool:
+    """Whether a sum is made of parameters and lengths alone."""
+    moving = (isinstance(part, Function) or (isinstance(part, Symbol) and part.dots) for part in walk(node))
+    return not any(moving)
+
+
+# -- their derivatives -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Slope:
+    """The derivative of a named sum by a coordinate: as it is differentiated, and collected."""
+
+    of: Definition
+    by: Symbol
+    termwise: Node
+    collected: Node
+
+
+def _with_slopes(forms: Forms, found: Sequence[Definition], names: Iterator[Symbol]) -> InertiaNames:
+    """The names with their derivatives by the coordinates; sums in these have names too."""
+    slopes = [slope for one in found for slope in _slopes(forms, found, one)]
+    sums = (part for slope in slopes for part in walk(slope.collected) if isinstance(part, Sum))
+    long = (part for part in dict.fromkeys(sums) if cost(part) >= SHORTEST)
+    definitions = (*found, *(Definition(name, part) for part, name in zip(long, names, strict=False)))
+    named = InertiaNames(definitions, (), tuple(map(Exchange.of, definitions)))
+    equal: dict[Node, list[Node]] = {}
+    exchanges = list(named.exchanges)
+    for slope in slopes:
+        short = named.put(slope.collected)
+        equal.setdefault(short, []).append(letters.partial_derivative(slope.of.name, slope.by))
+        rate = Symbol(slope.by.name, 1)
+        for written, name in (
+            (slope.termwise, short),
+            (_times(slope.termwise, rate), _times(short, rate)),
+        ):
+            if isinstance(written, Sum):
+                exchanges.append(Exchange(written, name))
+    return InertiaNames(
+        definitions,
+        tuple(equation(*left, right) for right, left in equal.items()),
+        tuple(exchanges),
+        frozenset(forms.robot.ring.names.index(slope.by.name) + 1 for slope in slopes),
+    )
+
+
+def _slopes(forms: Forms, found: Sequence[Definition], one: Definition) -> Iterator[_Slope]:
+    """The derivatives of a named sum by the coordinates that it depends on."""
+    ring = forms.robot.ring
+    (meaning,) = expanded(found, [one.name])
+    value = value_of(ring, meaning)
+    for k, coordinate in enumerate(map(Symbol, ring.names)):
+        if not (slope := ring.diff(value, k)).is_zero:
+            yield _Slope(
+                one, coordinate, differentiated(meaning, by_symbol(coordinate)).tree, forms.of(slope)
+            )
+
+
+def _times(node: Node, rate: Symbol) -> Node:
+    """The terms of a sum times a rate, as the chain rule has them."""
+    terms = node.terms if isinstance(node, Sum) else (node,)
+    return total([product_of(1, [(term, 1), (rate, 1)]) for term in terms])
+
+
+# -- names for what Christoffel symbols are: h of the planar elbow, or σ₁, σ₂,  --------------------
+# Symbols are equal, or opposite, again and again: c_112 = -c_121.  Where all are one value but for its sign,
+# that is the books' h (Spong, Hutchinson, Vidyasagar, section 7.4).  Otherwise they get names where C would
+# fill half a page; C, Ḋ and N = Ḋ - 2C are then short sums of names and rates.
+#
+# What recurs in the energies already is named there (`inertia_names`), and the symbols are written by that.
+
+LONG = 50
+"""The operations of C from which on its symbols get names: it would not fit the page as a matrix."""
+
+
+def name_symbols(forms: Forms) -> Abbreviated | None:
+    """The model with names for its Christoffel symbols, and for long sums of masses and lengths in it.
+
+    None where it is short without, or the arm longer.
+    """
+    robot, C = forms.robot, forms("C")
+    if not is_short(robot, forms.values) or not isinstance(C, Matrix):
+        return None
+    taken = {*robot.ring.parameters, *robot.ring.names}
+    free = free_names(RECURRING, taken)
+    inertias = name_inertias(forms, free)
+    is_long = sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG
+    if SINGLE not in taken and _is_one_value(forms):
+        definitions, symbols = _one_named(forms, inertias)
+    elif is_long:
+        definitions, symbols = _named(forms, inertias, free)
+    else:
+        definitions, symbols = (), _written(forms, inertias)
+    if not (inertias.definitions or definitions):
+        return None
+    D, g = inertias.put(forms("D")), inertias.put(forms("g"))
+    assert isinstance(D, Matrix) and isinstance(g, Matrix)
+    C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
+    sums = (*inertias.definitions, *definitions)
+    return Abbreviated((), sums, D, C, g, symbols, at_symbols=True, inertias=inertias)
+
+
+def _is_one_value(forms: Forms) -> bool:
+    """Whether several symbols are not zero, all of them the same but for sign, and worth a name."""
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    found = [value for value in values.values() if not value.is_zero]
+    alike = all(value in (found[0], -found[0]) for value in found)
+    return len(found) > 1 and alike and cost(forms.of(found[0])) >= SHORTEST
+
+
+def _one_named(forms: Forms, inertias: InertiaNames) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
+    """h, with the sign of the symbol that is shown first, and every symbol by it."""
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    order = (values[key] for key in _as_shown(values))
+    first = next(value for value in order if not value.is_zero)
+    name = tree.Symbol(SINGLE)
+    by_name: dict[Expr, Node] = {first: name, -first: Negative(name)}
+    symbols = {key: by_name.get(value, ZERO) for key, value in values.items()}
+    return (Definition(name, inertias.put(forms.of(first))),), symbols
+
+
+def _as_shown(indices: Iterable[Index]) -> list[Index]:
+    """The indices in the order in which the symbols are shown."""
+    return sorted(indices, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
+
+
+def _written(forms: Forms, inertias: InertiaNames) -> dict[Index, Node]:
+    """The symbols without names of their own."""
+    return {ijk: inertias.put(forms.christoffel(*ijk)) for ijk in forms.values["christoffel"]}
+
+
+def _named(
+    forms: Forms, inertias: InertiaNames, free: Iterator[tree.Symbol]
+) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
+    """The definitions, in the order in which the symbols are shown, and every symbol by them."""
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    order = _as_shown(values)
+    namer = _Namer(lambda value: inertias.put(forms.of(value)), [values[key] for key in order], free)
+    symbols = {key: namer.written(values[key]) for key in order}
+    return tuple(namer.definitions), {key: symbols[key] for key in values}
+
+
+class _Namer:
+    """Gives a name to each symbol worth one; what has another one as factor or part is written by that."""
+
+    def __init__(
+        self, form: Callable[[Expr], Node], values: Sequence[Expr], names: Iterator[tree.Symbol]
+    ) -> None:
+        self.forms: dict[Expr, Node] = {}
+        for value in values:
+            if value not in self.forms and -value not in self.forms:
+                self.forms[value] = form(value)
+        self.definitions: list[Definition] = []
+        self._names = names
+        self._done: dict[Expr, Node] = {}
+
+    def written(self, value: Expr) -> Node:
+        """A symbol by its name, by that of another one, or as it is."""
+        if value not in self.forms:
+            return total([negated(self.written(-value))])
+        found = self._done.get(value)
+        if found is None:
+            form = self.forms[value]
+            found = form if cost(form) < SHORTEST else self._multiple(value) or self._named(self._sum(form))
+            self._done[value] = found
+        return found
+
+    def _named(self, form: Node) -> Node:
+        minus = _starts_with_minus(form)
+        name = next(self._names)
+        self.definitions.append(Definition(name, total([negated(form)]) if minus else form))
+        return Negative(name) if minus else name
+
+    def _multiple(self, value: Expr) -> Node | None:
+        """The symbol as a product in which another one, worth a name, is a factor."""
+        sign, inner = split_sign(self.forms[value])
+        factors = Counter(_factors(inner))
+        for other, form in self.forms.items():
+            other_sign, part = split_sign(form)
+            own = Counter(_factors(part))
+            if cost(part) >= SHORTEST and own < factors:
+                rest = [(factor, 1) for factor in (factors - own).elements()]
+                return times(sign * other_sign, [(self.written(other), 1), *rest])
+        return None
+
+    def _sum(self, form: Node) -> Node:
+        """A sum in which all terms of another symbol's stand, with the name of that in their place."""
+        terms = _summands(form)
+        for other, part in self.forms.items():
+            for sign in (1, -1):
+                own = _summands(part) if sign > 0 else tuple(map(negated, _summands(part)))
+                if 1 < len(own) < len(terms) and set(own) <= set(terms):
+                    rest = [term for term in terms if term not in own]
+                    return total([*rest, times(sign, [(self.written(other), 1)])])
+        return form
+
+
+def _summands(node: Node) -> tuple[Node, ...]:
+    return node.terms if isinstance(node, Sum) else (node,)
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    return flat_factors(node) if isinstance(node, tree.Product) else (node,)
+
+
+def _starts_with_minus(node: Node) -> bool:
+    """Whether a form starts with a minus: of a sum, that every term has one."""
+    return isinstance(node.terms[0] if isinstance(node, Sum) else node, Negative)
