@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
 from dynsolve.explain.context import Context
@@ -25,17 +26,12 @@ from dynsolve.explain.writing import (
     sum_over_coordinates,
     turns,
 )
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
-    Letter,
-    Negative,
     Node,
-    Parenthesized,
     Product,
-    Row,
     Sum,
     Symbol,
-    Transpose,
-    equation,
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -47,7 +43,7 @@ STAGE = Stage.VECTORIZED
 LONGEST_IN_PARTS = 150
 """Up to this number of terms in D its parts are shown too."""
 
-_I, _J, _K = (Symbol(name) for name in "ijk")
+_I = Symbol("i")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -87,24 +83,17 @@ def _inertia(context: Context) -> Step:
         id="D",
         stage=STAGE,
         title="The inertia matrix, read off from the forces",
-        why=(
-            "Entry ",
-            _d(_I, _J),
-            " is the factor of the acceleration ",
-            Letter("q", _J, dots=2),
-            " in the generalized force ",
-            Letter("tau", _I),
-            *_entries_of_forces(context.robot),
-            ". ",
-            letters.D,
-            " is symmetric, and may depend on the coordinates, but on no rate.",
-            " Here it is diagonal: no acceleration enters the force of another coordinate."
+        why=say(
+            "Entry $d_ij$ is the factor of the acceleration $q̈_j$ in the generalized force $τ_i${entries}. "
+            "$𝐃$ is symmetric, and may depend on the coordinates, but on no rate.{diagonal}",
+            entries=_entries_of_forces(context.robot),
+            diagonal=" Here it is diagonal: no acceleration enters the force of another coordinate."
             if _is_diagonal(context)
             else "",
         ),
-        formula=equation(_d(_I, _J), letters.partial_derivative(Letter("tau", _I), Letter("q", _J, dots=2))),
+        formula=formula("d_ij = ∂τ_i/∂q̈_j"),
         source=f"from {spong('7.3')}",
-        result=(equation(letters.D, context.form("D")),),
+        result=(formula("𝐃 = {D}", D=context.form("D")),),
         uses=_forces(context),
         entries=_names(context, "d"),
         detail=Detail.BRIEF,
@@ -121,8 +110,7 @@ def _entries_of_forces(robot: Robot) -> Prose:
     """What τ_i is where some generalized forces are called f_i."""
     if all(turns(q) for q in robot.coordinates):
         return ()
-    named = listed([letters.force(q) for q in robot.coordinates])
-    return (", entry ", _I, " of ", letters.TAU, " (", *named, ")")
+    return say(", entry $i$ of $𝛕$ ({names})", names=listed([letters.force(q) for q in robot.coordinates]))
 
 
 def _from_energies(context: Context) -> bool:
@@ -138,86 +126,67 @@ def _forces(context: Context) -> tuple[str, ...]:
 def _rest(context: Context) -> Step:
     """The forces without the terms of accelerations: C q̇ + g."""
     values = context.values
-    Cqd = Product((letters.C, letters.QD))
-    why: Prose = ("What is left of the forces without the accelerations: the terms with rates are ",)
-    why += (Cqd, f"; the others, which remain when the {context.machine} is at rest, are ", letters.G, ".")
-    if values["Cqd"].is_zero:
-        why += (" No term has rates here.",)
-    if values["g"].is_zero:
-        why += (" No term remains at rest here.",)
+    has_friction = "friction" in values.rules
     acting = driving_side(context)
-    left: list[Node] = [*(acting.terms if isinstance(acting, Sum) else (acting,))]
-    left.append(Negative(Product((letters.D, letters.QDD))))
-    if "friction" in values.rules:
-        why += (" Friction, ", letters.FRICTION, ", is taken off.")
-        left.append(Negative(letters.FRICTION))
+    left = [*(acting.terms if isinstance(acting, Sum) else (acting,)), formula("-𝐃 𝐪̈")]
     return Step(
         id="Cqd",
         stage=STAGE,
         title="Coriolis, centrifugal and gravity terms, read off",
-        why=why,
-        formula=equation(Sum((Cqd, letters.G)), Sum(tuple(left))),
+        why=say(
+            "What is left of the forces without the accelerations: the terms with rates are $𝐂 𝐪̇$; the "
+            "others, which remain when the {machine} is at rest, are $𝐠$.{no_rates}{no_rest}{friction}",
+            machine=context.machine,
+            no_rates=" No term has rates here." if values["Cqd"].is_zero else "",
+            no_rest=" No term remains at rest here." if values["g"].is_zero else "",
+            friction=say(" Friction, $𝛕_f$, is taken off.") if has_friction else "",
+        ),
+        formula=formula("𝐂 𝐪̇ + 𝐠 = {left}", left=sum_of([*left, *([formula("-𝛕_f")] * has_friction)])),
         source=spong("7.3"),
-        result=(equation(Cqd, context.form("Cqd")), equation(letters.G, context.form("g"))),
+        result=(formula("𝐂 𝐪̇ = {Cqd}", Cqd=context.form("Cqd")), formula("𝐠 = {g}", g=context.form("g"))),
         also=() if _from_energies(context) else ("g",),  # from the energies a step of its own gives g
         uses=(*_forces(context), "D"),
         detail=Detail.FULL if _from_energies(context) else Detail.NORMAL,
-        hint=(
+        hint=say(
             "What is left of the forces without the accelerations: the terms with rates belong to C, the "
-            f"others, which remain when the {context.machine} is at rest, are ",
-            letters.G,
-            ".",
+            "others, which remain when the {machine} is at rest, are $𝐠$.",
+            machine=context.machine,
         ),
     )
 
 
-def _d(*indices: Node) -> Letter:
-    return Letter("d", Row(indices))
-
-
 def _inertia_direct(context: Context) -> Step:
     robot = context.robot
-    i = Symbol("i")
-    jv, jw = (letters.bold("J", Letter(part, i)) for part in ("v", "omega"))
-    linear = Product((Letter("m", i), Transpose(jv), jv))
-    angular = Product((Transpose(jw), letters.base_tensor(i), jw))
-    total = Parenthesized(Sum((linear, angular)))
     added = counted_sum(
-        total, i, len(robot.bodies), {Letter("m", i): context.mass(body) for body in robot.bodies[:1]}
+        formula("(m_i 𝐉_v_iᵀ 𝐉_v_i + 𝐉_ω_iᵀ 𝓘_i 𝐉_ω_i)"),
+        _I,
+        len(robot.bodies),
+        {formula("m_i"): context.mass(body) for body in robot.bodies[:1]},
     )
     same = context.values["D"] == context.values["D_direct"]
     terms: list[Node] = []
     for body in robot.bodies:
         terms += [linear_name(context, body), *(() if body.is_point else (angular_name(body),))]
     rotors = (letters.DM,) if robot.actions.motors else ()
-    working = equation(letters.D, sum_of([*terms, *rotors]))
     return Step(
         id="D_direct",
         stage=STAGE,
         title="The inertia matrix, assembled from the Jacobians",
-        why=(
-            "Without the Lagrangian: with ",
-            *listed([_of_velocities("v"), _of_velocities("omega")]),
-            " the kinetic energy is ",
-            equation(letters.K, Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))),
-            ", where ",
-            letters.D,
-            f" is a sum over the bodies{_named_otherwise(robot)}.",
-            " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
-            *((" The rotors add ", letters.DM, ".") if rotors else ()),
-            *(
-                ()
-                if _sum(context)
-                else (
-                    " The sum is the same " if same else " The sum is not the same ",
-                    letters.D,
-                    ", entry by entry." if same else ".",
-                )
+        why=say(
+            "Without the Lagrangian: with $𝐯_i = 𝐉_v_i 𝐪̇$ and $𝛚_i = 𝐉_ω_i 𝐪̇$ the kinetic energy is "
+            "$𝒦 = ½ 𝐪̇ᵀ 𝐃 𝐪̇$, where $𝐃$ is a sum over the bodies{names}.{points}{rotors}{same}",
+            names=_named_otherwise(robot),
+            points=" A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
+            rotors=say(" The rotors add $𝐃_m$.") if rotors else "",
+            same=""
+            if _sum(context)
+            else say(
+                " The sum is the same $𝐃$, entry by entry." if same else " The sum is not the same $𝐃$."
             ),
         ),
-        formula=equation(letters.D, sum_of([added, *rotors])),
+        formula=formula("𝐃 = {sum}", sum=sum_of([added, *rotors])),
         source=spong("7.2.2"),
-        further=(working,),
+        further=(formula("𝐃 = {sum}", sum=sum_of([*terms, *rotors])),),
         hint=(
             "Another way to D, without the Lagrangian: a sum over the bodies. Use it to check what you "
             "read off from the forces.",
@@ -231,12 +200,6 @@ def _sum(context: Context) -> tuple[Step, ...]:
         return ()
     step = sum_step(context)
     return () if step is None else (step,)
-
-
-def _of_velocities(part: str) -> Node:
-    """v_i = J_{v_i} q̇, or ω_i = J_{ω_i} q̇."""
-    i = Symbol("i")
-    return equation(letters.bold(part, i), Product((letters.bold("J", Letter(part, i)), letters.QD)))
 
 
 def _named_otherwise(robot: Robot) -> str:
@@ -254,46 +217,40 @@ def _is_short(context: Context) -> bool:
 
 
 def _coriolis(context: Context) -> Step:
-    entry, rate = Letter("c", Row((_K, _J))), Letter("q", _I, dots=1)
-    by_symbols = sum_over_coordinates(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, context.robot)
-    by_slopes = Product((letters.HALF, sum_over_coordinates(Product((SLOPES, rate)), _I, context.robot)))
-    Cqd = Product((letters.C, letters.QD))
-    none = context.values["C"].is_zero
-    why: Prose = ("Row ", _K, ", column ", _J, ". ", Cqd, " holds the centrifugal terms (a rate squared)")
-    why += (" and the Coriolis terms (a product of two rates)",) if context.robot.n > 1 else ()
+    rate = formula("q̇_i")
+    by_symbols = sum_over_coordinates(formula("c_ijk {rate}", rate=rate), _I, context.robot)
+    by_slopes = sum_over_coordinates(Product((SLOPES, rate)), _I, context.robot)
+    n, is_none = context.robot.n, context.values["C"].is_zero
     compared = _from_energies(context) and coriolis_rows(context)  # row by row, in a step of its own
-    same = "." if compared else ". Multiplied out, it is the one read off above."
-    why += (". There are none here.",) if none else (same,)
     return Step(
         id="C",
         stage=STAGE,
         title="The Coriolis matrix, from the Christoffel symbols",
-        why=why,
-        formula=equation(entry, by_symbols, by_slopes),
+        why=say(
+            "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
+            coriolis=" and the Coriolis terms (a product of two rates)" if n > 1 else "",
+            outcome=" There are none here."
+            if is_none
+            else ""
+            if compared
+            else " Multiplied out, it is the one read off above.",
+        ),
+        formula=formula("c_kj = {symbols} = ½ {slopes}", symbols=by_symbols, slopes=by_slopes),
         source=spong("7.3"),
         lines=coriolis_sums(context),
-        result=(equation(letters.C, context.form("C")),),
-        hint=(
-            "Row ",
-            _K,
-            ", column ",
-            _J,
-            ": a sum over ",
-            _I,
-            ". Multiplied by the rates it must give what you read off from the forces.",
+        result=(formula("𝐂 = {C}", C=context.form("C")),),
+        hint=say(
+            "Row $k$, column $j$: a sum over $i$. Multiplied by the rates it must give what you read off "
+            "from the forces."
         ),
         entries=_names(context, "c"),
         notes=()
-        if none or context.robot.n == 1
+        if is_none or n == 1
         else (
-            (
-                "Other matrices ",
-                letters.C,
-                " give the same ",
-                Cqd,
-                ", which is all that the equations of motion fix. This choice makes ",
-                SKEW,
-                " skew-symmetric.",
+            say(
+                "Other matrices $𝐂$ give the same $𝐂 𝐪̇$, which is all that the equations of motion fix. This "
+                "choice makes {skew} skew-symmetric.",
+                skew=SKEW,
             ),
         ),
         detail=Detail.BRIEF,
@@ -302,31 +259,24 @@ def _coriolis(context: Context) -> Step:
 
 def _gravity(context: Context) -> Step:
     still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
-    why: Prose = (
-        "Directly, without ",
-        letters.TAU,
-        ": the partial derivatives of the potential energy.",
-    )
-    if springs and not still:
-        why += (" The forces of the springs are part of it.",)
-    if still:
-        why += (" It does not depend on any coordinate, so ", letters.G, " is zero.")
+    way = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
     return Step(
         id="g",
         stage=STAGE,
         title=f"The {'gravity and spring' if springs else 'gravity'} terms, from the potential energy",
-        why=why,
-        formula=equation(Letter("g", _K), letters.partial_derivative(letters.P, Letter("q", _K))),
+        why=say(
+            "{way}{springs}{still}",
+            way=way,
+            springs=" The forces of the springs are part of it." if springs and not still else "",
+            still=say(" It does not depend on any coordinate, so $𝐠$ is zero.") if still else "",
+        ),
+        formula=formula("g_k = ∂𝒫/∂q_k"),
         source=spong("7.3"),
         lines=gravity_rows(context),
-        result=(equation(letters.G, context.form("g")),),
+        result=(formula("𝐠 = {g}", g=context.form("g")),),
         normal=STATED | Part.WHY,
         uses=("P",),
-        hint=(
-            "Directly, without ",
-            letters.TAU,
-            ": the partial derivatives of the potential energy.",
-        ),
+        hint=way,
         entries=letters.entries_of_column("g", context.robot.n),
         detail=Detail.BRIEF,
     )

@@ -6,8 +6,8 @@ The signs (sentences with such formulas in them are made by `document.sentences`
 
     m  θ  𝐃  ℒ  𝓘      a symbol; bold and script letters are the Unicode ones
     q̇_j  q̈_j          one or two dots over a letter
-    d_ij  r_c1          indices: a digit, a letter or a value each; c and f before others are upright; longer
-                        words are: τ_static
+    d_ij  r_c1          indices: digits, letters and values; letters that only describe, as c does, are
+                        upright, and so are words: τ_static
     v_i in J_v_i        an index that has an index
     o_(i-1)  d_(i,j)    an index that is a formula, or several with commas
     H_i^0               a raised index
@@ -31,6 +31,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from dynsolve.notation.characters import GREEK, bold_letter, bold_script_letter, script_letter
+from dynsolve.notation.names import describes
 from dynsolve.notation.tree import (
     BigSum,
     Cross,
@@ -76,9 +77,6 @@ _POWERS = {"²": Number(2), "³": Number(3), "⁴": Number(4), "⁻¹": Negative
 _BEGINNINGS = frozenset("([∂Σ") | _FRACTIONS.keys()
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "sqrt", "sgn", "acos", "asin", "atan", "atan2", "exp"})
 _RELATIONS = frozenset("=≠<>≤≥≈∈→⟂∥")
-_COUNTS = frozenset("ijkn")
-"""The letters of which several in a row are so many indices."""
-
 _TOKEN = re.compile(
     r"""(?P<space>\s+) | (?P<value>\{\w+\}) | '(?P<quoted>[^']*)' | (?P<total>d/dt) | (?P<number>\d+)
     | (?P<word>[A-Za-z]{2,}\d*) | (?P<power>⁻¹|[²³⁴]) | (?P<mark>[ᵀΣ_½⅓⅔¼¾⅛])
@@ -351,12 +349,12 @@ class _Reader:
                 yield self.value(token)
             case "letter":
                 base, style = _LETTERS[token.text]
-                if token.text == "c" or (token.text == "f" and not self.token.spaced):
-                    yield Words(base)
-                elif self.taken("_"):
+                if self.taken("_"):
                     yield Letter(base, self.index(), None, style)
+                elif style != "italic":
+                    yield Letter(base, style=style)
                 else:
-                    yield Symbol(base) if style == "italic" else Letter(base, style=style)
+                    yield Words(base) if describes(base) else Symbol(base)
             case "word":
                 yield from _index_word(token.text)
             case _:
@@ -366,15 +364,13 @@ class _Reader:
 def _index_word(text: str) -> Iterator[Node]:
     """ij are two indices, c1 the upright c and 1, static is a word."""
     word = text.rstrip("0123456789")
-    if word[0] in "cf" and _COUNTS.issuperset(word[1:]):
-        yield Words(word[0])
-        word = word[1:]
-        yield from map(Symbol, word)
-    elif _COUNTS.issuperset(word):
-        yield from map(Symbol, word)
-    else:
+    first, rest = (word[:1], word[1:]) if describes(word[:1]) else ("", word)
+    if any(map(describes, rest)):
         yield Words(word)
-    yield from (Number(int(digit)) for digit in text[len(text.rstrip("0123456789")) :])
+    else:
+        yield from (Words(letter) for letter in first)
+        yield from map(Symbol, rest)
+    yield from (Number(int(digit)) for digit in text[len(word) :])
 
 
 def _bare(node: Node) -> Node:
