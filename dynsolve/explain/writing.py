@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -265,6 +266,15 @@ def and_joined(names: Sequence[str]) -> str:
     ('1', '1, 2 and 3')
     """
     return "".join(part for part in listed(names) if isinstance(part, str))
+
+
+def agreeing(text: str, count: int) -> str:
+    """A sentence of one or of several things, from "singular|plural" where they differ.
+
+    >>> agreeing("Branch|Branches 2 is|are not real", 1), agreeing("Branch|Branches 1, 2 is|are not real", 2)
+    ('Branch 2 is not real', 'Branches 1, 2 are not real')
+    """
+    return re.sub(r"(\w+)\|(\w+)", r"\1" if count == 1 else r"\2", text)
 
 
 def side_by_side(parts: Sequence[Node]) -> Node:

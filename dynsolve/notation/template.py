@@ -14,13 +14,13 @@ The signs (sentences with such formulas in them are made by `document.sentences`
     x²  x³  x⁻¹  xᵀ     powers, the transpose
     a b  a/b  ½ m       products and quotients
     z × (o - p)         the cross product, brackets
-    r(q)                brackets without a space before them are an argument
+    r(q)  atan2(y, x)   brackets without a space before them are an argument
     ∂ℒ/∂q̇_j  d/dt ℒ    derivatives
     Σ_(i=1)^n x         a sum, of what follows up to the next + or -
     [a, b; c, d]        a matrix, row by row
     det 'the rank'      upright words: names of several letters, and what stands in quotation marks
     {name}              a value: a tree, a whole number, words
-    a = b ≤ c           relations; a, b  several formulas on one line
+    a = b ≤ c           relations; a = b ⇒ c = d; a = b ± c; a, b  several formulas on one line
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ from typing import NamedTuple
 from dynsolve.notation.characters import GREEK, bold_letter, bold_script_letter, script_letter
 from dynsolve.notation.names import describes
 from dynsolve.notation.tree import (
+    Arguments,
     BigSum,
     Cross,
     Degrees,
@@ -67,6 +68,7 @@ _LETTERS: dict[str, tuple[str, str]] = {
     **{sign: (name, "italic") for sign, name in _SPELLED.items()},
     **{bold_letter(letter): (letter, "bold") for letter in _LATIN},
     **{bold_letter(sign): (name, "bold") for sign, name in _SPELLED.items()},
+    bold_letter("0"): ("0", "bold"),
     **{script_letter(letter): (letter, "script") for letter in _CAPITALS},
     **{bold_script_letter(letter): (letter, "bold script") for letter in _CAPITALS},
 }
@@ -76,9 +78,9 @@ _FRACTIONS = {"½": (1, 2), "⅓": (1, 3), "⅔": (2, 3), "¼": (1, 4), "¾": (3
 _POWERS = {"²": Number(2), "³": Number(3), "⁴": Number(4), "⁻¹": Negative(Number(1))}
 _BEGINNINGS = frozenset("([∂Σ") | _FRACTIONS.keys()
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "sqrt", "sgn", "acos", "asin", "atan", "atan2", "exp"})
-_RELATIONS = frozenset("=≠<>≤≥≈∈→⟂∥")
+_RELATIONS = frozenset("=≠<>≤≥≈±∈→⟂∥")
 _TOKEN = re.compile(
-    r"""(?P<space>\s+) | (?P<value>\{\w+\}) | '(?P<quoted>[^']*)' | (?P<total>d/dt) | (?P<number>\d+)
+    r"""(?P<space>\s+) | (?P<value>\{\w+\}) | '(?P<quoted>[^']*)' | (?P<total>d/dt) | (?P<number>[0-9]+)
     | (?P<word>[A-Za-z]{2,}\d*) | (?P<power>⁻¹|[²³⁴]) | (?P<mark>[ᵀΣ_½⅓⅔¼¾⅛])
     | (?P<letter>\w[\u0307\u0308\u20db]?) | (?P<sign>.)""",
     re.VERBOSE,
@@ -188,7 +190,8 @@ class _Reader:
         while self.token.kind == "sign" and self.token.text in _RELATIONS:
             signs.append(self.take().text)
             parts.append(self.sum())
-        return Relation(tuple(parts), tuple(signs)) if signs else parts[0]
+        found = Relation(tuple(parts), tuple(signs)) if signs else parts[0]
+        return Relation((found, self.relation()), ("⇒",)) if self.taken("⇒") else found
 
     def sum(self) -> Node:
         terms: list[Node] = [Negative(self.term()) if self.taken("-") else self.term()]
@@ -267,9 +270,11 @@ class _Reader:
         return of
 
     def bracket(self) -> Node:
-        inner = self.relation()
+        parts = [self.relation()]
+        while self.taken(","):
+            parts.append(self.relation())
         self.expect(")")
-        return Parenthesized(inner)
+        return Parenthesized(parts[0] if len(parts) == 1 else Arguments(tuple(parts)))
 
     def called(self, node: Node) -> Node:
         """A letter, and its argument if it has one: r(q)."""
