@@ -2,10 +2,10 @@
 
 A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
 `jacobian`, `inertia` (with `mass_centers`), `energy`, `torque` (with the Lagrangian), `vectorized` (with
-`christoffel`); `frames` of a drawing; `task` (with points), `singular`, `inverse`, `rates`, `newton_euler`
-(made in `recursions`), `parameters`, `equilibria`, `forward_dynamics` (with the inertia of the task),
-`definite`, `statics` and `constraints` where something of them is asked.  To explain a further
-quantity, yield a `Step` in the file of its stage:
+`christoffel`); `frames` of a drawing; `task` (with points), `singular`, `inverse`, `rates` (with statics),
+`newton_euler` (made in `recursions`), `parameters`, `equilibria`, `forward_dynamics` (with the inertia of
+the task), `definite` and `constraints` where something of them is asked.  To explain a further quantity,
+yield a `Step` in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
@@ -96,6 +96,7 @@ _OF_BODIES = (Stage.INERTIA, Stage.ENERGY)
 _BESIDE = {
     Stage.LAGRANGIAN: ("torque", "lagrangian_steps"),
     Stage.TASK_INERTIA: ("forward_dynamics", "task_inertia_steps"),
+    Stage.STATICS: ("rates", "statics_steps"),
 }
 """The stages that stand in the file of another, and their functions there."""
 

@@ -1,284 +1,280 @@
-"""Steps of the determinant of a Jacobian, and of joint rates and accelerations for those of the task."""
+"""Steps of joint rates for those of the task, of what joints and task can do, of forces held at rest."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, work
 from dynsolve.algebra.pseudoinverse import is_solvable, rank_parts
+from dynsolve.derivation import statics
 from dynsolve.derivation.graph import Skipped
-from dynsolve.derivation.rates import MOST_PRODUCTS, squared, wanted_by_accelerations, whole_or_task
+from dynsolve.derivation.kinematics import frame_names
+from dynsolve.derivation.rates import MOST_PRODUCTS, squared, wanted_by_accelerations
+from dynsolve.derivation.static_rules import jacobians
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.statics import state_prose
-from dynsolve.explain.step import TOLD, Detail, Part, Step
-from dynsolve.explain.writing import is_small, side_by_side, spong
-from dynsolve.notation.tree import (
-    Letter,
-    Negative,
-    Node,
-    Number,
-    Parenthesized,
-    Power,
-    Product,
-    Row,
-    Sum,
-    Transpose,
-    Words,
-    equation,
-)
-from dynsolve.notation.tree import Matrix as Tree
+from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
+from dynsolve.explain.writing import column_of, is_small, side_by_side, spong, sum_of
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Node, Number, Parenthesized, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.questions import TIP, Load
 
-_R_DOT, _R_DDOT = letters.rate(letters.TASK), letters.bold("r", dots=2)
-_J, _JT, _W = letters.J_TASK, Transpose(letters.J_TASK), letters.WEIGHTS
+_J = letters.J_TASK
 
 
 def steps(context: Context) -> Iterator[Step]:
     """q̇, q̈ and what the joints and the task can do, where they are asked for."""
-    wanted = context.wanted
+    wanted, asked = context.wanted, context.robot.questions
     if "qd" in wanted:
-        yield _rates(context)
+        assert asked.velocity is not None
+        why = say("$𝐫̇ = 𝐉_r 𝐪̇$")
+        yield _solution(context, "qd", "The rates of the joints", asked.velocity, formula("𝐫̇"), why)
     if "qdd" in wanted:
-        yield _accelerations(context)
-    known = not context.robot.questions.state or bool({"qd", "qdd"} & wanted)
+        assert asked.acceleration is not None
+        right = wanted_by_accelerations(context.robot, asked.acceleration, context.values["Jr_dot"])
+        why = say(
+            "$𝐫̈ = 𝐉_r 𝐪̈ + 𝐉̇_r 𝐪̇$: what $𝐉̇$ brings without the joints' accelerations is taken off first. "
+            "The rest "
+        )
+        title = "The accelerations of the joints"
+        yield _solution(context, "qdd", title, right, formula("𝐫̈ - 𝐉̇_r 𝐪̇"), why)
+    known = not asked.state or bool({"qd", "qdd"} & wanted)
     for name in (name for name in _SPACES if name in wanted):
         yield replace(_space(context, name), normal=TOLD & ~Part.WORKING if known else TOLD)
         known = True
 
 
-# -- the determinant -------------------------------------------------------------------------------
+def state_prose(context: Context) -> Prose:
+    """The state that something is asked for at, as words: At q₁ = 90°, q̇₁ = 1."""
+    values = context.robot.questions.state.values
+    if not values:
+        return ()
+    return say(
+        "At {q}.", q=side_by_side([equation(Symbol(name, dots), value) for name, dots, value in values])
+    )
 
 
-def determinant_step(context: Context) -> Step:
-    """det J_r, or that of J_r J_rᵀ or J_rᵀ J_r where J_r is not square."""
-    name = whole_or_task(context.robot)
-    J: Letter = letters.J if name == "J" else letters.J_TASK
-    matrix: Matrix = context.values[name]
-    rows, columns = matrix.shape
-    square = squared(matrix)
-    if rows == columns:
-        of: Node = J
-        why: Prose = ("Where it is 0 the Jacobian has no inverse: some motion of the task is lost there.",)
+def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, why: Prose) -> Step:
+    """The x of J x = b with x = q̇ or q̈: where there are many, the least; where there is none, the nearest."""
+    at = AtState(context.robot.ring, context.robot.questions.state.by_symbol)
+    J, right = at.matrix(context.values["Jr"]), at.matrix(asked)
+    rank, (rows, columns) = rank_parts(J).rank, J.shape
+    x = letters.QD if name == "qd" else letters.QDD
+    weights = context.robot.questions.weights
+    if context.robot.questions.weighs_by_inertia:
+        weights = at.matrix(context.values["D"])
+    notes: tuple[Prose, ...] = ()
+    if rank == rows == columns:
+        how = say(" has one solution. ")
+    elif is_solvable(J, right):
+        how = say(
+            " has many solutions{rank}: this is the one {least}. ",
+            rank="" if rank == rows else f", the rank being {rank}",
+            least="of least norm" if weights is None else say("with the least ${x}ᵀ 𝐖 {x}$", x=x),
+        )
     else:
-        of = Parenthesized(Product((J, Transpose(J)) if rows < columns else (Transpose(J), J)))
-        what = "rows" if rows < columns else "columns"
-        why = (
-            J, f" is {rows}×{columns} and has no determinant. The determinant of its product with its "
-            f"transpose is the sum of the squares of its minors: it is 0 where the {what} are dependent.",
-        )  # fmt: skip
-    shown = context.show(square)
-    letter = Row((Words("det "), of))
-    return Step(
-        id="det",
-        stage=Stage.TASK,
-        title="The determinant of the Jacobian",
-        why=why,
-        formula=equation(letter, Row((Words("det "), shown))) if is_small(shown) else None,
-        source=spong("4.9"),
-        result=(equation(letter, context.form("det")),),
-        detail=Detail.BRIEF,
-        task=letter,
-    )
-
-
-# -- rates and accelerations -----------------------------------------------------------------------
-
-
-def _rates(context: Context) -> Step:
-    robot = context.robot
-    at = AtState(robot.ring, robot.questions.state.by_symbol)
-    velocity = robot.questions.velocity
-    assert velocity is not None
-    J, right = at.matrix(context.values["Jr"]), at.matrix(velocity)
-    return Step(
-        id="qd",
-        stage=Stage.RATES,
-        title="The rates of the joints",
-        why=(
-            equation(_R_DOT, Product((_J, letters.QD))),
-            *_solved_by(context, J, right, letters.QD),
-            *state_prose(context),
-        ),
-        formula=equation(letters.QD, _inverse_times(context, J, right, _R_DOT)),
-        source=spong("4.11"),
-        working=tuple(_working(context, J, right, _R_DOT)),
-        result=(equation(letters.QD, context.form("qd")),),
-        notes=tuple(_notes(J, right, letters.QD)),
-        detail=Detail.BRIEF,
-    )
-
-
-def _accelerations(context: Context) -> Step:
-    robot = context.robot
-    at = AtState(robot.ring, robot.questions.state.by_symbol)
-    acceleration = robot.questions.acceleration
-    assert acceleration is not None
-    J = at.matrix(context.values["Jr"])
-    right = at.matrix(wanted_by_accelerations(robot, acceleration, context.values["Jr_dot"]))
-    turned = Product((letters.rate(_J), letters.QD))
-    wanted = Sum((_R_DDOT, Negative(turned)))
-    why = (
-        equation(_R_DDOT, Sum((Product((_J, letters.QDD)), turned))),
-        ": what ",
-        letters.bold("J", dots=1),
-        " brings without the joints' accelerations is taken off first. The rest ",
-        *_solved_by(context, J, right, letters.QDD), *state_prose(context),
-    )  # fmt: skip
-    return Step(
-        id="qdd",
-        stage=Stage.RATES,
-        title="The accelerations of the joints",
-        why=why,
-        formula=equation(letters.QDD, _inverse_times(context, J, right, Parenthesized(wanted))),
-        source=spong("4.11"),
-        working=(equation(wanted, context.show(right)), *_working(context, J, right, None)),
-        result=(equation(letters.QDD, context.form("qdd")),),
-        notes=tuple(_notes(J, right, letters.QDD)),
-        detail=Detail.BRIEF,
-    )
-
-
-def _weights(context: Context) -> Matrix | None:
-    """W at the state, None where all weights are 1."""
-    asked = context.robot.questions
-    if not asked.weighs_by_inertia:
-        return asked.weights
-    return AtState(context.robot.ring, asked.state.by_symbol).matrix(context.values["D"])
-
-
-def _solved_by(context: Context, J: Matrix, right: Matrix, solved: Node) -> Prose:
-    """How the system is solved, in words that end a sentence."""
-    rank, (rows, columns) = rank_parts(J).rank, J.shape
+        how = say(" has no solution: these come nearest to one, in the sense of least squares. ")
+    if rank < columns and is_solvable(J, right):
+        text = "Every motion of the joints that the task does not see may be added: ${x}$ with $𝐉_r {x} = 𝟎$."
+        notes = (say(text, x=x),)
     if rank == rows == columns:
-        return (" has one solution. ",)
-    if not is_solvable(J, right):
-        return (" has no solution: these come nearest to one, in the sense of least squares. ",)
-    which = "" if rank == rows else f", the rank being {rank}"
-    least: Prose = ("of least norm",)
-    if _weights(context) is not None:
-        least = ("with the least ", Product((Transpose(solved), _W, solved)))
-    return (f" has many solutions{which}: this is the one ", *least, ". ")
+        inverse = "𝐉_r⁻¹ {b}"
+    elif rank == rows:
+        inverse = "𝐉_rᵀ (𝐉_r 𝐉_rᵀ)⁻¹ {b}" if weights is None else "𝐖⁻¹ 𝐉_rᵀ (𝐉_r 𝐖⁻¹ 𝐉_rᵀ)⁻¹ {b}"
+    else:
+        inverse = "(𝐉_rᵀ 𝐉_r)⁻¹ 𝐉_rᵀ {b}" if rank == columns else "𝐉_r^{plus} {b}"
+    working = [equation(_J, context.show(J))] if context.robot.questions.state else []
+    working.insert(len(working) if name == "qd" else 0, equation(b, context.show(right)))
+    if rank < columns and weights is not None:
+        working.append(equation(letters.WEIGHTS, context.show(weights)))
+    elif rank in (rows, columns) and rank and work(squared(J)) <= MOST_PRODUCTS:
+        det = formula("det {of}", of=square_of(_J, J))
+        working.append(equation(det, context.show(determinant(squared(J)))))
+    inverse_times = formula(inverse, b=Parenthesized(b) if isinstance(b, Sum) else b, plus="+")
+    return Step(
+        id=name,
+        stage=Stage.RATES,
+        title=title,
+        why=(*why, *how, *state_prose(context)),
+        formula=equation(x, inverse_times),
+        source=spong("4.11"),
+        working=tuple(working),
+        result=(equation(x, context.form(name)),),
+        notes=notes,
+        detail=Detail.BRIEF,
+    )
 
 
-def _inverse_times(context: Context, J: Matrix, right: Matrix, vector: Node) -> Node:
-    """J⁻¹ b, Jᵀ (J Jᵀ)⁻¹ b, W⁻¹ Jᵀ (J W⁻¹ Jᵀ)⁻¹ b, (Jᵀ J)⁻¹ Jᵀ b or J⁺ b."""
-    rank, (rows, columns) = rank_parts(J).rank, J.shape
-    minus = Negative(Number(1))
-    if rank == rows == columns:
-        return Product((Power(_J, minus), vector))
-    if rank == rows and _weights(context) is not None:
-        lifted = (Power(_W, minus), _JT)
-        return Product((*lifted, Power(Parenthesized(Product((_J, *lifted))), minus), vector))
-    if rank == rows:
-        return Product((_JT, Power(Parenthesized(Product((_J, _JT))), minus), vector))
-    if rank == columns:
-        return Product((Power(Parenthesized(Product((_JT, _J))), minus), _JT, vector))
-    return Product((Letter("J", _J.sub, Words("+"), "bold"), vector))
-
-
-def _working(context: Context, J: Matrix, right: Matrix, vector: Node | None) -> Iterator[Node]:
-    """The Jacobian and what is asked of it at the state, and the determinant that is divided by."""
-    if context.robot.questions.state:
-        yield equation(_J, context.show(J))
-    if vector is not None:
-        yield equation(vector, context.show(right))
-    rank, (rows, columns) = rank_parts(J).rank, J.shape
-    W = _weights(context) if rank < columns else None
-    if W is not None:
-        yield equation(_W, context.show(W))
-        return
-    if rank in (rows, columns) and rank:
-        square = squared(J)
-        if work(square) > MOST_PRODUCTS:
-            return
-        of = _J if rows == columns else Parenthesized(Product((_J, _JT) if rows < columns else (_JT, _J)))
-        yield equation(Row((Words("det "), of)), context.show(determinant(square)))
-
-
-def _notes(J: Matrix, right: Matrix, solved: Node) -> Iterator[Prose]:
-    rank = rank_parts(J).rank
-    if rank < J.shape[1] and is_solvable(J, right):
-        yield (
-            "Every motion of the joints that the task does not see may be added: ",
-            solved, " with ", equation(Product((_J, solved)), letters.bold("0")), ".",
-        )  # fmt: skip
+def square_of(letter: Node, matrix: Matrix) -> Node:
+    """J, or the smaller of (J Jᵀ) and (Jᵀ J) where J is not square: what has a determinant."""
+    rows, columns = matrix.shape
+    if rows == columns:
+        return letter
+    return formula("({J} {J}ᵀ)" if rows < columns else "({J}ᵀ {J})", J=letter)
 
 
 # -- what the joints and the task can do -----------------------------------------------------------
 
-
-@dataclass(frozen=True, slots=True)
-class _Space:
-    """What a space is called, what it is, and its letter."""
-
-    title: str
-    why: str
-    letter: Node
-    condition: Node
-
-
-_F = letters.bold("F")
 _SPACES = {
-    "nullspace": _Space(
+    "nullspace": (
         "Motions of the joints that the task does not see",
         "The motions of the joints in which nothing of the task changes.",
         letters.NULLSPACE,
-        equation(Product((_J, letters.QD)), letters.bold("0")),
+        formula("𝐉_r 𝐪̇ = 𝟎"),
     ),
-    "rangespace": _Space(
+    "rangespace": (
         "Velocities of the task that are possible",
         "All the velocities that the joints can give: what the columns of the Jacobian span.",
         letters.RANGESPACE,
-        equation(_R_DOT, Product((_J, letters.QD))),
+        formula("𝐫̇ = 𝐉_r 𝐪̇"),
     ),
-    "lost": _Space(
+    "lost": (
         "Motions of the task that are lost",
         "What is orthogonal to all possible velocities. A force along it needs no torque of the joints.",
         letters.LOST,
-        equation(Product((_JT, _F)), letters.bold("0")),
+        formula("𝐉_rᵀ 𝐅 = 𝟎"),
     ),
 }
+"""What a space is called, what it is, its letter, and the condition of what is in it."""
 
 
 def _space(context: Context, name: str) -> Step:
-    if isinstance(context.values[name], Skipped):
-        return _space_left_out(name)
-    space, form = _SPACES[name], context.matrix(name)
-    at = AtState(context.robot.ring, context.robot.questions.state.by_symbol)
-    J = at.matrix(context.values["Jr"])
-    vectors = [Tree(tuple((row[k],) for row in form.rows)) for k in range(len(form.rows[0]))]
-    spanned = Row((Words("span "), Parenthesized(side_by_side(vectors)))) if vectors else Words("{0}")
-    rank, count = rank_parts(J).rank, len(vectors)
-    dimension = f"The rank is {rank}, and the dimension of this space {count}."
-    return Step(
+    title, what, letter, condition = _SPACES[name]
+    too_long = " In symbols its vectors are too long to be read: give the coordinates values under `state`."
+    found = Step(
         id=name,
         stage=Stage.RATES,
-        title=space.title,
-        why=(space.why, *((" ", *at_state) if (at_state := state_prose(context)) else ())),
-        formula=space.condition,
-        source=spong("4.9") if name != "lost" else spong("4.10"),
+        title=title,
+        why=(what, too_long),
+        formula=condition,
+        source=spong("4.9"),
+        detail=Detail.BRIEF,
+    )
+    if isinstance(context.values[name], Skipped):
+        return found
+    form, state = context.matrix(name), context.robot.questions.state
+    J = AtState(context.robot.ring, state.by_symbol).matrix(context.values["Jr"])
+    vectors = [column_of(form, k) for k in range(len(form.rows[0]))]
+    spanned = formula("span ({vectors})", vectors=side_by_side(vectors)) if vectors else Words("{0}")
+    rank, count = rank_parts(J).rank, len(vectors)
+    return replace(
+        found,
+        why=say("{what}{space}{at}", what=what, space=" " if state else "", at=state_prose(context)),
+        source=spong("4.10" if name == "lost" else "4.9"),
         working=(equation(_J, context.show(J)),),
-        result=(equation(space.letter, spanned),),
-        notes=((dimension,),),
+        result=(equation(letter, spanned),),
+        notes=((f"The rank is {rank}, and the dimension of this space {count}.",),),
+    )
+
+
+# -- forces from outside, held at rest --------------------------------------------------------------
+
+HELD = Group("Q", "The sum, and the torques that hold it")
+_FORCES = spong("4.10")
+
+
+def statics_steps(context: Context) -> Iterator[Step]:
+    """Force by force what it does to the joints, the sum, and what holds it at rest."""
+    wanted = context.wanted
+    for index, load in enumerate(context.robot.questions.loads, 1):
+        if f"load{index}" in wanted:
+            yield _load(context, index, load)
+    if "Q" in wanted:
+        yield replace(_total(context), group=HELD)
+    if "tau_static" in wanted:
+        yield replace(_holding(context), group=HELD)
+
+
+def _load(context: Context, index: int, load: Load) -> Step:
+    """Q_F = J_vᵀ F + J_ωᵀ M, of which one may be absent, from the power Fᵀ v + Mᵀ ω."""
+    frames = tuple(context.values[name] for name in frame_names(load.link))
+    wrench, of_point = statics.wrench(load, frames[load.link]), jacobians(context.robot, load, frames)
+    parts = []
+    for letter, velocity, value, jacobian in zip("FM", ("v", "omega"), wrench, of_point, strict=True):
+        J = letters.JV if velocity == "v" else letters.JW
+        if load.point and load.point != TIP:
+            J = letters.j_of_point(velocity, load.point)
+        parts.append((letters.bold(letter, Number(index)), letters.bold(velocity), J, value, jacobian))
+    if load.moment.is_zero:
+        del parts[1]
+    elif load.force.is_zero:
+        del parts[0]
+    working: list[Node] = []
+    products: list[Node] = []
+    for F, _, J, value, jacobian in parts:
+        if not value.is_zero:
+            vector, matrix = context.show(value), context.show(jacobian)
+            working += [equation(F, vector), *([] if load.point else [equation(J, matrix)])]
+            products.append(formula("{J}ᵀ {F}", J=matrix, F=vector))
+    Q = letters.of_load(index)
+    if products and is_small(*products):
+        working.append(equation(Q, sum_of(products)))
+    notes = []
+    if load.by_robot:
+        notes.append(say("The robot exerts it, so what acts on the robot is its opposite."))
+    if load.axes is not None:
+        notes.append(say("It is given along axes of its link, and turned into the world."))
+    return Step(
+        id=f"load{index}",
+        stage=Stage.STATICS,
+        title=f"What force {index} does to the joints",
+        why=say(
+            "In every motion its power is {power}, and that of its generalized forces ${Q}ᵀ 𝐪̇$: so the "
+            "transpose of the Jacobian of {where} gives its effect on the joints.",
+            power=sum_of([formula("{F}ᵀ {v}", F=F, v=v) for F, v, *_ in parts]),
+            Q=Q,
+            where="the tip" if load.point == TIP else load.point or "its point",
+        ),
+        formula=equation(Q, sum_of([formula("{J}ᵀ {F}", J=J, F=F) for F, _, J, *_ in parts])),
+        source=_FORCES,
+        working=tuple(working),
+        result=(equation(Q, context.form(f"load{index}")),),
+        notes=tuple(notes),
+        normal=NOTED,
+    )
+
+
+def _total(context: Context) -> Step:
+    numbers = range(1, len(context.robot.questions.loads) + 1)
+    general = statics.total(context.robot, tuple(context.values[f"load{i}"] for i in numbers))
+    at, several = state_prose(context), len(numbers) > 1
+    return Step(
+        id="Q",
+        stage=Stage.STATICS,
+        title="The generalized forces from outside",
+        why=say(
+            "{sum}. {at}", sum="The sum over the forces" if several else "There is only one force", at=at
+        ),
+        formula=equation(letters.Q_FORCES, sum_of([*map(letters.of_load, numbers)])),
+        source=_FORCES,
+        working=(equation(letters.Q_FORCES, context.show(general)),) if at and several else (),
+        result=(equation(letters.Q_FORCES, context.form("Q")),),
         detail=Detail.BRIEF,
     )
 
 
-def _space_left_out(name: str) -> Step:
-    """A space whose vectors are too long to be written."""
-    space = _SPACES[name]
+def _holding(context: Context) -> Step:
+    heavy = bool(context.robot.bodies) and not context.robot.gravity.is_zero
+    g = context.form("g") if heavy else None
     return Step(
-        id=name,
-        stage=Stage.RATES,
-        title=space.title,
-        why=(space.why, " In symbols its vectors are too long to be read: give the coordinates values under ",
-             "`state`."),
-        formula=space.condition,
-        source=spong("4.9"),
+        id="tau_static",
+        stage=Stage.STATICS,
+        title="The torques that hold it at rest",
+        why=say(
+            "At rest{free} only {left} left in the equations of motion. {at}",
+            free="" if heavy else ", and without gravity,",
+            left="gravity and these forces are" if heavy else "these forces are",
+            at=state_prose(context),
+        ),
+        formula=formula("𝛕_static = 𝐠 - 𝐐" if heavy else "𝛕_static = -𝐐"),
+        source=_FORCES,
+        working=(equation(letters.G, g),) if g is not None and is_small(g) else (),
+        result=(equation(letters.TAU_STATIC, context.form("tau_static")),),
         detail=Detail.BRIEF,
-    )  # fmt: skip
+    )
