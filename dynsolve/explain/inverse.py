@@ -259,7 +259,7 @@ class _Explainer:
         for number, branch in enumerate(self.forms.solved.branches, 1):
             row: list[Node | str] = [str(number)]
             for step, index in zip(self.solving.solved, branch.choice, strict=True):
-                solutions = self.forms.solutions(step)
+                solutions = self.formulas.solutions(step)
                 shown = solutions[index]
                 if cost(shown) <= SHORT:
                     row.append(shown)

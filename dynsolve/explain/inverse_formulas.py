@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from functools import cached_property, singledispatchmethod
+from functools import cached_property
 from math import lcm
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.positivity import is_nonnegative, is_positive
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.trig_factor import ratio, trig_factors
@@ -23,7 +24,6 @@ from dynsolve.derivation.configuration_check import Conditions
 from dynsolve.derivation.configurations import Inverse, without_number
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.inverse.equations import Squared
-from dynsolve.derivation.inverse.solving import Relation as Equation
 from dynsolve.derivation.inverse.subproblems import (
     Length,
     OneLine,
@@ -40,6 +40,7 @@ from dynsolve.explain.writing import as_row, listed, side_by_side
 from dynsolve.notation.build import cost, negated, power, split_sign, times, total
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import (
+    ZERO,
     Arguments,
     Function,
     Letter,
@@ -54,13 +55,12 @@ from dynsolve.notation.tree import (
     column,
     equation,
 )
-from dynsolve.notation.walk import mapped
+from dynsolve.notation.walk import with_formulas
 from dynsolve.robot.model import Robot
 
 if TYPE_CHECKING:
     from dynsolve.explain.target import TargetForms
 
-_PI = Symbol("pi")
 _X = Letter("X")
 
 LONG = 10
@@ -72,19 +72,19 @@ def atan2(y: Node, x: Node) -> Node:
     return Function("atan2", Arguments((y, x)))
 
 
-def _differ_by_sign(solutions: tuple[Node, ...]) -> bool:
-    """Whether these are two that differ by one sign alone."""
-    if len(solutions) != 2:
-        return False
-    first, second = solutions
-    if second == negated(first):
-        return True
-    return (
-        isinstance(first, Sum)
-        and isinstance(second, Sum)
-        and first.terms[:-1] == second.terms[:-1]
-        and second.terms[-1] == negated(first.terms[-1])
-    )
+def _both(middle: Node, either: Node) -> tuple[Node, Node]:
+    """middle ± either"""
+    return total([middle, either]), total([middle, negated(either)])
+
+
+def _signed(solutions: tuple[Node, ...]) -> tuple[tuple[Node, ...], Node] | None:
+    """The terms that two solutions share, and what has both signs; None where more differs."""
+    match solutions:
+        case (first, second) if second == negated(first):
+            return (), first
+        case (Sum((*middle, first)), Sum((*others, second))) if middle == others and second == negated(first):
+            return tuple(middle), first
+    return None
 
 
 class InverseFormulas:
@@ -107,7 +107,9 @@ class InverseFormulas:
                     best = min(best, total(parts), key=cost)
         return best
 
-    _form = form
+    def matrix(self, values: Values) -> Matrix:
+        """A matrix of such expressions."""
+        return Matrix(tuple(tuple(map(self.form, row)) for row in values.rows))
 
     def _sums_of_squares(self, step: Solved) -> Iterator[tuple[Expr, Node]]:
         """The left sides of the equations that are sums of squares."""
@@ -122,62 +124,64 @@ class InverseFormulas:
 
         A long right side of A cos ψ + B sin ψ = X is called X in them.
         """
+        meant: tuple[Node, ...] = ()
+        found = self.solutions(step)
         if isinstance(step, OneLine) and self._is_long(step):
-            meant = equation(_X, self._form(step.value))
-            return (meant, *self._signed(unknown, self._of_line(step, _X)))
-        return self._signed(unknown, self.solutions(step))
+            meant, found = (equation(_X, self.form(step.value)),), self._of_line(step, _X)
+        signed = _signed(found)
+        if signed is None:
+            return (*meant, *(equation(unknown, value) for value in found))
+        middle, either = signed
+        if not middle:
+            return (*meant, Relation((unknown, either), ("= ±",)))
+        return (*meant, Relation((unknown, total(middle), either), ("=", "±")))
 
     def _is_long(self, step: OneLine) -> bool:
         """Whether a step has a right side that is too long to be written twice."""
         is_general = not (step.cosine.is_zero or step.sine.is_zero)
-        return is_general and cost(self._form(step.value)) > LONG
-
-    def _signed(self, unknown: Node, found: tuple[Node, ...]) -> tuple[Node, ...]:
-        """Solutions as equations."""
-        if not _differ_by_sign(found):
-            return tuple(equation(unknown, value) for value in found)
-        first, second = found
-        if second == negated(first):
-            return (Relation((unknown, first), ("= ±",)),)
-        assert isinstance(first, Sum)
-        middle = total(first.terms[:-1])
-        return (Relation((unknown, middle, first.terms[-1]), ("=", "±")),)
+        return is_general and cost(self.form(step.value)) > LONG
 
     def has_signs(self, step: Solved) -> bool:
         """Whether the two solutions of a step differ by one sign alone."""
-        return _differ_by_sign(self.solutions(step))
+        return _signed(self.solutions(step)) is not None
 
     def solutions(self, step: Solved) -> tuple[Node, ...]:
         """The solutions of a step."""
-        return self._solutions(step)
+        match step:
+            case TwoLines():
+                return (self._of_two_lines(step),)
+            case OneLine(_, a, b, x) if x.is_zero:
+                return self.direction(a, -b), self.direction(-a, b)
+            case OneLine(_, a, b, x) if b.is_zero:
+                return _both(ZERO, Function("acos", self.ratio(x, a)))
+            case OneLine(_, a, b, x) if a.is_zero:
+                first = Function("asin", self.ratio(x, b))
+                return first, total([Symbol("pi"), negated(first)])
+            case OneLine(_, a, b, x):
+                return self._of_line(step, self.form(x))
+            case Length():
+                return (self.ratio(step.value, step.factor),)
+            case RootLength():
+                return self._of_square(step)
+            case Remainder():
+                return (self._of_sum(step),)
 
-    @singledispatchmethod
-    def _solutions(self, step: Solved) -> tuple[Node, ...]:
-        raise TypeError(type(step).__name__)
+    def _of_two_lines(self, step: TwoLines) -> Node:
+        """ψ from a cos ψ + b sin ψ = x and c cos ψ + d sin ψ = y.
 
-    @_solutions.register
-    def _two_lines(self, step: TwoLines) -> tuple[Node, ...]:
-        a, b, x = step.first
-        c, d, y = step.second
-        if d == a and c == -b:  # a c + b s = x, a s - b c = y: the vector (a, b) is turned to (x, y)
-            return (self._turned(a, b, x, y),)
-        if d == -a and c == b:
-            return (self._turned(a, b, x, -y),)
-        sine, cosine, below = a * y - c * x, d * x - b * y, step.determinant
-        if is_nonnegative(-below):
-            sine, cosine, below = -sine, -cosine, -below
-        if is_nonnegative(below):
-            return (self.direction(sine, cosine),)
-        return (atan2(self.ratio(sine, below), self.ratio(cosine, below)),)
-
-    def _turned(self, a: Expr, b: Expr, x: Expr, y: Expr) -> Node:
-        """ψ from a cos ψ + b sin ψ = x and a sin ψ - b cos ψ = y: atan2(y, x) + atan2(b, a)."""
+        Where the vector (a, b) is turned to (x, y) it is atan2(y, x) + atan2(b, a).
+        """
+        (a, b, x), (c, d, y) = step.first, step.second
+        if not step.is_rotation:
+            return self._of_vector(d * x - b * y, a * y - c * x, step.determinant)
+        if not (d == a and c == -b):
+            y = -y
         if b.is_zero:
             return self._of_vector(x, y, a)
         if a.is_zero:
             return self._of_vector(-y, x, b)
-        sign, sine = split_sign(self._form(b))
-        own = atan2(sine, self._form(a))
+        sign, sine = split_sign(self.form(b))
+        own = atan2(sine, self.form(a))
         return total([self.direction(y, x), own if sign > 0 else negated(own)])
 
     def _of_vector(self, x: Expr, y: Expr, length: Expr) -> Node:
@@ -190,88 +194,67 @@ class InverseFormulas:
 
     def direction(self, y: Expr, x: Expr) -> Node:
         """atan2(y, x) without a positive factor that both share."""
-        shared = y.poly.gcd(x.poly) if not (y.is_zero or x.is_zero) else None
-        if shared is not None and not shared.is_constant():
-            factor = Expr(y.ring, shared)
+        if not (y.is_zero or x.is_zero):
+            factor = Expr(y.ring, y.poly.gcd(x.poly))
             if is_nonnegative(-factor):
                 factor = -factor
             if is_nonnegative(factor):
                 y, x = (Expr(y.ring, divmod(e.poly, factor.poly)[0]) for e in (y, x))
-        return atan2(self._form(y), self._form(x))
-
-    @_solutions.register
-    def _one_line(self, step: OneLine) -> tuple[Node, ...]:
-        a, b, x = step.cosine, step.sine, step.value
-        if x.is_zero:
-            return self.direction(a, -b), self.direction(-a, b)
-        if b.is_zero:
-            first = Function("acos", self.ratio(x, a))
-            return first, negated(first)
-        if a.is_zero:
-            first = Function("asin", self.ratio(x, b))
-            return first, total([_PI, negated(first)])
-        return self._of_line(step, self._form(x))
+        return atan2(self.form(y), self.form(x))
 
     def _of_line(self, step: OneLine, value: Node) -> tuple[Node, Node]:
         """Both angles of A cos ψ + B sin ψ = X, with X written as `value`."""
         a, b, x = step.cosine, step.sine, step.value
         square = a * a + b * b
         if len(x) == 1:
-            height = self._form(square - x * x)
+            height = self.form(square - x * x)
         else:
-            height = total([self._form(square), negated(power(value, 2))])
-        middle, either = self.direction(b, a), atan2(Function("sqrt", height), value)
-        return total([middle, either]), total([middle, negated(either)])
+            height = total([self.form(square), negated(power(value, 2))])
+        return _both(self.direction(b, a), atan2(Function("sqrt", height), value))
 
     def boundary(self, step: OneLine) -> Node:
         """X² ≤ A² + B², where there are solutions."""
         x = step.value
-        square = self._form(step.cosine * step.cosine + step.sine * step.sine)
+        square = self.form(step.cosine * step.cosine + step.sine * step.sine)
         if len(x) == 1:
-            return Relation((self._form(x * x), square), ("≤",))
-        return Relation((power(_X if self._is_long(step) else self._form(x), 2), square), ("≤",))
+            return Relation((self.form(x * x), square), ("≤",))
+        return Relation((power(_X if self._is_long(step) else self.form(x), 2), square), ("≤",))
 
-    @_solutions.register
-    def _length(self, step: Length) -> tuple[Node, ...]:
-        return (self.ratio(step.value, step.factor),)
-
-    @_solutions.register
-    def _root_length(self, step: RootLength) -> tuple[Node, ...]:
+    def _of_square(self, step: RootLength) -> tuple[Node, Node]:
+        """Both lengths of A d² + B d + C = 0."""
         root = Function("sqrt", self.radicand(step))
         if step.linear.is_zero:
-            return root, negated(root)
+            return _both(ZERO, root)
         below = step.square if _is_even(step.linear) else step.square * 2
-        middle = self.ratio(-step.linear, step.square * 2)
-        either = times(1, [(root, 1), (self._form(below), -1)])
-        return total([middle, either]), total([middle, negated(either)])
+        return _both(self.ratio(-step.linear, step.square * 2), times(1, [(root, 1), (self.form(below), -1)]))
 
     def radicand(self, step: RootLength) -> Node:
         """What stands under the root: -C/A, B² - 4 A C, or (B/2)² - A C where that has no fractions."""
         if step.linear.is_zero:
             return self.ratio(-step.constant, step.square)
         discriminant = step.linear * step.linear - step.square * step.constant * 4
-        return self._form(discriminant * Fraction(1, 4) if _is_even(step.linear) else discriminant)
+        return self.form(discriminant * Fraction(1, 4) if _is_even(step.linear) else discriminant)
 
-    @_solutions.register
-    def _remainder(self, step: Remainder) -> tuple[Node, ...]:
-        given, others = (
+    def _of_sum(self, step: Remainder) -> Node:
+        """The angle that is left of a given sum of angles."""
+        given, taken = (
             [times(rate, [(Symbol(name), 1)]) for name, rate in terms] for terms in (step.given, step.others)
         )
-        taken = [*others, *([] if step.rest.is_zero else [self._form(step.rest)])]
+        if not step.rest.is_zero:
+            taken.append(self.form(step.rest))
         terms = [*taken, *map(negated, given)] if step.rate < 0 else [*given, *map(negated, taken)]
         size = abs(step.rate)
-        return (total(terms) if size == 1 else times(1 / size, [(total(terms), 1)]),)
+        return total(terms) if size == 1 else times(1 / size, [(total(terms), 1)])
 
     def ratio(self, above: Expr, below: Expr) -> Node:
         """above / below, cancelled; the sign in front."""
         value = cancelled(RationalExpr(above, below))
         if value.divisor is None:
-            return self._form(value.numerator)
+            return self.form(value.numerator)
         whole = lcm(*(int(factor.q) for e in (value.numerator, value.divisor) for factor in e.poly.coeffs()))
-        numerator, divisor = value.numerator * whole, value.divisor * whole
-        if is_nonnegative(-divisor):
-            numerator, divisor = -numerator, -divisor
-        return Quotient(self._form(numerator), self._form(divisor))
+        if is_nonnegative(-value.divisor):
+            whole = -whole
+        return Quotient(self.form(value.numerator * whole), self.form(value.divisor * whole))
 
 
 def _is_even(expr: Expr) -> bool:
@@ -288,8 +271,6 @@ class ConfigurationForms:
     def __init__(self, robot: Robot, values: Derivation) -> None:
         self.robot = robot
         self.values = values
-
-    # -- singular configurations -------------------------------------------------------------------
 
     @cached_property
     def singular_set(self) -> SingularSet | None:
@@ -357,12 +338,14 @@ class ConfigurationForms:
     @cached_property
     def lost(self) -> tuple[tuple[Matrix, ...], ...]:
         """At each alternative the directions that are lost, each a column."""
-        if self.singular_set is None:
-            return ()
+        losses = () if self.singular_set is None else self.singular_set.losses
         return tuple(
-            tuple(column(*map(self.compactor(d[0].ring).form, d)) for d in loss.directions)
-            for loss in self.singular_set.losses
+            tuple(column(*map(self.compactor(d[0].ring).form, d)) for d in loss.directions) for loss in losses
         )
+
+    def matrix(self, values: Values) -> Matrix:
+        """A matrix of a ring of the search."""
+        return InverseFormulas(self.compactor(values.ring)).matrix(values)
 
     def condition(self, condition: Condition) -> Node:
         """What is 0 where a condition holds, with whole coefficients but where the file has decimals."""
@@ -402,8 +385,6 @@ class ConfigurationForms:
         form = self.compactor(expr.ring).form
         return min(((form(e), e) for e in (expr, -expr)), key=lambda both: _minus_signs(both[0]))
 
-    # -- inverse kinematics ------------------------------------------------------------------------
-
     @cached_property
     def solved(self) -> Inverse | None:
         """The solution of the task; None where no closed form was found."""
@@ -431,13 +412,20 @@ class ConfigurationForms:
 
     @cached_property
     def inverse(self) -> tuple[dict[str, Node], ...]:
-        """The branches: a formula for each coordinate, in the order in which they are solved for."""
+        """The branches: a formula for each coordinate, in the order in which they are solved for.
+
+        What is put for the names that were given on the way stands in their place.
+        """
         if self.solved is None:
             return ()
+        meant: dict[str, Node] = {}
+        for part in self.solved.solving.parts:
+            for definition in part.definitions:
+                meant[definition.name] = with_formulas(self.inverse_formulas.form(definition.value), meant)
         steps = self.solved.solving.solved
         return tuple(
             {
-                step.coordinate: self._written_out(self.solutions(step)[index])
+                step.coordinate: with_formulas(self.inverse_formulas.solutions(step)[index], meant)
                 for step, index in zip(steps, branch.choice, strict=True)
             }
             for branch in self.solved.branches
@@ -448,35 +436,11 @@ class ConfigurationForms:
         """Of each branch the conditions under which it gives r(q) = r."""
         if self.solved is None:
             return ()
-        return tuple(tuple(map(self._equality, branch.when)) for branch in self.solved.branches)
-
-    def _equality(self, relation: Equation) -> Equality:
-        left, right = (self.inverse_formulas.form(side) for side in (relation.left, relation.right))
-        return Equality((left, right), relation.is_angle)
-
-    def _written_out(self, formula: Node) -> Node:
-        """A formula with what is put for the names that were given on the way."""
-        return mapped(formula, self._meant) if self._meanings else formula
-
-    def _meant(self, part: Node) -> Node:
-        return self._meanings.get(part.name, part) if isinstance(part, Symbol) else part
-
-    @cached_property
-    def _meanings(self) -> dict[str, Node]:
-        """What each name stands for, in the values of the task and in coordinates."""
-        found: dict[str, Node] = {}
-        assert self.solved is not None
-        for part in self.solved.solving.parts:
-            for definition in part.definitions:
-                value = self.inverse_formulas.form(definition.value)
-                found[definition.name] = mapped(
-                    value, lambda inner: found.get(inner.name, inner) if isinstance(inner, Symbol) else inner
-                )
-        return found
-
-    def solutions(self, step: Solved) -> tuple[Node, ...]:
-        """The solutions of a step, each as a formula."""
-        return self.inverse_formulas.solutions(step)
+        form = self.inverse_formulas.form
+        return tuple(
+            tuple(Equality((form(one.left), form(one.right)), one.is_angle) for one in branch.when)
+            for branch in self.solved.branches
+        )
 
     @cached_property
     def inverse_formulas(self) -> InverseFormulas:

@@ -8,7 +8,6 @@ from fractions import Fraction
 from itertools import groupby
 from math import degrees
 
-from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.derivation.inverse.solving import FixedPoint, Part, Turn
 from dynsolve.derivation.inverse.subproblems import OneLine, Solved
@@ -310,7 +309,7 @@ def introduction(
 
 def _point(formulas: InverseFormulas, part: Part, point: FixedPoint, number: int) -> Step:
     known, values = (_column(formulas, point, named=named) for named in (True, False))
-    made = _form(formulas, point.made)
+    made = formulas.matrix(point.made)
     what = _called(point)
     return Step(
         id=f"inverse_point_{number}",
@@ -374,10 +373,6 @@ def _meaning(meant: dict[str, Node], node: Node) -> Node:
     return meant.get(node.name, node) if isinstance(node, Symbol) else node
 
 
-def _form(formulas: InverseFormulas, values: Values) -> Matrix:
-    return Matrix(tuple(tuple(map(formulas.form, row)) for row in values.rows))
-
-
 def _parallel(joints: tuple[int, ...], number: int) -> Step:
     """What joints with parallel axes leave alone."""
     named = and_joined([str(k) for k in joints])
@@ -399,7 +394,7 @@ def _parallel(joints: tuple[int, ...], number: int) -> Step:
 
 def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[Solved]) -> Step:
     """The rotation that is left for some joints."""
-    made, known = (_form(formulas, m.block(0, 3, 0, 3)) for m in (turn.made, turn.known))
+    made, known = (formulas.matrix(m.block(0, 3, 0, 3)) for m in (turn.made, turn.known))
     count = turn.last - turn.first + 1
     joints = f"joint {turn.first}" if count == 1 else f"joints {_numbers(turn)}"
     values = [equation(Symbol(d.name), formulas.form(d.value)) for d in turn.definitions]

@@ -20,7 +20,7 @@ Number(p=6, q=1, decimal=False)
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
 from itertools import chain
 from operator import attrgetter, is_
@@ -111,6 +111,11 @@ def mapped(node: Node, function: Change) -> Node:
 
 
 # -- the parts of a class of nodes, from its annotations -----------------------------------------------
+
+
+def with_formulas(node: Node, formulas: Mapping[str, Node]) -> Node:
+    """The tree with formulas in place of the symbols of these names."""
+    return mapped(node, lambda part: formulas.get(part.name, part) if isinstance(part, Symbol) else part)
 
 
 def _change_perhaps(part: Node | None, change: Change) -> Node | None:
