@@ -190,7 +190,11 @@ def _source(context: Context) -> str:
 
 def _sum(context: Context, key: str, title: str, why: Prose, name: Node, parts: Sequence[Part]) -> Step:
     """A quantity as the sum of its terms; their values where several are not zero."""
-    shown = [equation(term, context.show(value)) for term, value in parts if not value.is_zero]
+    shown = [
+        equation(term, context.show(value))
+        for term, value in parts
+        if value is not None and not value.is_zero
+    ]
     zero = "; the others are zero" if len(shown) < len(parts) else ""
     lines = (Line((f"Its parts{zero}:",), tuple(shown)),) if len(shown) > 1 else ()
     return Step(
@@ -206,8 +210,8 @@ def _sum(context: Context, key: str, title: str, why: Prose, name: Node, parts: 
     )
 
 
-Part = tuple[Node, Matrix]
-"""A term of a formula, and its value."""
+Part = tuple[Node, Matrix | None]
+"""A term of a formula, and its value where that is shown."""
 
 
 def _links(context: Context) -> Step:
@@ -287,11 +291,9 @@ def _rates(context: Context, joint: Joint, kind: JointType) -> Rates:
         for dots in (1, 2)
     )
     is_plain = len(first) == 1 and not isinstance(first[0], Negative)
-    return (first[0], second[0]) if is_plain else (_in_brackets(first), _in_brackets(second))
-
-
-def _in_brackets(terms: Sequence[Node]) -> Node:
-    return Parenthesized(sum_of(terms))
+    if is_plain:
+        return first[0], second[0]
+    return Parenthesized(sum_of(first)), Parenthesized(sum_of(second))
 
 
 def _rated(rate: Fraction, term: Node) -> Node:
@@ -305,15 +307,9 @@ def _turning_step(context: Context, joint: Joint) -> Step:
     """ω_i, with this robot's matrices where there is anything to work out."""
     i, link = joint.index, Names.of(context.robot, joint.index)
     spin = _rates(context, joint, JointType.REVOLUTE)
-    step = Step(
-        id=f"wl{i}",
-        stage=STAGE,
-        title=f"Link {i}, outwards: angular velocity",
-        why=(_turning_why(joint),),
-        formula=equation(link("{w}"), sum_of(_angular_velocity(link, spin))),
-        source=_source(context),
-        result=(equation(link("{w}"), context.form(f"wl{i}")),),
-    )
+    parts = [(term, None) for term in _angular_velocity(link, spin)]
+    why = say("{why}", why=_turning_why(joint))
+    step = _sum(context, f"wl{i}", f"Link {i}, outwards: angular velocity", why, link("{w}"), parts)
     if not joint.parent:
         return step
     A: Matrix = context.values[f"A{i}"]
@@ -411,7 +407,8 @@ def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
     i, wanted = joint.index, context.wanted
     nothing = "" if context.robot.links_after(i) else " No link follows, so nothing is passed on."
     if f"fl{i}" in wanted:
-        title, why = f"Link {i}, inwards: the force in its joint", (f"{_newton(context, i)}{nothing}",)
+        title = f"Link {i}, inwards: the force in its joint"
+        why = say("{why}{more}", why=_newton(context, i), more=nothing)
         yield _sum(context, f"fl{i}", title, why, letters.in_link("f", i), list(_forces(context, i)))
     if f"nl{i}" in wanted:
         title = f"Link {i}, inwards: the moment in its joint"
