@@ -428,7 +428,7 @@ def _newton(context: Context, i: int) -> str:
     return f"Newton's law: what the mass needs{own}{next_link}."
 
 
-def _inertial(context: Context, body: Body) -> Part:
+def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:
     """m (a_c - g_0) of a body."""
     H, acceleration = context.values[f"H{body.link}"], context.values[f"acl{body.name}"]
     name = _inertial_force(Names.of(context.robot, body.link, body), context.mass(body), _is_heavy(context))
