@@ -252,7 +252,7 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
     Kv, v = letters.energy_part("v", body), letters.of_body("v", body, "bold")
     velocity = written_velocity(context, body)
     half = "Half the mass times the square of the speed of the mass centre"
-    why, working = f"{half}.", ()
+    why, working = f"{half}.", tuple[Node, ...]()
     if context.values[f"v{b}"].is_zero:
         why = "The mass centre does not move."
     elif body.mass.is_zero:

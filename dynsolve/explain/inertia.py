@@ -11,6 +11,7 @@ from dataclasses import replace
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose, Reference
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.kinematics import product_of_axes, why_axes
@@ -29,18 +30,16 @@ from dynsolve.explain.writing import (
     side_by_side,
     spong,
 )
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    ZERO,
     Letter,
-    Negative,
     Node,
-    Number,
     Parenthesized,
     Product,
     Row,
-    Sum,
     Symbol,
     Transpose,
-    Words,
     equation,
 )
 from dynsolve.notation.walk import mapped
@@ -50,9 +49,6 @@ from dynsolve.robot.model import AxesKind, Body
 from dynsolve.robot.shapes import MASS
 
 STAGE = Stage.INERTIA
-
-CENTERS = Group("rc", "The mass centres")
-TENSORS = Group("I", "The inertia tensors")
 
 _SOURCES = {
     "box": spong("7.2.1"),
@@ -65,27 +61,37 @@ _SOURCES = {
 
 def steps(context: Context) -> Iterator[Step]:
     """Of each body: r_c, and unless it is a point, I, R and I in the base frame."""
-    bodies = context.robot.bodies
+    bodies, has_table = context.robot.bodies, context.robot.has_table
     off_origin = next((body for body in bodies if not body.center.is_zero), None)
-    framed = next(
-        (body for body in bodies if has_link_axes(body) and any(_right_frame(context, body.link))), None
-    )
-    placed = not context.robot.has_table
+    framed = next((body for body in bodies if has_link_axes(body) and _right_frame(context, body.link)), None)
     for body in bodies:
         if body.density is not None:
             yield density_step(context, body, body.density)
     for body in bodies:
-        center = center_step(context, body) if placed else mass_center_step(context, body, body is off_origin)
-        yield replace(center, group=CENTERS)
+        center = (
+            mass_center_step(context, body, body is off_origin) if has_table else center_step(context, body)
+        )
+        yield replace(center, group=Group("rc", "The mass centres"))
     for body in bodies:
         for step in _of_extent(context, body, body is framed):
-            yield replace(step, group=TENSORS)
+            yield replace(step, group=Group("I", "The inertia tensors"))
 
 
 def _of_extent(context: Context, body: Body, tells: bool) -> Iterator[Step]:
     """The inertia tensor of a body, along its axes and those of the base."""
     if body.is_point:
-        yield _point(context, body)
+        yield Step(
+            id=f"I{body.name}",
+            stage=STAGE,
+            title=f"Inertia of {name_of(body)}",
+            why=(
+                "A point mass has no extent, so its tensor about its own mass centre is zero and it has no "
+                "rotational energy.",
+            ),
+            source=spong("7.2.1"),
+            result=(equation(letters.tensor(context.robot, body), letters.bold("0")),),
+            said="point mass",
+        )
         return
     yield _tensor(context, body)
     if is_moved(body):
@@ -102,50 +108,51 @@ def is_moved(body: Body) -> bool:
     return body.about_point is not None and body.about_point != body.center
 
 
-def _point(context: Context, body: Body) -> Step:
-    tensor = letters.tensor(context.robot, body)
-    return Step(
-        id=f"I{body.name}",
-        stage=STAGE,
-        title=f"Inertia of {name_of(body)}",
-        why=(
-            "A point mass has no extent, so its tensor about its own mass centre is zero and it has no "
-            "rotational energy.",
-        ),
-        source=spong("7.2.1"),
-        result=(equation(tensor, letters.bold("0")),),
-        said="point mass",
-    )
-
-
 def _tensor(context: Context, body: Body) -> Step:
-    tensor = letters.tensor(context.robot, body)
-    assert body.inertia is not None
+    tensor: Node = letters.tensor(context.robot, body)
     about = "the mass centre"
+    assert body.inertia is not None
     if is_moved(body):
-        tensor = Letter("I", Row((letters.index_of(body.name), Words(","), Words("given"))), None, "bold")
+        tensor = formula("𝐈_({i},'given')", i=letters.index_of(body.name))
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
-    formula, working, why = _shape(context, body)
-    said = ""
+    moments, working, why, said = _shape(context, body) or _given(context, body, about)
     if body.density is not None:
-        why = (f"The moments of {name_of(body)} were found above; by symmetry there are no others.",)
-    elif body.shape is None or not body.shape.formulas:
-        axes = f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes"
-        why = (f"The tensor of {name_of(body)} is given, about {about}, along {axes}.",)
-        why = _left_out(context, body) or (*why, *_principal(context, body))
-        said = f"tensor {_entering(context, body) or _given_as(context, body)}"
+        why, said = (
+            (f"The moments of {name_of(body)} were found above; by symmetry there are no others.",),
+            "",
+        )
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in its own frame",
         why=why,
-        formula=formula,
-        source=spong("7.2.1") if formula is None or body.shape is None else _SOURCES[body.shape.kind],
+        formula=moments,
+        source=spong("7.2.1") if moments is None or body.shape is None else _SOURCES[body.shape.kind],
         working=working,
         result=(equation(tensor, context.show(body.inertia)),),
         said=said,
         uses=(),
     )
+
+
+_Told = tuple[Node | None, tuple[Node, ...], Prose, str]
+"""The formula of a tensor, what its letters are, the sentence about it, and what that tells."""
+
+
+def _given(context: Context, body: Body, about: str) -> _Told:
+    """A tensor that is given by its entries."""
+    assert body.inertia is not None
+    if entering := _entering(context, body):
+        return None, (), _left_out(context, body, entering), f"tensor {entering}"
+    zero = tuple(entry.is_zero for entry in body.inertia.entries)
+    why = say(
+        "The tensor of {name} is given, about {about}, along {axes}.{principal}",
+        name=name_of(body),
+        about=about,
+        axes=f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes",
+        principal=_principal(context, body, body.inertia),
+    )
+    return None, (), why, f"tensor {is_moved(body), _in_frame(context, body), zero}"
 
 
 def _entering(context: Context, body: Body) -> list[str]:
@@ -159,46 +166,40 @@ def _entering(context: Context, body: Body) -> list[str]:
     return [name for i, name in enumerate("xyz") if i not in still]
 
 
-def _left_out(context: Context, body: Body) -> Prose:
+def _left_out(context: Context, body: Body, entering: list[str]) -> Prose:
     """What is given of a tensor that is 0 where Rᵀ J_ω has a row of zeros: the body never turns so."""
-    turning_axes = _entering(context, body)
-    if not turning_axes:
-        return ()
-    axes = listed([_axis(context, body, name, f"its axis {name}") for name in turning_axes])
-    entries, along = "what belongs to ", "has components along these axes alone"
-    if len(turning_axes) == 1:
+    shown = [_axis(context, body, name, f"its axis {name}") for name in entering]
+    entries, along, otherwise = "what belongs to ", "has components along these axes alone", ""
+    if len(entering) == 1:
         entries, along = "the moment about ", "is parallel to that axis"
-        entries += "the axis parallel to " if isinstance(axes[0], Letter) else ""
-        if isinstance(axes[0], Letter) and not _in_frame(context, body):
-            axes += (f", the body's {turning_axes[0]}-axis,",)
-    return (
-        f"Of the tensor of {name_of(body)} about its mass centre {entries}",
-        *axes,
-        f" is given. The angular velocity {along}, so nothing else enters, and the other entries are "
-        "taken as 0.",
+        if isinstance(shown[0][0], Letter):
+            entries += "the axis parallel to "
+            otherwise = "" if _in_frame(context, body) else f", the body's {entering[0]}-axis,"
+    return say(
+        "Of the tensor of {name} about its mass centre {entries}{axes}{otherwise} is given. The angular "
+        "velocity {along}, so nothing else enters, and the other entries are taken as 0.",
+        name=name_of(body),
+        entries=entries,
+        axes=listed(shown),
+        otherwise=otherwise,
+        along=along,
     )
 
 
-def _principal(context: Context, body: Body) -> Prose:
+def _principal(context: Context, body: Body, tensor: algebra.Matrix) -> Prose:
     """That the axes of a given tensor are principal, where its products of inertia are zero."""
-    assert body.inertia is not None
-    if any(not body.inertia[i, j].is_zero for i in range(3) for j in range(3) if i != j):
+    if any(not tensor[i, j].is_zero for i in range(3) for j in range(3) if i != j):
         return ()
-    told: Prose = (" They are principal axes: there are no products of inertia.",)
-    slender = [name for i, name in enumerate("xyz") if body.inertia[i, i].is_zero]
-    if len(slender) == 1:
-        told += (
-            " The moment about ",
-            *_axis(context, body, slender[0], f"its {slender[0]}"),
-            " is taken as 0: the body is slender.",
+    slender = [name for i, name in enumerate("xyz") if tensor[i, i].is_zero]
+    return say(
+        " They are principal axes: there are no products of inertia.{slender}",
+        slender=say(
+            " The moment about {axis} is taken as 0: the body is slender.",
+            axis=_axis(context, body, slender[0], f"its {slender[0]}"),
         )
-    return told
-
-
-def _given_as(context: Context, body: Body) -> tuple[bool, bool, tuple[bool, ...]]:
-    """How a tensor is given: about which point, along which axes, which of its entries are zero."""
-    assert body.inertia is not None
-    return is_moved(body), _in_frame(context, body), tuple(entry.is_zero for entry in body.inertia.entries)
+        if len(slender) == 1
+        else (),
+    )
 
 
 def _in_frame(context: Context, body: Body) -> bool:
@@ -211,7 +212,7 @@ def _axis(context: Context, body: Body, name: str, otherwise: str) -> Prose:
     if _in_frame(context, body):
         return (Letter(name, letters.index_of(str(body.link)), style="bold"),)
     if stays_with_base(context.forms, body, "xyz".index(name)):
-        return (Letter(name, Number(0), style="bold"),)
+        return (Letter(name, ZERO, style="bold"),)
     return (otherwise,)
 
 
@@ -223,44 +224,44 @@ def stays_with_base(forms: Forms, body: Body, place: int) -> bool:
     return known and all(seen[i, place] == base[i, place] for i in range(3))
 
 
-def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...], Prose]:
-    """The formula of a uniform shape, with what its letters are here."""
+def _shape(context: Context, body: Body) -> _Told | None:
+    """The formula of a uniform shape, with what its letters are here; None of others."""
     shape = body.shape
     if shape is None or not shape.formulas:
-        return None, (), ()
+        return None
     signs: dict[Node, Node] = {Symbol(name): sign for name, sign in shape_letters(context.robot).items()}
-    formula = side_by_side([
-        equation(
-            Letter("I", Row((letters.index_of(body.name), Words(axes)))),
-            mapped(moment, lambda part: signs.get(part, part)),
+    moments = [
+        formula(
+            "I_{i}{axes} = {moment}",
+            i=letters.index_of(body.name),
+            axes=axes,
+            moment=mapped(moment, lambda part: signs.get(part, part)),
         )
         for axes, moment in shape.formulas
-    ])  # fmt: skip
-    given = [
-        equation(signs[Symbol(letter)], measured(context.show(value), "kg" if letter == MASS else "m"))
-        for letter, value in letters_of(body)
     ]
-    given = [relation for relation in given if relation.parts[0] != relation.parts[1]]
-    why: Prose = (f"{name_of(body).capitalize()} is a uniform {SHAPES[shape.kind]}",)
-    if shape.axis:
-        why += (
-            ", its own axis along ",
-            *_axis(context, body, shape.axis, f"{shape.axis} of the body's frame"),
+    values = {
+        signs[Symbol(letter)]: measured(context.show(value), "kg" if letter == MASS else "m")
+        for letter, value in letters_of(body)
+    }
+    given = [equation(sign, value) for sign, value in values.items() if sign != value]
+    why = say(
+        "{body} is a uniform {shape}{axis}. Its principal moments about the mass centre:",
+        body=name_of(body).capitalize(),
+        shape=SHAPES[shape.kind],
+        axis=say(
+            ", its own axis along {axis}",
+            axis=_axis(context, body, shape.axis, f"{shape.axis} of the body's frame"),
         )
-    why += (". Its principal moments about the mass centre:",)
-    return formula, (side_by_side(given),) if given else (), why
+        if shape.axis
+        else (),
+    )
+    return side_by_side(moments), (side_by_side(given),) if given else (), why, ""
 
 
 def _parallel_axis(context: Context, body: Body) -> Step:
-    b = body.name
-    tensor = letters.tensor(context.robot, body)
-    given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
-    d = letters.bold("d")
-    mass = context.mass(body)
-    square = Product((Transpose(d), d, letters.bold("E")))
-    shift = Product((mass, Sum((square, Negative(Product((d, Transpose(d))))))))
-    H = context.values[f"H{body.link}"]
-    relative = inertia.axes_in_link(context.robot, body, H)
+    b, tensor = body.name, letters.tensor(context.robot, body)
+    shift = formula("{m} ({square} - 𝐝 𝐝ᵀ)", m=context.mass(body), square=formula("𝐝ᵀ 𝐝 𝐄"))
+    relative = inertia.axes_in_link(context.robot, body, context.values[f"H{body.link}"])
     assert body.about_point is not None
     offset = relative.T @ (body.center - body.about_point)
     return Step(
@@ -271,10 +272,10 @@ def _parallel_axis(context: Context, body: Body) -> Step:
             "The given tensor is about another point, but the kinetic energy needs the one about the mass "
             "centre. d goes from the given point to the mass centre, in the body's axes; E is the identity.",
         ),
-        formula=equation(tensor, Sum((given, Negative(shift)))),
+        formula=formula("{I} = 𝐈_({i},'given') - {shift}", I=tensor, i=letters.index_of(b), shift=shift),
         source="parallel-axis theorem; Craig 6.3",
         working=(
-            equation(d, context.show(offset)),
+            formula("𝐝 = {d}", d=context.show(offset)),
             equation(shift, context.show(inertia.steiner(body.mass, offset))),
         ),
         result=(equation(tensor, context.form(f"I_body{b}")),),
@@ -293,22 +294,20 @@ def has_link_axes(body: Body) -> bool:
 
 
 def _rotation(context: Context, body: Body, tells: bool) -> Step:
-    rotation = letters.of_body("R", body, "bold")
-    why, formula, notes = _orientation(context, body)
+    R = letters.of_body("R", body, "bold")
+    why, product, notes = _orientation(context, body)
     is_its_links = has_link_axes(body) and body.name == str(body.link)  # R_2 is that of frame 2
     is_unneeded = _is_kept(context, body) and f"R{body.name}" not in context.wanted
-    if tells:
-        notes = tuple(_right_frame(context, body.link))
     return Step(
         id=f"R{body.name}",
         stage=STAGE,
         title=f"Orientation of {name_of(body)}",
         why=why,
-        formula=None if formula is None else equation(rotation, formula),
+        formula=None if product is None else equation(R, product),
         source=GIVEN if body.axes.kind is AxesKind.BASE else f"from {spong('7.2.1')}",
-        working=_turned_back(context, body, rotation),
-        result=(equation(rotation, context.form(f"R{body.name}")),),
-        notes=notes,
+        working=_turned_back(context, body, R),
+        result=(equation(R, context.form(f"R{body.name}")),),
+        notes=_right_frame(context, body.link) if tells else notes,
         said="axes of the link" if has_link_axes(body) else "",
         uses=(),
         detail=Detail.FULL if is_unneeded or is_its_links else Detail.NORMAL,
@@ -323,24 +322,19 @@ def _is_kept(context: Context, body: Body) -> bool:
 def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tuple[Prose, ...]]:
     """Which way the body's axes point: why, R in letters, notes."""
     robot, link = context.robot, body.link
-    frame, turned = letters.R(robot, link), context.show(body.axes.rotation)
+    frame, turned = letters.R(robot, link), Reference((f"H{link}",), " in ")
     match body.axes.kind:
         case AxesKind.LINK if has_link_axes(body):
-            why = f"The body's axes are those of frame {link}"
-            return (why, Reference((f"H{link}",), " in "), f", which is fixed in link {link}."), frame, ()
+            why = "The body's axes are those of frame {link}{turned}, which is fixed in link {link}."
+            return say(why, link=link, turned=turned), frame, ()
         case AxesKind.LINK:
             why = f"The body's axes are turned in frame {link}, as the problem gives them."
-            return (why,), Product((frame, turned)), ()
+            return (why,), Product((frame, context.show(body.axes.rotation))), ()
         case AxesKind.REST:
-            at_zero = equation(letters.Q, letters.bold("0"))
-            turning: Prose = (
-                "The body's axes are parallel to frame 0 at ",
-                at_zero,
-                " and turn with the link: its rotation",
-                Reference((f"H{link}",), " in "),
-                ", times the inverse, which is the transpose, of that at ",
-                at_zero,
-                ".",
+            turning = say(
+                "The body's axes are parallel to frame 0 at $𝐪 = 𝟎$ and turn with the link: its rotation"
+                "{turned}, times the inverse, which is the transpose, of that at $𝐪 = 𝟎$.",
+                turned=turned,
             )
             at_rest = Row((frame, Parenthesized(letters.bold("0"))))
             base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
@@ -356,50 +350,47 @@ def _turned_back(context: Context, body: Body, name: Letter) -> tuple[Node, ...]
     if body.axes.kind is not AxesKind.REST or letters.has_base(context.robot):
         return ()
     turned = context.values[f"H{body.link}"].block(0, 3, 0, 3)
-    rest = context.show(turned.map(context.robot.ring.at_rest))
-    shown = context.show(turned)
+    shown, rest = context.show(turned), context.show(turned.map(context.robot.ring.at_rest))
     return (equation(name, Product((shown, Transpose(rest)))),) if is_small(shown, rest) else ()
 
 
-def _right_frame(context: Context, link: int) -> Iterator[Prose]:
+def _right_frame(context: Context, link: int) -> tuple[Prose, ...]:
     """The frame that is easily mistaken for the link's: the one at its other end."""
     joints = context.robot.joints
-    if context.standard:
-        if link > 1 and joints[link - 1].type:
-            yield (
-                f"Frame {link} is the one to take, not frame {joints[link - 1].parent}, which is not "
-                f"fixed in link {link}.",
-            )
-    elif link < len(joints) and joints[link].type:
-        yield (
-            f"Frame {link} is the one to take: in the modified convention it is fixed in link {link}, and "
-            f"frame {link + 1} moves with the next link.",
-        )
+    take = f"Frame {link} is the one to take"
+    if context.standard and link > 1 and joints[link - 1].type:
+        other = joints[link - 1].parent
+        return ((f"{take}, not frame {other}, which is not fixed in link {link}.",),)
+    if not context.standard and link < len(joints) and joints[link].type:
+        fixed = f"in the modified convention it is fixed in link {link}"
+        return ((f"{take}: {fixed}, and frame {link + 1} moves with the next link.",),)
+    return ()
 
 
 def _base_tensor(context: Context, body: Body) -> Step:
-    name, R = letters.base_tensor(letters.index_of(body.name)), letters.of_body("R", body, "bold")
-    turning, base = turning_of(context, body, R), context.form(f"I{body.name}")
-    same = (turning.same,) if turning.same else ()
-    detail = _detail(context, body, base)
-    leads: Prose = (R, f" leads from the body's axes to those of the {context.ground}.")
-    if _is_kept(context, body):
-        leads = ()
-    if detail is Detail.FULL and leads:
-        leads += (
-            " Below the energy is worked out along the body's own axes, where the tensor is ",
-            letters.tensor(context.robot, body),
-            ".",
-        )
-    elif leads:
-        told = f" will be written in {context.ground} coordinates, so the tensor must be, too: "
-        leads = (letters.of_body("omega", body, "bold"), told, *leads)
+    b, tensor, R = body.name, letters.tensor(context.robot, body), letters.of_body("R", body, "bold")
+    name, base = letters.base_tensor(letters.index_of(b)), context.form(f"I{b}")
+    is_kept, turning = _is_kept(context, body), turning_of(context, body, R)
+    same, detail = (turning.same,) if turning.same else (), _detail(context, body, base)
+    why = "{w} will be written in {ground} coordinates, so the tensor must be, too: {leads}{turning}"
+    if is_kept:
+        why = "{turning}"
+    elif detail is Detail.FULL:
+        below = "Below the energy is worked out along the body's own axes, where the tensor is {I}."
+        why = f"{{leads}} {below}{{turning}}"
     return Step(
-        id=f"I{body.name}",
+        id=f"I{b}",
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
-        why=(*leads, *turning.why),
-        formula=equation(name, Product((R, letters.tensor(context.robot, body), Transpose(R))), *same),
+        why=say(
+            why,
+            w=letters.of_body("omega", body, "bold"),
+            ground=context.ground,
+            leads=say("{R} leads from the body's axes to those of the {ground}.", R=R, ground=context.ground),
+            I=tensor,
+            turning=turning.why,
+        ),
+        formula=equation(name, Product((R, tensor, Transpose(R))), *same),
         source=spong("7.2.1"),
         working=tuple(equation(name, line) for line in turning.lines),
         concluding=turning.concluding,
@@ -407,7 +398,7 @@ def _base_tensor(context: Context, body: Body) -> Step:
         normal=Part.WHY | Part.FORMULA if same else TOLD,
         notes=turning.notes,
         said=f"turned tensor {turning.axis}" if turning.axis else "",
-        uses=(f"I_body{body.name}",) if _is_kept(context, body) else None,
+        uses=(f"I_body{b}",) if is_kept else None,
         detail=detail,
     )
 
@@ -416,5 +407,5 @@ def _detail(context: Context, body: Body, base: Node) -> Detail:
     """Where the energy is worked out along the body's own axes, 𝓘 is shown only if it is asked for."""
     if along_own_axes(context, body) and f"I{body.name}" not in context.wanted:
         return Detail.FULL
-    is_kept = context.values[f"I{body.name}"] == context.values[f"I_body{body.name}"]
-    return Detail.BRIEF if is_small(base) and not is_kept else Detail.NORMAL
+    is_unturned = context.values[f"I{body.name}"] == context.values[f"I_body{body.name}"]
+    return Detail.BRIEF if is_small(base) and not is_unturned else Detail.NORMAL
