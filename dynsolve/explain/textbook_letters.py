@@ -1,18 +1,27 @@
 """What the letters of the textbook mean, and their units: the lines of every list of notation.
 
-To explain a further letter, add its line; a test finds the letters of reports that have none.
+To explain a further letter, add its line to a table; a test finds the letters of reports that have none.
+A line of a table is
+
+    signs | meaning | unit            𝐃, d_ij | inertia matrix | kg m^2
+    sign: words; sign: words | ...    𝐃: inertia matrix; d_ij: its entries | | kg m^2
+
+where each sign has words of its own, and the meaning follows these.  Names in braces are values; a line with
+a value that a robot does not have is left out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from dynsolve.explain.signs import CONSTANTS_OF_SOLUTIONS, MOTIONS, Kind, kind_of
 from dynsolve.explain.writing import machine, side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Function, Letter, Node, Number, Row, Sum, Symbol, Words
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import asked_stages
@@ -44,7 +53,9 @@ class Line:
             return shown[0]
         together = side_by_side(shown)
         if isinstance(shown[0], Function):  # sines, each with its cosine
-            of_sums = [sign for sign in shown if isinstance(sign, Function) and _is_of_sum(sign)]
+            of_sums = [
+                sign for sign in shown if isinstance(sign, Function) and isinstance(sign.argument, Sum)
+            ]
             pairs = (*shown[:2], Words("…"), *(of_sums or shown)[-2:])
             return together if len(shown) <= 4 else side_by_side(pairs)
         if len(shown) > 3 and not self.each and Ruler().width(together) > WIDEST:
@@ -66,7 +77,6 @@ class Line:
         return replace(self, signs=tuple(self.signs[k] for k in kept), each=each)
 
 
-_I, _J, _K = Symbol("i"), Symbol("j"), Symbol("k")
 SHAPES = {
     "m": "mass",
     "l": "length",
@@ -79,351 +89,259 @@ SHAPES = {
 }
 """The letters of the formulas of uniform shapes."""
 
-
-ENTRIES_IN_PRODUCTS = (
-    *(letters.D, letters.D_POINTS, letters.C, letters.bold("N")),
-    Letter("c", Row((_I, _J, _K))),
-)
+ENTRIES_IN_PRODUCTS = (letters.D, letters.D_POINTS, letters.C, letters.bold("N"), formula("c_ijk"))
 """What a rate multiplies for each of its indices: the unit of an entry depends on all of them."""
+
+TEXTBOOK = """
+{columns} | columns of the Denavit-Hartenberg table | rad, m, m, rad
+{motions} | rotation about, translation along an axis: 4×4 matrix
+{R_z} | rotation by an angle about an axis: 3×3 matrix
+U, V | any two quantities, in an identity
+{any_vector} | entry i of any vector
+𝐀_i | matrix of row i: frame i seen from frame i-1
+𝐇_i^{above}: frame i; 𝐑_i^{above}: orientation of frame i | , seen from {ground}
+𝐱_i: x-axis; 𝐲_i: y-axis; 𝐳_i: z-axis | of frame i
+𝐱_w, 𝐲_w, 𝐳_w | axes of the world w
+𝐨_i | origin of frame i | m
+𝐩 | any point of a body | m
+{ZERO} | zero vector or matrix
+𝐪: column of the coordinates; q_i: coordinate i | | {coordinate}
+𝐉: Jacobian of the last frame; {JV}: its linear part; {JW}: its angular part; 𝐉_i: its column i | | {jacobian}
+𝐯: velocity; 𝛚: angular velocity | of the last frame | m/s, rad/s
+{reached} | values of the task that are to be reached
+{of_points} | coordinates of a point, given where they stand | m
+{of_turns} | entries of a rotation, given where they stand
+{U} | rotation that is left for some joints
+x_('tip'), y_('tip'), z_('tip') | coordinates of the origin of the last frame | m
+{of_P} | coordinates of a named point | m
+𝐫 | task
+𝐝 | from the point of a given tensor to its mass centre | m
+{J_TASK} | Jacobian of the task; with + its pseudoinverse
+𝐖 | weights of the joint rates
+{N_SPACE} | null space of a matrix
+{R_SPACE} | range space of a matrix
+𝐩_i: position of a point; 𝐩_i^i: the same in its link's frame | | m
+𝐰, 𝐰_i | direction that is lost where the arm is singular
+{constants} | constants of a solution, given where they stand
+ψ | angle that is sought | rad
+𝐅_i | force from outside | N
+𝐌_i, M_i | moment from outside, its size | N m
+𝐐, Q_i | generalized forces of these, their entries | {force}
+𝐡: what the constraints keep at 0; {A_C}: constraint matrix; 𝛌: multipliers
+{Z}: rates that the constraints leave free; 𝛎: their sizes
+Δ_k | leading minor k of a matrix: the determinant of its first k rows
+{TAU_STATIC} | forces and torques that hold the arm at rest | {force}
+m_i | mass of body i | kg
+𝐫_ci | mass centre of body i | m
+𝐫_ci^{frame} | mass centre of body i, {its} | m
+{lever} | mass centre of body i from the near end of its link, in the link's frame | m
+{tensors} | inertia tensor of body i about its mass centre, along the body's axes{raised} | kg m^2
+𝓘_i | inertia tensor of body i, along the axes of {ground} | kg m^2
+𝐑_i | axes of body i, seen from {ground}
+𝐑_(i,j) | turn j of body i
+{principal} | principal moments of body i, a uniform shape | kg m^2
+x | place along a body, from its near end | m
+{RHO} | density of a body at the place x
+x_ci | place of the mass centre along body i | m
+{about_near} | moment of inertia across body i about its near end | kg m^2
+{about_c} | moment of inertia across body i about its mass centre | kg m^2
+{about_axis} | moment of inertia of body i about its axis | kg m^2
+𝐄 | identity matrix
+g | acceleration of gravity | m/s^2
+𝐠_0 | acceleration of gravity, a vector that points down | m/s^2
+η_i | height of the mass centre of body i | m
+"""
+"""The lines before the dynamics: what is seen, asked for, and given of the bodies."""
+
+RECURSIONS = """
+𝐳_{turning}^i | axis of joint i, in frame i
+𝐫_(i-1,i)^i: origin of frame i; {LEVER}: mass centre of body i | , from the origin of frame i-1 | m
+𝐠_0^i | acceleration of gravity, in frame i | m/s^2
+𝛚_i^i: angular velocity; 𝛚̇_i^i: angular acceleration | of link i, in frame i
+𝐚_i^i: origin of frame i; 𝐚_ci^i: mass centre of body i | : its acceleration, in frame i | m/s^2
+𝐈_ci^i | inertia tensor of body i about its mass centre, in frame i | kg m^2
+𝐟_i^i: force; 𝐧_i^i: moment | with which link i-1 holds link i, in frame i
+"""
+"""What the Newton-Euler recursions carry from link to link."""
+
+DYNAMICS = """
+𝐉_v_i: linear part; 𝐉_ω_i: angular part | of the Jacobian of {moving} | {jacobian}
+{of_point} | of a point: the same along the axes of frame k
+{body_v}: velocity of the mass centre; 𝛚_i: angular velocity | of body i{or_point} | m/s, rad/s
+{point_v} | velocity of a point | m/s
+K_i: kinetic energy; K_v_i: its part of translation; K_ω_i: its part of rotation; \
+P_i: potential energy | of body i | J
+𝒦: kinetic energy; 𝒫: potential energy; ℒ: Lagrangian | of the {machine} | J
+{forces} | generalized force i{what_force} | {force}
+𝛕 | column of the generalized forces | {force}
+𝒦_('given'), 𝒫_('given') | energies that the problem gives | J
+{PS} | potential energy of the springs | J
+{KM} | kinetic energy of the rotors | J
+I_m_i: moment of inertia; k_r_i: ratio of the gear | of the rotor of motor i
+𝛚_('link'), {w_link} | angular velocity of the link that carries a motor
+{DM} | what the rotors add to the inertia matrix
+𝐧_mi | moment that the rotor of motor i takes from its link | N m
+{DISSIPATION} | Rayleigh's dissipation function | W
+f_ck | coefficient of Coulomb friction of coordinate k
+{FRICTION}: column of the friction; τ_fk: its entries
+𝐃: inertia matrix; d_ij: its entries | | {inertia}
+{D_POINTS} | inertia matrix of the masses alone, as points | {inertia}
+c_ijk | Christoffel symbol: always with three indices | {inertia}
+𝐂: matrix of the Coriolis and centrifugal terms; c_kj: its entries | | {rate}
+𝐠: column of the gravity terms; g_k: its entries | | {force}
+{references} | reference of the coordinates, of which there are rates
+{regressors} | regressor: the factor of the parameters in the forces, in a part of them
+{LINEAR_A}: matrix of the state; {LINEAR_B}: matrix of the inputs | of the motion near the equilibrium
+𝐪_('e') | the equilibrium
+{STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
+𝐅: factors of the rates in the friction; 𝐒: selects the inputs
+𝚲 | inertia matrix of the task
+{parameters} | column of the parameters in these
+𝐍: skew-symmetric matrix; n_ij: its entries | | {rate}
+"""
+"""The lines of the energies, the forces and the equations of motion."""
+
+_ALSO: dict[Node, Kind] = {letters.J_TASK: ("J", "bold", "r^"), letters.Q_FORCES: ("Q", "bold", "F#")}
+"""The kinds that a sign explains beside its own."""
+
+Value = str | Node | tuple[Node, ...] | None
 
 
 def textbook(robot: Robot, style: Style) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation."""
-    ground = "the world w" if letters.has_base(robot) else "frame 0" if robot.has_table else "the world"
-    yield from _kinematics(robot, ground)
-    yield from _questions(robot)
-    yield from _bodies(robot, ground)
+    values = {**_OF_ANY_ROBOT, **_asked(robot), **_of_robot(robot), **_of_forces(robot, style)}
+    tables = [TEXTBOOK, DYNAMICS]
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
-        yield from _recursions(robot)
-    yield from _dynamics(robot, style)
+        tables.insert(1, RECURSIONS)
+    for row in "".join(tables).split("\n"):
+        if row and all(values[name] is not None for name in re.findall(r"\{(\w+)\}", row)):
+            yield _line(row, values)
 
 
-def _is_of_sum(sign: Function) -> bool:
-    return isinstance(sign.argument, Sum)
-
-
-def _line(sign: Node | Sequence[Node], meaning: str, unit: str = "", *kinds: Kind) -> Line:
-    """A line; `kinds` are those that it explains beside the kinds of its signs."""
-    signs = (sign,) if isinstance(sign, Node) else tuple(sign)
-    return Line(signs, meaning, unit, frozenset((*_kinds(signs), *kinds)))
-
-
-def _each(told: Sequence[tuple[Node, str]], rest: str = "", unit: str = "") -> Line:
-    """A line of signs with words of their own, and what follows these."""
-    signs = tuple(sign for sign, _ in told)
-    return Line(signs, rest, unit, frozenset(_kinds(signs)), tuple(words for _, words in told))
-
-
-def _kinds(signs: Iterable[Node]) -> Iterator[Kind]:
-    return (kind for sign in signs if (kind := kind_of(sign, PLAIN)))
-
-
-def _kinematics(robot: Robot, ground: str) -> Iterator[Line]:
-    above = letters.H(robot, 0).sup
-    columns = letters.columns(robot, _I)
-    yield _line(columns, "columns of the Denavit-Hartenberg table", "rad, m, m, rad")
-    yield _line(
-        [Letter(name, style="upright") for name in MOTIONS],
-        "rotation about, translation along an axis: 4×4 matrix",
+def _line(row: str, values: Mapping[str, Value]) -> Line:
+    """A row of a table, its values put in."""
+    left, meaning, unit = (cell.strip() for cell in f"{row}||".split("|")[:3])
+    told = [part.split(": ") for part in left.split("; ")] if ": " in left else []
+    signs = values.get(left.strip("{}"))
+    if not isinstance(signs, tuple):
+        nodes = {name: value for name, value in values.items() if isinstance(value, Node)}
+        signs = tuple(formula(sign, **nodes) for sign, _ in told or ((sign, "") for sign in left.split(", ")))
+    kinds = {kind for sign in signs if (kind := kind_of(sign, PLAIN))}
+    kinds |= {_ALSO[sign] for sign in signs if sign in _ALSO}
+    rest = f" {meaning}" if told and meaning[:1].isalpha() else meaning
+    return Line(
+        signs,
+        rest.format_map(values),
+        unit.format_map(values),
+        frozenset(kinds),
+        tuple(words for _, words in told),
     )
-    about_z = Letter("R", Row((Words("z"), Words(","), Row((Symbol("theta"),)))), style="bold")
-    yield _line(about_z, "rotation by an angle about an axis: 3×3 matrix")
-    yield _line([Symbol("U"), Symbol("V")], "any two quantities, in an identity")
-    yield _line(letters.any_vector(robot, _I), "entry i of any vector")
-    yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
-    frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
-    yield _each([(frame, "frame i"), (turned, "orientation of frame i")], f", seen from {ground}")
-    yield _each([(_numbered(axis), f"{axis}-axis") for axis in "xyz"], " of frame i")
-    yield _line([letters.bold(axis, Words("w")) for axis in "xyz"], "axes of the world w")
-    yield _line(_numbered("o"), "origin of frame i", "m")
-    yield _line(letters.ANY_POINT, "any point of a body", "m")
-    yield _line(letters.bold("0"), "zero vector or matrix")
-    coordinates = [(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")]
-    yield _each(coordinates, "", of_entries(robot, "rad", "m"))
-    jacobians = [
-        (letters.J, "Jacobian of the last frame"), (letters.JV, "its linear part"),
-        (letters.JW, "its angular part"), (_numbered("J"), "its column i"),
-    ]  # fmt: skip
-    yield _each(jacobians, "", of_jacobian(robot))
-    velocities = [(letters.bold("v"), "velocity"), (letters.bold("omega"), "angular velocity")]
-    yield _each(velocities, " of the last frame", "m/s, rad/s")
 
 
-def _questions(robot: Robot) -> Iterator[Line]:
-    """What an exercise asks for beside the dynamics: a task, its inverse, forces from outside."""
-    reached = tuple(name for name in robot.questions.reached if name not in robot.parameters)
-    if reached:
-        kinds = (("", "name", name) for name in reached)
-        yield _line(tuple(map(Symbol, reached)), "values of the task that are to be reached", "", *kinds)
-    if robot.questions.task is not None and robot.questions.task.is_pose:
-        yield from _pose(robot)
-    tip = [Letter(axis, Words("tip")) for axis in "xyz"]
-    yield _line(tip, "coordinates of the origin of the last frame", "m")
-    if robot.questions.points:
-        yield _line([_entry(axis, Symbol("P")) for axis in "xyz"], "coordinates of a named point", "m")
-    yield _line(letters.TASK, "task")
-    yield _line(letters.bold("d"), "from the point of a given tensor to its mass centre", "m")
-    yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
-    yield _line(letters.WEIGHTS, "weights of the joint rates")
-    yield _line(Letter("N", style="script"), "null space of a matrix")
-    if "rangespace" in robot.questions.asked:  # else a dissipation function has this letter
-        yield _line(Letter("R", style="script"), "range space of a matrix")
-    at = [
-        (_numbered("p"), "position of a point"),
-        (Letter("p", _I, _I, "bold"), "the same in its link's frame"),
-    ]
-    yield _each(at, "", "m")
-    yield _line([letters.bold("w"), _numbered("w")], "direction that is lost where the arm is singular")
-    yield _line(
-        [Letter(name) for name in CONSTANTS_OF_SOLUTIONS], "constants of a solution, given where they stand"
+def _names(names: Iterable[str]) -> tuple[Node, ...] | None:
+    """Names as signs; None where there are none."""
+    return tuple(map(Symbol, names)) or None
+
+
+def _about(place: str) -> tuple[Node, ...]:
+    """The moments of inertia of a body with a density, about its near end, its mass centre or its axis."""
+    axes = ((), *((Words(2 * axis), Words(",")) for axis in "xyz"))
+    return tuple(Letter("I", Row((Symbol("i"), Words(","), *axis, Words(place)))) for axis in axes)
+
+
+_LEVER = formula("𝐫_(i-1,{center})^i", center=Row((Words("c"), Symbol("i"))))
+
+_OF_ANY_ROBOT: dict[str, Value] = {
+    **{name: value for name, value in vars(letters).items() if isinstance(value, Node)},
+    "motions": tuple(Letter(name, style="upright") for name in MOTIONS),
+    "R_z": Letter("R", Row((Words("z"), Words(","), Row((Symbol("theta"),)))), style="bold"),
+    "ZERO": letters.bold("0"),
+    "N_SPACE": Letter("N", style="script"),
+    "constants": tuple(map(Letter, CONSTANTS_OF_SOLUTIONS)),
+    "principal": tuple(Letter("I", Row((Symbol("i"), Words(2 * axis)))) for axis in "xyz"),
+    "RHO": Letter("rho"),
+    **{f"about_{place}": _about(place) for place in ("near", "c", "axis")},
+    "LEVER": _LEVER,
+    "w_link": letters.bold("omega", Row((Words("link"), Symbol("i")))),
+    "regressors": (letters.REGRESSOR, *(letters.of_part("Y", part) for part in "Mgr")),
+    "parameters": (letters.PARAMETERS, *(letters.of_part("a", part) for part in "Mg")),
+}
+"""The signs that no text gives, by their names in the tables."""
+
+
+def _asked(robot: Robot) -> dict[str, Value]:
+    """What an exercise asks for beside the dynamics: a task, its inverse, points, constraints."""
+    asked = robot.questions
+    reached = [name for name in asked.reached if name not in robot.parameters]
+    found: dict[str, Value] = {
+        "reached": _names(reached),
+        **dict.fromkeys(("of_points", "of_turns", "U")),
+        "of_P": tuple(formula(f"{axis}_(P)") for axis in "xyz") if asked.points else None,
+        # else a dissipation function has this letter
+        "R_SPACE": letters.DISSIPATION if "rangespace" in asked.asked else None,
+        "Z": letters.bold("Z") if asked.constraints else None,
+    }
+    if asked.task is not None and asked.task.is_pose:
+        from dynsolve.derivation.inverse.names import Names
+
+        names = Names.beside({*robot.ring.names, *robot.ring.parameters, *asked.reached})
+        found |= {"of_points": _names(names.of_points), "of_turns": _names(names.of_turns)}
+        found["U"] = letters.bold("U")
+    return found
+
+
+def _of_robot(robot: Robot) -> dict[str, Value]:
+    """The signs and words that depend on the robot and its bodies."""
+    ring, points, bodies = robot.ring, robot.questions.points, robot.bodies
+    by_links = all(body.name in ("", str(body.link)) or not body.name.isdigit() for body in bodies)
+    is_standard = robot.convention is Convention.STANDARD
+    raised = dict.fromkeys(letters.tensor(robot, body).sup for body in bodies) or (None,)
+    what = [*(["the mass centre of body i"] if bodies else []), *(["a point"] if points else [])]
+    has_axes = any(point.axes is not None for point in points)
+    carried = Stage.NEWTON_EULER in asked_stages(robot.questions)
+    return {
+        "ground": "the world w" if letters.has_base(robot) else "frame 0" if robot.has_table else "the world",
+        "above": letters.H(robot, 0).sup,
+        "columns": letters.columns(robot, Symbol("i")),
+        "any_vector": letters.any_vector(robot, Symbol("i")),
+        "frame": Symbol("i" if by_links else "j"),
+        "its": "in its link's frame" if by_links else "in the frame of its link j",
+        "lever": None if carried else _LEVER,  # the recursions tell it with their other levers
+        "tensors": tuple(letters.bold("I", Symbol("i"), sup) for sup in raised),
+        "raised": " (b)" * any(raised),
+        "turning": letters.BEFORE if is_standard else Symbol("i"),
+        "moving": " or ".join(what),
+        "of_point": (*map(formula, ("𝐉_v_i^k", "𝐉_ω_i^k", "𝐯_i^k")),) if has_axes else None,
+        "body_v": formula("𝐯_i") if bodies else None,
+        "or_point": " or of a point" if points else "",
+        "point_v": None if bodies else formula("𝐯_i"),
+        "machine": machine(robot),
+        "references": (letters.bold("q", Symbol("r")), *map(Symbol, ring.plan.references)),
+    }
+
+
+def _of_forces(robot: Robot, style: Style) -> dict[str, Value]:
+    """The units of what has an entry for each coordinate; τ_i of any, and f_i where it is a length."""
+    has_turning, has_sliding = (
+        any(q.type is kind for q in robot.coordinates) for kind in (JointType.REVOLUTE, JointType.PRISMATIC)
     )
-    yield _line(Symbol("psi"), "angle that is sought", "rad", ("", "name", "psi"))
-    yield _line(_numbered("F"), "force from outside", "N")
-    yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
-    of_forces = [letters.Q_FORCES, Letter("Q", _I)]
-    forces = of_entries(robot, "N m", "N")
-    yield _line(of_forces, "generalized forces of these, their entries", forces, ("Q", "bold", "F#"))
-    held = [(letters.H_C, "what the constraints keep at 0"), (letters.A_C, "constraint matrix"),
-            (letters.LAMBDA, "multipliers")]  # fmt: skip
-    yield _each(held)
-    free = [(letters.bold("Z"), "rates that the constraints leave free"), (letters.bold("nu"), "their sizes")]
-    if robot.questions.constraints:
-        yield _each(free)
-    yield _line(Letter("Delta", _K), "leading minor k of a matrix: the determinant of its first k rows")
-    yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest", forces)
 
+    def unit(turning: str, sliding: str, both: str = "") -> str:
+        if has_turning and has_sliding:
+            return both or f"{turning} or {sliding}"
+        return turning if has_turning else sliding
 
-def _pose(robot: Robot) -> Iterator[Line]:
-    """The names that are given on the way to a pose."""
-    from dynsolve.derivation.inverse.names import Names
-
-    names = Names.beside({*robot.ring.names, *robot.ring.parameters, *robot.questions.reached})
-    for told, meaning, unit in (
-        (names.of_points, "coordinates of a point, given where they stand", "m"),
-        (names.of_turns, "entries of a rotation, given where they stand", ""),
-    ):
-        yield _line(tuple(map(Symbol, told)), meaning, unit, *(("", "name", name) for name in told))
-    yield _line(letters.bold("U"), "rotation that is left for some joints")
-
-
-def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
-    center = Row((Words("c"), _I))
-    yield _line(_body("m"), "mass of body i", "kg")
-    yield _line(Letter("r", center, None, "bold"), "mass centre of body i", "m")
-    by_links = all(body.name in ("", str(body.link)) or not body.name.isdigit() for body in robot.bodies)
-    frame, its = (_I, "in its link's frame") if by_links else (_J, "in the frame of its link j")
-    yield _line(Letter("r", center, frame, "bold"), f"mass centre of body i, {its}", "m")
-    if Stage.NEWTON_EULER not in asked_stages(
-        robot.questions
-    ):  # the recursions tell it with their other levers
-        lever = letters.bold("r", Row((letters.BEFORE, Words(","), center)), _I)
-        yield _line(lever, "mass centre of body i from the near end of its link, in the link's frame", "m")
-    own = _own_tensors(robot)
-    raised = " (b)" * any(isinstance(letter, Letter) and letter.sup is not None for letter in own)
-    yield _line(
-        own, f"inertia tensor of body i about its mass centre, along the body's axes{raised}", "kg m^2"
-    )
-    yield _line(letters.base_tensor(_I), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
-    yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
-    yield _line(Letter("R", Row((_I, Words(","), _J)), None, "bold"), "turn j of body i")
-    moments = [Letter("I", Row((_I, Words(axes)))) for axes in ("xx", "yy", "zz")]
-    yield _line(moments, "principal moments of body i, a uniform shape", "kg m^2")
-    yield from _by_integration()
-    yield _line(letters.bold("E"), "identity matrix")
-    yield _line(Symbol("g"), "acceleration of gravity", "m/s^2")
-    yield _line(letters.GRAVITY, "acceleration of gravity, a vector that points down", "m/s^2")
-    yield _line(letters.height(_I), "height of the mass centre of body i", "m")
-
-
-def _by_integration() -> Iterator[Line]:
-    """What a body with a density is integrated in."""
-    yield _line(Symbol("x"), "place along a body, from its near end", "m")
-    yield _line(Letter("rho"), "density of a body at the place x")
-    yield _line(Letter("x", Row((Words("c"), _I))), "place of the mass centre along body i", "m")
-    places = (
-        ("near", "across body i about its near end"),
-        ("c", "across body i about its mass centre"),
-        ("axis", "of body i about its axis"),
-    )
-    for place, told in places:
-        signs = [
-            Letter("I", Row((_I, Words(","), *axes, Words(place))))
-            for axes in ((), *((Words(2 * axis), Words(",")) for axis in "xyz"))
-        ]
-        yield _line(signs, f"moment of inertia {told}", "kg m^2")
-
-
-def _own_tensors(robot: Robot) -> list[Node]:
-    """I_i, and I_i^b where the problem calls something else I_1."""
-    tensors = (letters.tensor(robot, body) for body in robot.bodies)
-    raised = dict.fromkeys(tensor.sup for tensor in tensors)
-    return [Letter("I", _I, sup, "bold") for sup in raised] or [_numbered("I")]
-
-
-def _recursions(robot: Robot) -> Iterator[Line]:
-    """What the Newton-Euler recursions carry from link to link."""
-    before, own = letters.BEFORE, Row((Words("c"), _I))
-    first = before if robot.convention is Convention.STANDARD else _I
-    yield _line(letters.bold("z", first, _I), "axis of joint i, in frame i")
-    levers = [
-        (letters.bold("r", Row((before, Words(","), _I)), _I), "origin of frame i"),
-        (letters.bold("r", Row((before, Words(","), own)), _I), "mass centre of body i"),
-    ]
-    yield _each(levers, ", from the origin of frame i-1", "m")
-    yield _line(letters.bold("g", Number(0), _I), "acceleration of gravity, in frame i", "m/s^2")
-    turning = [
-        (letters.bold("omega", _I, _I), "angular velocity"),
-        (letters.bold("omega", _I, _I, 1), "angular acceleration"),
-    ]
-    yield _each(turning, " of link i, in frame i")
-    points = [
-        (letters.bold("a", _I, _I), "origin of frame i"),
-        (letters.bold("a", own, _I), "mass centre of body i"),
-    ]
-    yield _each(points, ": its acceleration, in frame i", "m/s^2")
-    yield _line(
-        letters.bold("I", own, _I), "inertia tensor of body i about its mass centre, in frame i", "kg m^2"
-    )
-    held = [(letters.bold("f", _I, _I), "force"), (letters.bold("n", _I, _I), "moment")]
-    yield _each(held, " with which link i-1 holds link i, in frame i")
-
-
-def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
-    yield from _motions(robot)
-    energies = [
-        (_body("K"), "kinetic energy"), (_sub("K", "v"), "its part of translation"),
-        (_sub("K", "omega"), "its part of rotation"), (_body("P"), "potential energy"),
-    ]  # fmt: skip
-    yield _each(energies, " of body i", "J")
-    totals = [(letters.K, "kinetic energy"), (letters.P, "potential energy"), (letters.L, "Lagrangian")]
-    yield _each(totals, f" of the {machine(robot)}", "J")
-    yield from _forces(robot, style)
-    yield from _actions()
-    inertia, rate = (
-        of_entries(robot, "kg m^2", "kg", "kg m^2"),
-        of_entries(robot, "kg m^2/s", "kg/s", "kg m^2/s"),
-    )
-    yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")], "", inertia)
-    yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points", inertia)
-    yield _line(_entry("c", _I, _J, _K), "Christoffel symbol: always with three indices", inertia)
-    coriolis = letters.C, "matrix of the Coriolis and centrifugal terms"
-    yield _each([coriolis, (_entry("c", _K, _J), "its entries")], "", rate)
-    gravity = letters.G, "column of the gravity terms"
-    yield _each([gravity, (_entry("g", _K), "its entries")], "", of_entries(robot, "N m", "N"))
-    yield from _linear(robot)
-    skew = letters.bold("N"), "skew-symmetric matrix"
-    yield _each([skew, (_entry("n", _I, _J), "its entries")], "", rate)
-
-
-def _motions(robot: Robot) -> Iterator[Line]:
-    """How mass centres and named points move; these have the same letters, with their names as indices."""
-    points = robot.questions.points
-    what = [
-        *(["the mass centre of body i"] if robot.bodies else []),
-        *(["a point"] if points else []),
-    ]
-    of = f" of the Jacobian of {' or '.join(what)}"
-    parts = [(_sub("J", "v"), "linear part"), (_sub("J", "omega"), "angular part")]
-    yield _each(parts, of, of_jacobian(robot))
-    if any(point.axes is not None for point in points):
-        turned = [_sub("J", "v", _K), _sub("J", "omega", _K), letters.bold("v", _I, _K)]
-        yield _line(turned, "of a point: the same along the axes of frame k")
-    if robot.bodies:
-        moving = [(_numbered("v"), "velocity of the mass centre"), (_numbered("omega"), "angular velocity")]
-        yield _each(moving, f" of body i{' or of a point' if points else ''}", "m/s, rad/s")
-    else:
-        yield _line(_numbered("v"), "velocity of a point", "m/s")
-
-
-def _forces(robot: Robot, style: Style) -> Iterator[Line]:
-    """τ_i of any coordinate, and f_i, which stands in its place where the coordinate is a length."""
-    kinds = {q.type for q in robot.coordinates}
-    torque, force = _body("tau"), _body("f")
-    turning, sliding = (
-        ("at a revolute joint", "at a prismatic one")
-        if robot.has_table
-        else ("where coordinate i is an angle", "where it is a length")
-    )
+    torque, force = formula("τ_i"), formula("f_i")
+    turning, sliding = "where coordinate i is an angle", "where it is a length"
+    if robot.has_table:
+        turning, sliding = "at a revolute joint", "at a prismatic one"
     written = UnicodePrinter(style).text(force)
-    if kinds == {JointType.REVOLUTE}:
-        yield _line(torque, "generalized force i, a torque", "N m")
-    elif kinds == {JointType.PRISMATIC}:
-        yield _line([torque, force], "generalized force i, a force", "N")
-    else:
-        meaning = f"generalized force i: a torque {turning}, a force ({written}) {sliding}"
-        yield _line([torque, force], meaning, "N m or N")
-    yield _line(letters.TAU, "column of the generalized forces", of_entries(robot, "N m", "N"))
-
-
-def of_entries(robot: Robot, turning: str, sliding: str, both: str = "") -> str:
-    """The unit of the entries of a matrix: that of angles or of lengths, or of `both`."""
-    kinds = {q.type for q in robot.coordinates}
-    if len(kinds) > 1:
-        return both or f"{turning} or {sliding}"
-    return turning if JointType.REVOLUTE in kinds else sliding
-
-
-def of_jacobian(robot: Robot) -> str:
-    """The units of a Jacobian's entries: of velocities by rates."""
-    return "m or 1" if any(q.type is JointType.REVOLUTE for q in robot.coordinates) else "1"
-
-
-def _actions() -> Iterator[Line]:
-    """What acts beside gravity."""
-    given = [Letter(energy.base, Words("given"), None, "script") for energy in (letters.K, letters.P)]
-    yield _line(given, "energies that the problem gives", "J")
-    yield _line(letters.PS, "potential energy of the springs", "J")
-    yield _line(letters.KM, "kinetic energy of the rotors", "J")
-    motor = [(_sub("I", "m"), "moment of inertia"), (_sub("k", "r"), "ratio of the gear")]
-    yield _each(motor, " of the rotor of motor i")
-    spin = letters.bold("omega", Words("link")), letters.bold("omega", Row((Words("link"), _I)))
-    yield _line(spin, "angular velocity of the link that carries a motor")
-    yield _line(letters.DM, "what the rotors add to the inertia matrix")
-    rotor = letters.bold("n", Row((Words("m"), _I)))
-    yield _line(rotor, "moment that the rotor of motor i takes from its link", "N m")
-    yield _line(letters.DISSIPATION, "Rayleigh's dissipation function", "W")
-    coulomb = Letter("f", Row((Words("c"), _K)))
-    yield _line(coulomb, "coefficient of Coulomb friction of coordinate k")
-    entry = Letter("tau", Row((Words("f"), _K)))
-    yield _each([(letters.FRICTION, "column of the friction"), (entry, "its entries")])
-
-
-def _linear(robot: Robot) -> Iterator[Line]:
-    """The letters of the equations of motion, linear in the parameters."""
-    parts = [(part, (letters.of_part("Y", part), letters.of_part("a", part))) for part in ("M", "g")]
-    signs = [letters.REGRESSOR, *(Y for _, (Y, _) in parts), letters.of_part("Y", "r")]
-    yield _line(
-        [letters.bold("q", Symbol("r")), *map(Symbol, robot.ring.plan.references)],
-        "reference of the coordinates, of which there are rates",
-    )
-    yield _line(signs, "regressor: the factor of the parameters in the forces, in a part of them")
-    near = [(letters.LINEAR_A, "matrix of the state"), (letters.LINEAR_B, "matrix of the inputs")]
-    yield _each(near, " of the motion near the equilibrium")
-    yield _line(letters.bold("q", Words("e")), "the equilibrium")
-    yield _line(letters.STEADY_ENERGY, "potential energy less the kinetic energy of a steady motion", "J")
-    yield _each(
-        [
-            (letters.bold("F"), "factors of the rates in the friction"),
-            (letters.bold("S"), "selects the inputs"),
-        ]
-    )
-    yield _line(letters.TASK_INERTIA, "inertia matrix of the task")
-    yield _line([letters.PARAMETERS, *(a for _, (_, a) in parts)], "column of the parameters in these")
-
-
-def _numbered(base: str) -> Letter:
-    """z_i, bold"""
-    return Letter(base, _I, None, "bold")
-
-
-def _body(base: str) -> Letter:
-    return Letter(base, _I)
-
-
-def _entry(base: str, *indices: Node) -> Letter:
-    return Letter(base, Row(indices) if len(indices) > 1 else indices[0])
-
-
-def _sub(base: str, part: str, sup: Node | None = None) -> Letter:
-    """J_{v_i}, K_{v_i}; J_{v_i}^k"""
-    return Letter(base, Letter(part, _I), sup, "bold" if base == "J" else "italic")
+    return {
+        "coordinate": unit("rad", "m"),
+        "jacobian": "m or 1" if has_turning else "1",
+        "force": unit("N m", "N"),
+        "inertia": unit("kg m^2", "kg", "kg m^2"),
+        "rate": unit("kg m^2/s", "kg/s", "kg m^2/s"),
+        "forces": (torque, force) if has_sliding else (torque,),
+        "what_force": unit(", a torque", ", a force", f": a torque {turning}, a force ({written}) {sliding}"),
+    }
