@@ -9,16 +9,17 @@ a later one finds is shown: a step whose reason tells something of its result ha
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Prose, Table, Text
+from dynsolve.document.sentences import Value, say
 from dynsolve.errors import UsageError
 from dynsolve.explain import explain
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import and_joined, by_itself, is_small, listed
-from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Sum, Symbol, equation
+from dynsolve.notation.tree import Node, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import kinematic_families, letters
 from dynsolve.quantities.index import quantities
@@ -68,17 +69,11 @@ def _why_absent(context: Context, stage: Stage) -> str:
 
 
 def _given(context: Context, stage: Stage) -> Iterator[Block]:
-    if stage is Stage.FRAMES:
-        yield Text(("You have the joint axes as they are drawn:",))
-        drawn = next(step.table for step in explain(context, [stage]) if step.table)
-        yield Table(drawn.header, drawn.rows)
-        return
-    if stage is Stage.KINEMATICS:
-        yield Text(("You have the Denavit-Hartenberg table:",))
-        table = next(step.table for step in explain(context, [Stage.KINEMATICS]) if step.table)
+    yield Text((_at_hand(context, stage),))
+    if stage in (Stage.FRAMES, Stage.KINEMATICS):
+        table = next(step.table for step in explain(context, [stage]) if step.table)
         yield Table(table.header, table.rows)
         return
-    yield Text((_at_hand(context, stage),))
     long: list[Node] = []
     for letter, name in _inputs(context, stage):
         form = context.form(name)
@@ -95,15 +90,16 @@ def _at_hand(context: Context, stage: Stage) -> str:
     if not context.robot.has_table:
         if stage is Stage.INERTIA:
             return "You have what the problem says of each body: where it is, and how it turns."
+        if stage is Stage.ENERGY and context.robot.given is not None:
+            return "You have what the problem gives."
         if stage is Stage.ENERGY:
-            given = context.robot.given is not None
-            return "You have what the problem gives." if given else _OF_PLACED_BODIES
+            return "You have of each body the position of its mass centre, and its tensor:"
     return _AT_HAND[stage]
 
 
-_OF_PLACED_BODIES = "You have of each body the position of its mass centre, and its tensor:"
-
 _AT_HAND = {
+    Stage.FRAMES: "You have the joint axes as they are drawn:",
+    Stage.KINEMATICS: "You have the Denavit-Hartenberg table:",
     Stage.JACOBIAN: "You have the frames of the forward kinematics:",
     Stage.TASK: "You have the frames of the forward kinematics:",
     Stage.SINGULAR: "You have the Jacobian of the task:",
@@ -127,52 +123,53 @@ _AT_HAND = {
 }
 
 
-def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
+def _inputs(context: Context, stage: Stage) -> Iterable[tuple[Node, str]]:
     """The results that the stage starts from, by letter and name."""
-    robot = context.robot
-    if stage in (Stage.JACOBIAN, Stage.TASK, Stage.INERTIA):
-        yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)
-    elif stage is Stage.SINGULAR:
-        yield letters.J_TASK, "Jr"
-    elif stage is Stage.INVERSE:
-        last = len(robot.joints)
-        is_pose = robot.questions.task is not None and robot.questions.task.is_pose
-        yield (letters.H(robot, last), f"H{last}") if is_pose else (letters.TASK, "r")
-    elif stage is Stage.RATES:
-        given = (kinematic_families.JR, kinematic_families.JR_DOT)
-        for quantity in quantities(robot).values():
-            if quantity.family in given and quantity.name in context.wanted:
-                yield quantity.letter(robot), quantity.name
-    elif stage is Stage.ENERGY:
-        for body in robot.bodies:
-            yield letters.rc(body), f"rc{body.name}"
-            if not body.is_point:
-                yield letters.base_tensor(letters.index_of(body.name)), f"I{body.name}"
-    elif stage is Stage.LAGRANGIAN:
-        yield from ((letters.K, "K"), (letters.P, "P"))
-    elif stage is Stage.TORQUE:
-        yield letters.L, "L"
-    elif stage is Stage.NEWTON_EULER:
-        yield from ((letters.A(joint.index), f"A{joint.index}") for joint in robot.joints)
-    elif stage is Stage.CONSTRAINTS:
-        yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints[-1:])
-        if not context.wanted.isdisjoint(("lambda", "reduced")):
-            yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
-    elif stage is Stage.EQUILIBRIA:
-        is_linear = not context.wanted.isdisjoint(("linear_A", "linear_B"))
-        is_moving = bool(robot.questions.model.steady)
-        yield from ((letters.D, "D"),) if is_linear or is_moving else ()
-        yield from ((letters.C, "C"),) if is_moving else ()
-        yield letters.G, "g"
-    elif stage is Stage.FORWARD_DYNAMICS:
-        yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
-    elif stage is Stage.TASK_INERTIA:
-        yield from ((letters.J_TASK, "Jr"), (letters.D, "D"))
-    elif stage is Stage.STATICS:
-        yield from ((letters.JV, "Jv"), (letters.JW, "Jw"))
-        yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)
-    elif stage in (Stage.VECTORIZED, Stage.PARAMETERS):
-        yield from ((letters.force(q), f"tau{q.index}") for q in robot.coordinates)
+    robot, asked, wanted = context.robot, context.robot.questions, context.wanted
+    D, C, g, task = (letters.D, "D"), (letters.C, "C"), (letters.G, "g"), (letters.J_TASK, "Jr")
+    frames = [(letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints]
+    match stage:
+        case Stage.JACOBIAN | Stage.TASK | Stage.INERTIA:
+            return frames
+        case Stage.SINGULAR:
+            return [task]
+        case Stage.INVERSE:
+            return frames[-1:] if asked.task is not None and asked.task.is_pose else [(letters.TASK, "r")]
+        case Stage.RATES:
+            given = (kinematic_families.JR, kinematic_families.JR_DOT)
+            found = (one for one in quantities(robot).values() if one.family in given and one.name in wanted)
+            return [(quantity.letter(robot), quantity.name) for quantity in found]
+        case Stage.ENERGY:
+            return _of_bodies(robot)
+        case Stage.LAGRANGIAN:
+            return [(letters.K, "K"), (letters.P, "P")]
+        case Stage.TORQUE:
+            return [(letters.L, "L")]
+        case Stage.NEWTON_EULER:
+            return [(letters.A(joint.index), f"A{joint.index}") for joint in robot.joints]
+        case Stage.CONSTRAINTS:
+            return [*frames[-1:], *([] if wanted.isdisjoint(("lambda", "reduced")) else [D, C, g])]
+        case Stage.EQUILIBRIA:
+            is_moving = bool(asked.model.steady)
+            is_linear = not wanted.isdisjoint(("linear_A", "linear_B"))
+            return [*([D] if is_linear or is_moving else []), *([C] if is_moving else []), g]
+        case Stage.FORWARD_DYNAMICS:
+            return [D, C, g]
+        case Stage.TASK_INERTIA:
+            return [task, D]
+        case Stage.STATICS:
+            return [(letters.JV, "Jv"), (letters.JW, "Jw"), *frames]
+        case Stage.VECTORIZED | Stage.PARAMETERS:
+            return [(letters.force(q), f"tau{q.index}") for q in robot.coordinates]
+    return []
+
+
+def _of_bodies(robot: Robot) -> Iterator[tuple[Node, str]]:
+    """Mass centres and tensors."""
+    for body in robot.bodies:
+        yield letters.rc(body), f"rc{body.name}"
+        if not body.is_point:
+            yield letters.base_tensor(letters.index_of(body.name)), f"I{body.name}"
 
 
 # -- what to do ------------------------------------------------------------------------------------
@@ -214,334 +211,243 @@ def _lowered(title: str) -> str:
 
 
 def _look_out(context: Context, stage: Stage) -> Iterator[Block]:
-    items = tuple(pitfalls(context.robot, stage))
-    if items:
+    if items := tuple(pitfalls(context.robot, stage)):
         yield Text(("Look out:",))
         yield List(items)
 
 
 # -- the most frequent mistakes of a stage that can be made with this robot ------------------------
-# To add a pitfall, yield it in the function of its stage, under the condition on the
-# robot that makes it one.
+
+PITFALLS = {
+    Stage.FRAMES: """
+        d is measured along z, the axis of a joint, and a across it, along x.
+        Every angle has a sense: θ is seen against z, α against x, counterclockwise.
+        slides? The axis of a sliding joint has a direction and no place: lay it where lengths vanish.
+        A z may also point the other way, and frame 0 be anywhere on the first axis.
+    """,
+    Stage.KINEMATICS: """
+        The angle of row {row} is {angle}: its sine and cosine are those of the whole angle, not of the
+            variable alone.
+        modified? The table is in Craig's convention: α and a of a row come first, then θ and d. Do not take
+            the general matrix of the standard convention.
+        {fixed}: a frame without a variable still is a matrix in the product.
+        chain? The matrices do not commute: A₁ stands on the left.
+    """,
+    Stage.JACOBIAN: """
+        standard? Joint i moves about or along the axis of the frame before it, $𝐳_0$ for the first one:
+            take the third column of H with index i-1, not i.
+        modified? In Craig's convention joint i moves about or along the axis of its own frame: take the
+            third column of H with index i.
+        {lengths} no cross product, and zero in the angular part.
+        turning? The cross product is not symmetric: the axis comes first, the vector from it second.
+        coupled? Not every joint variable here is a coordinate itself: the column of a joint counts for each
+            coordinate in it, times the factor with which that stands in the table.
+        fixed? A fixed row has no column of its own.
+    """,
+    Stage.TASK: """
+        Joints after its link do not move a point: their columns are zero, for {inner_points}.
+        $𝐉_r$ has a row a component and a column a coordinate: {task_size} here.
+        rates? In the time derivative every joint variable of an entry moves: one term for each, with its
+            rate.
+    """,
+    Stage.SINGULAR: """
+        Write the determinant as a product before you look for its zeros: each factor is a case.
+        default? The first joint moves the whole arm and changes no rank: it appears in no condition.
+    """,
+    Stage.INVERSE: """
+        turning? A cosine or a sine alone leaves two angles, and each is a branch of its own.
+        turning? atan2 takes y first, and knows all four quadrants; arctan(y/x) knows two.
+        Put each solution into $𝐫(𝐪)$: what was squared on the way may have brought one too many.
+    """,
+    Stage.RATES: """
+        Where the Jacobian is singular it has no inverse: look at its rank at this state first.
+        accelerates? The acceleration of the task is not $𝐉_r 𝐪̈$ alone: what the joints' rates bring is
+            taken off before anything is solved.
+    """,
+    Stage.INERTIA: """
+        The mass centre is not the origin of the frame: that holds for {off}.
+        No tensor and no R are needed of {points}: a point has no extent.
+        The tensor of {moved} is not given about the mass centre. On the way there the parallel-axis term is
+            subtracted.
+        The frame of a body is the one {own} it, which is fixed in the same link, not the one {other}.
+        extended? In R I Rᵀ the transpose stands on the right: R turns the body's axes into the base's.
+    """,
+    Stage.ENERGY: """
+        weightless? There is no gravity in this problem.
+        weighs? Heights are those of the mass centres, from the origin of the {ground}.
+        Joints after its link do not move a body: their columns are zero, for {inner}.
+        off? The Jacobian of a body is taken at its mass centre, not at the origin of its frame.
+        Sum of squares: $sin² {angle_1} + cos² {angle_1} = 1$. The difference, $cos² {angle_1} -
+            sin² {angle_1}$, is something else: the cosine of twice the angle.
+        A point has no tensor, and so no rotational energy: that holds for {points}.
+        extended? $𝛚$ and the tensor must be in the same frame.
+        springs? The energy of a spring has a ½, and the stretch is squared as a whole, with its rest.
+        geared? The ratio of a gear is squared with the rate: the rotor turns that much faster.
+        carried? A rotor that rides on a link turns with the link, too: add the rates before you square.
+    """,
+    Stage.LAGRANGIAN: """
+        The difference of the energies, not their sum: every term of the potential energy changes its sign.
+    """,
+    Stage.TORQUE: """
+        One equation for each coordinate, not for each mass.
+        With respect to time everything that moves is differentiated: {coordinates} and their rates. Masses
+            and constant lengths stay as they are.
+        In the partial derivatives a coordinate and its rate are different variables.
+        What drives {turning} is a torque; what drives {sliding} a force.
+        turning? The derivative of a sine or cosine of an angle that moves brings its rate: the chain rule.
+        friction? Friction does not follow from ℒ: add it to each equation, with a plus.
+    """,
+    Stage.NEWTON_EULER: """
+        Every vector has its components along the axes of its own link: what comes from another link is
+            turned first, outwards by the transpose of the rotation, inwards by the rotation.
+        standard? The axis of joint i is that of frame i-1, turned into frame i: it is the third row of the
+            rotation, and not (0, 0, 1).
+        standard? The moment is about the origin before the link: the lever of the mass centre starts there.
+        sliding? A joint that slides on a turning link adds twice ω × the velocity, besides its own
+            acceleration.
+    """,
+    Stage.VECTORIZED: """
+        several? $𝐃$ is symmetric. If yours is not, look for the slip in the forces.
+        several? The rates stay inside C: each of its terms holds one rate, each term of $𝐂 𝐪̇$ two.
+        several? A product of two different rates comes from two entries of C: half of its factor goes to
+            each.
+        Do not forget the ½ of the Christoffel symbols.
+        weighs? $𝐠$ holds no rates and no accelerations, and its sign is that of the derivatives of $𝒫$.
+    """,
+    Stage.PARAMETERS: """
+        Multiply the forces out first: what stands beside one function of the motion is one coefficient.
+        Coefficients that are sums of others need no entry of their own.
+        Y contains no parameter that is unknown, and a nothing that moves.
+    """,
+    Stage.EQUILIBRIA: """
+        equilibria? A product is 0 where any of its factors is: every choice is a case of its own.
+        turning_equilibria? A sine or a cosine has each of its values at two angles of a turn, but 1 and -1.
+        steady? The rates that are constant stay in the equations of the others.
+        linear? Differentiate first, then put the equilibrium in.
+        linear? The inverse of $𝐃$ stands before the derivatives of $𝐠$, with a minus sign.
+        linear_passive? What no motor drives has no column in B, but its row stays.
+    """,
+    Stage.FORWARD_DYNAMICS: """
+        The inverse of $𝐃$ stands before the whole sum of forces, from the left.
+        What stands beside the inertial forces, on their side, goes over with a minus sign.
+        passive? What no motor drives is accelerated, too: its force is 0, and its row stays.
+    """,
+    Stage.TASK_INERTIA: """
+        Where the Jacobian is not square only the whole product has an inverse.
+        Where the Jacobian is square its inverse stands on the right, the transpose of that on the left.
+    """,
+    Stage.DEFINITE: """
+        A positive determinant alone is not enough: every leading minor must be positive.
+        Take each minor where it is smallest: its sines and cosines may be 0, 1 and -1 there.
+    """,
+    Stage.STATICS: """
+        The Jacobian is that of the point at which the force acts, and its transpose stands before the force.
+        moments? A moment goes to the joints by the angular part of the Jacobian.
+        by_robot? What the robot exerts acts on it with the opposite sign.
+        holds? The torques that hold a force are the opposite of what the force does to the joints.
+    """,
+    Stage.CONSTRAINTS: """
+        The matrix moves: the constraint, differentiated twice, has a term with its rate, too.
+        Neither the coordinates nor the rates are free: results may be written otherwise with the constraint
+            put in.
+    """,
+}
+"""What goes wrong most often.  One that begins with `name?` holds where the robot has that, and one with
+values in braces where it has these (`_facts`)."""
 
 
 def pitfalls(robot: Robot, stage: Stage) -> Iterator[Prose]:
     """The pitfalls of a stage that this robot has."""
-    yield from _PITFALLS[stage](robot)
+    facts = _facts(robot)
+    for line in re.sub(r"\n {12}", " ", PITFALLS[stage]).strip().splitlines():
+        text = re.sub(r"^\s*(\w+\? )?", "", line)
+        if all(facts[name] for name in re.findall(r"(\w+)(?=\? |\})", line)):
+            yield say(text, **facts)
 
 
-def _kinematics(robot: Robot) -> Iterator[Prose]:
-    for joint in robot.joints:
-        if joint.variable == "theta" and joint.theta.degrees % 360:
-            yield (
-                f"The angle of row {joint.index} is ", joint.written[0],
-                ": its sine and cosine are those of the whole angle, not of the variable alone.",
-            )  # fmt: skip
-            break
-    if robot.convention is Convention.MODIFIED:
-        yield (
-            "The table is in Craig's convention: α and a of a row come first, then θ and d. Do not take the "
-            "general matrix of the standard convention.",
-        )
-    fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
-    if fixed:
-        rows = "Row " if len(fixed) == 1 else "Rows "
-        yield (f"{rows}{', '.join(fixed)}: a frame without a variable still is a matrix in the product.",)
-    if len(robot.joints) > 1:
-        yield ("The matrices do not commute: A₁ stands on the left.",)
+def _facts(robot: Robot) -> dict[str, Value]:
+    """What pitfalls are about: sentences and conditions; what is empty the robot does not have."""
+    return {**_of_joints(robot), **_of_masses(robot), **_of_questions(robot)}
 
 
-def _jacobian(robot: Robot) -> Iterator[Prose]:
-    if robot.convention is Convention.STANDARD:
-        yield ("Joint i moves about or along the axis of the frame before it, ", letters.z(0),
-               " for the first one: take the third column of H with index i-1, not i.")  # fmt: skip
-    else:
-        yield ("In Craig's convention joint i moves about or along the axis of its own frame: take the third "
-               "column of H with index i.",)  # fmt: skip
-    sliding = _of_type(robot, JointType.PRISMATIC)
-    if sliding:
-        what = " is a length: its column has" if len(sliding) == 1 else " are lengths: their columns have"
-        yield (*listed(sliding), f"{what} no cross product, and zero in the angular part.")
-    if _of_type(robot, JointType.REVOLUTE):
-        yield ("The cross product is not symmetric: the axis comes first, the vector from it second.",)
-    if any(len(joint.rates) > 1 or any(rate != 1 for _, rate in joint.rates) for joint in robot.joints):
-        yield (
-            "Not every joint variable here is a coordinate itself: the column of a joint counts for each "
-            "coordinate in it, times the factor with which that stands in the table.",
-        )
-    fixed = [joint for joint in robot.joints if joint.type is None]
-    if fixed:
-        yield ("A fixed row has no column of its own.",)
+def _of_joints(robot: Robot) -> dict[str, Value]:
+    joints, standard = robot.joints, robot.convention is Convention.STANDARD
+    turning, sliding = (
+        [Symbol(q.name) for q in robot.coordinates if q.type is kind]
+        for kind in (JointType.REVOLUTE, JointType.PRISMATIC)
+    )
+    shifted = [joint for joint in joints if joint.variable == "theta" and joint.theta.degrees % 360][:1]
+    fixed = [str(joint.index) for joint in joints if joint.type is None]
+    are_lengths = " is a length: its column has" if len(sliding) == 1 else " are lengths: their columns have"
+    return {
+        "slides": any(joint.variable == "d" for joint in joints),
+        "row": "".join(str(joint.index) for joint in shifted),
+        "angle": tuple(joint.written[0] for joint in shifted),
+        "standard": standard,
+        "modified": not standard,
+        "fixed": f"{'Row' if len(fixed) == 1 else 'Rows'} {', '.join(fixed)}" if fixed else "",
+        "chain": len(joints) > 1,
+        "turning": listed(turning),
+        "angle_1": turning[0] if turning else "",
+        "sliding": listed(sliding),
+        "lengths": (*listed(sliding), are_lengths) if sliding else (),
+        "coordinates": listed([Symbol(q.name) for q in robot.coordinates]),
+        "several": robot.n > 1,
+        "coupled": any(len(joint.rates) > 1 or any(rate != 1 for _, rate in joint.rates) for joint in joints),
+    }
 
 
-def _task(robot: Robot) -> Iterator[Prose]:
-    asked = robot.questions
-    last = max((joint.index for joint in robot.joints if joint.type), default=0)
-    inner = [point.name for point in asked.points if point.link < last]
-    if inner:
-        yield (
-            "Joints after its link do not move a point: their columns are zero, for ",
-            and_joined(inner),
-            ".",
-        )
-    if asked.task is not None and asked.task.rows != robot.n:
-        rows, columns = asked.task.rows, robot.n
-        yield (letters.J_TASK, f" has a row a component and a column a coordinate: {rows}×{columns} here.")
-    if any(name.endswith("_dot") for name in asked.asked):
-        yield (
-            "In the time derivative every joint variable of an entry moves: one term for each, with its "
-            "rate.",
-        )
-
-
-def _rates(robot: Robot) -> Iterator[Prose]:
-    yield ("Where the Jacobian is singular it has no inverse: look at its rank at this state first.",)
-    if robot.questions.acceleration is not None:
-        yield ("The acceleration of the task is not ", Product((letters.J_TASK, letters.QDD)),
-               " alone: what the joints' rates bring is taken off before anything is solved.")  # fmt: skip
-
-
-def _inertia(robot: Robot) -> Iterator[Prose]:
-    off = [body for body in robot.bodies if not body.center.is_zero and robot.has_table]
-    if off:
-        yield ("The mass centre is not the origin of the frame: that holds for ", *_bodies(off), ".")
-    points = [body for body in robot.bodies if body.is_point]
-    if points:
-        yield ("No tensor and no R are needed of ", *_bodies(points), ": a point has no extent.")
-    extended = [body for body in robot.bodies if not body.is_point]
-    moved = [b for b in extended if b.about_point is not None and b.about_point != b.center]
-    if moved:
-        yield (
-            "The tensor of ",
-            *_bodies(moved),
-            " is not given about the mass centre. On the way there the parallel-axis term is subtracted.",
-        )
-    if robot.has_table and any(body.axes.kind is AxesKind.LINK for body in extended):
-        standard = robot.convention is Convention.STANDARD
-        own, other = ("after", "before") if standard else ("before", "after")
-        yield (
-            f"The frame of a body is the one {own} it, which is fixed in the same link, not the one {other}.",
-        )
-    if extended:
-        yield ("In R I Rᵀ the transpose stands on the right: R turns the body's axes into the base's.",)
-
-
-def _energy(robot: Robot) -> Iterator[Prose]:
-    if robot.gravity.is_zero:
-        yield ("There is no gravity in this problem.",)
-    else:
-        in_world = letters.has_base(robot) or not robot.has_table
-        yield ("Heights are those of the mass centres, from the origin of the ",
-               "world." if in_world else "base, against gravity.")  # fmt: skip
+def _of_masses(robot: Robot) -> dict[str, Value]:
+    bodies, actions = robot.bodies, robot.actions
+    points = [body for body in bodies if body.is_point]
+    extended = [body for body in bodies if not body.is_point]
     last = max((joint.index for joint in robot.joints), default=0)
-    inner = [body for body in robot.bodies if body.link < last]
-    if inner:
-        yield ("Joints after its link do not move a body: their columns are zero, for ", *_bodies(inner), ".")
-    if robot.has_table and any(not body.center.is_zero for body in robot.bodies):
-        yield ("The Jacobian of a body is taken at its mass centre, not at the origin of its frame.",)
-    turning = _of_type(robot, JointType.REVOLUTE)
-    if turning:
-        squares = tuple(Power(Function(name, turning[0]), Number(2)) for name in ("sin", "cos"))
-        yield (
-            "Sum of squares: ",
-            equation(Sum(squares), Number(1)),
-            ". The difference, ",
-            Sum((squares[1], Negative(squares[0]))),
-            ", is something else: the cosine of twice the angle.",
-        )
-    points = [body for body in robot.bodies if body.is_point]
-    if points:
-        yield ("A point has no tensor, and so no rotational energy: that holds for ", *_bodies(points), ".")
-    if len(points) < len(robot.bodies):
-        yield (letters.bold("omega"), " and the tensor must be in the same frame.")
-    if any(spring.law for spring in robot.actions.springs):
-        yield ("The energy of a spring has a ½, and the stretch is squared as a whole, with its rest.",)
-    if any(motor.ratio != robot.ring.one for motor in robot.actions.motors):
-        yield ("The ratio of a gear is squared with the rate: the rotor turns that much faster.",)
-    if any(motor.carrier for motor in robot.actions.motors):
-        yield ("A rotor that rides on a link turns with the link, too: add the rates before you square.",)
+    in_world = letters.has_base(robot) or not robot.has_table
+    own, other = ("after", "before") if robot.convention is Convention.STANDARD else ("before", "after")
+    has_own_frames = robot.has_table and any(body.axes.kind is AxesKind.LINK for body in extended)
+    return {
+        "off": _called(body for body in bodies if not body.center.is_zero and robot.has_table),
+        "points": _called(points),
+        "extended": _called(extended),
+        "moved": _called(b for b in extended if b.about_point is not None and b.about_point != b.center),
+        "inner": _called(body for body in bodies if body.link < last),
+        "own": has_own_frames and own,
+        "other": other,
+        "weightless": robot.gravity.is_zero,
+        "weighs": not robot.gravity.is_zero,
+        "ground": "world" if in_world else "base, against gravity",
+        "springs": any(spring.law for spring in actions.springs),
+        "geared": any(motor.ratio != robot.ring.one for motor in actions.motors),
+        "carried": any(motor.carrier for motor in actions.motors),
+        "friction": "friction" in actions.kinds,
+        "passive": bool(actions.passive),
+    }
 
 
-def _lagrangian(robot: Robot) -> Iterator[Prose]:
-    yield (
-        "The difference of the energies, not their sum: every term of the potential energy changes its sign.",
-    )
-
-
-def _torque(robot: Robot) -> Iterator[Prose]:
-    yield ("One equation for each coordinate, not for each mass.",)
-    yield ("With respect to time everything that moves is differentiated: ",
-           *listed([Symbol(q.name) for q in robot.coordinates]), " and their rates.",
-           " Masses and constant lengths stay as they are.")  # fmt: skip
-    yield ("In the partial derivatives a coordinate and its rate are different variables.",)
-    turning, sliding = _of_type(robot, JointType.REVOLUTE), _of_type(robot, JointType.PRISMATIC)
-    if turning and sliding:
-        yield ("What drives ", *listed(turning), " is a torque; what drives ", *listed(sliding), " a force.")
-    if turning:
-        yield ("The derivative of a sine or cosine of an angle that moves brings its rate: the chain rule.",)
-    if "friction" in robot.actions.kinds:
-        yield ("Friction does not follow from ℒ: add it to each equation, with a plus.",)
-
-
-def _vectorized(robot: Robot) -> Iterator[Prose]:
-    if robot.n > 1:
-        yield (
-            letters.D,
-            " is symmetric. If yours is not, look for the slip in the forces.",
-        )
-        yield ("The rates stay inside C: each of its terms holds one rate, each term of ",
-               Product((letters.C, letters.QD)), " two.")  # fmt: skip
-        yield (
-            "A product of two different rates comes from two entries of C: half of its factor goes to each.",
-        )
-    yield ("Do not forget the ½ of the Christoffel symbols.",)
-    if not robot.gravity.is_zero:
-        yield (
-            letters.G,
-            " holds no rates and no accelerations, and its sign is that of the derivatives of ",
-            letters.P,
-            ".",
-        )
-
-
-def _singular(robot: Robot) -> Iterator[Prose]:
-    yield ("Write the determinant as a product before you look for its zeros: each factor is a case.",)
-    if not robot.questions.task or robot.questions.task.is_default:
-        yield ("The first joint moves the whole arm and changes no rank: it appears in no condition.",)
-
-
-def _inverse(robot: Robot) -> Iterator[Prose]:
-    if _of_type(robot, JointType.REVOLUTE):
-        yield ("A cosine or a sine alone leaves two angles, and each is a branch of its own.",)
-        yield ("atan2 takes y first, and knows all four quadrants; arctan(y/x) knows two.",)
-    yield (
-        "Put each solution into ",
-        letters.TASK_OF_Q,
-        ": what was squared on the way may have brought one too many.",
-    )
-
-
-def _parameters(robot: Robot) -> Iterator[Prose]:
-    yield (
-        "Multiply the forces out first: what stands beside one function of the motion is one coefficient.",
-    )
-    yield ("Coefficients that are sums of others need no entry of their own.",)
-    yield ("Y contains no parameter that is unknown, and a nothing that moves.",)
-
-
-def _equilibria(robot: Robot) -> Iterator[Prose]:
-    asked = robot.questions.asked
-    if "equilibria" in asked:
-        yield ("A product is 0 where any of its factors is: every choice is a case of its own.",)
-        if _of_type(robot, JointType.REVOLUTE):
-            yield ("A sine or a cosine has each of its values at two angles of a turn, but 1 and -1.",)
-        if robot.questions.model.steady:
-            yield ("The rates that are constant stay in the equations of the others.",)
-    if asked.isdisjoint(("linear_A", "linear_B")):
-        return
-    yield ("Differentiate first, then put the equilibrium in.",)
-    yield (
-        "The inverse of ",
-        letters.D,
-        " stands before the derivatives of ",
-        letters.G,
-        ", with a minus sign.",
-    )
-    if robot.actions.passive:
-        yield ("What no motor drives has no column in B, but its row stays.",)
-
-
-def _forward_dynamics(robot: Robot) -> Iterator[Prose]:
-    yield (
-        "The inverse of ",
-        letters.D,
-        " stands before the whole sum of forces, from the left.",
-    )
-    yield ("What stands beside the inertial forces, on their side, goes over with a minus sign.",)
-    if robot.actions.passive:
-        yield ("What no motor drives is accelerated, too: its force is 0, and its row stays.",)
-
-
-def _task_inertia(robot: Robot) -> Iterator[Prose]:
-    yield ("Where the Jacobian is not square only the whole product has an inverse.",)
-    yield (
-        "Where the Jacobian is square its inverse stands on the right, the transpose of that on the left.",
-    )
-
-
-def _statics(robot: Robot) -> Iterator[Prose]:
-    yield (
-        "The Jacobian is that of the point at which the force acts, and its transpose stands before the "
-        "force.",
-    )
-    loads = robot.questions.loads
-    if any(not load.moment.is_zero for load in loads):
-        yield ("A moment goes to the joints by the angular part of the Jacobian.",)
-    if any(load.by_robot for load in loads):
-        yield ("What the robot exerts acts on it with the opposite sign.",)
-    if "tau_static" in robot.questions.asked:
-        yield ("The torques that hold a force are the opposite of what the force does to the joints.",)
-
-
-def _definite(robot: Robot) -> Iterator[Prose]:
-    yield ("A positive determinant alone is not enough: every leading minor must be positive.",)
-    yield ("Take each minor where it is smallest: its sines and cosines may be 0, 1 and -1 there.",)
-
-
-def _of_type(robot: Robot, kind: JointType) -> list[Node]:
-    return [Symbol(q.name) for q in robot.coordinates if q.type is kind]
-
-
-def _bodies(bodies: Sequence[Body]) -> Prose:
+def _called(bodies: Iterable[Body]) -> str:
+    """bodies 1 and 2; nothing of none"""
     names = [body.name for body in bodies]
-    return (("body " if len(names) == 1 else "bodies ") + and_joined(names),)
+    return f"{'body' if len(names) == 1 else 'bodies'} {and_joined(names)}" if names else ""
 
 
-def _frames(robot: Robot) -> Iterator[Prose]:
-    yield ("d is measured along z, the axis of a joint, and a across it, along x.",)
-    yield ("Every angle has a sense: θ is seen against z, α against x, counterclockwise.",)
-    if any(joint.variable == "d" for joint in robot.joints):
-        yield ("The axis of a sliding joint has a direction and no place: lay it where lengths vanish.",)
-    yield ("A z may also point the other way, and frame 0 be anywhere on the first axis.",)
-
-
-def _newton_euler(robot: Robot) -> Iterator[Prose]:
-    yield ("Every vector has its components along the axes of its own link: what comes from another link is "
-           "turned first, outwards by the transpose of the rotation, inwards by the rotation.",)  # fmt: skip
-    if robot.convention is Convention.STANDARD:
-        yield ("The axis of joint i is that of frame i-1, turned into frame i: it is the third row of the "
-               "rotation, and not (0, 0, 1).",)  # fmt: skip
-        yield ("The moment is about the origin before the link: the lever of the mass centre starts there.",)
-    if _of_type(robot, JointType.PRISMATIC):
-        yield ("A joint that slides on a turning link adds twice ω × the velocity, besides its own "
-               "acceleration.",)  # fmt: skip
-
-
-def _constraints(robot: Robot) -> Iterator[Prose]:
-    yield ("The matrix moves: the constraint, differentiated twice, has a term with its rate, too.",)
-    yield ("Neither the coordinates nor the rates are free: results may be written otherwise with the "
-           "constraint put in.",)  # fmt: skip
-
-
-_PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
-    Stage.FRAMES: _frames,
-    Stage.KINEMATICS: _kinematics,
-    Stage.JACOBIAN: _jacobian,
-    Stage.TASK: _task,
-    Stage.SINGULAR: _singular,
-    Stage.INVERSE: _inverse,
-    Stage.RATES: _rates,
-    Stage.INERTIA: _inertia,
-    Stage.ENERGY: _energy,
-    Stage.LAGRANGIAN: _lagrangian,
-    Stage.TORQUE: _torque,
-    Stage.NEWTON_EULER: _newton_euler,
-    Stage.VECTORIZED: _vectorized,
-    Stage.PARAMETERS: _parameters,
-    Stage.CONSTRAINTS: _constraints,
-    Stage.EQUILIBRIA: _equilibria,
-    Stage.FORWARD_DYNAMICS: _forward_dynamics,
-    Stage.TASK_INERTIA: _task_inertia,
-    Stage.STATICS: _statics,
-    Stage.DEFINITE: _definite,
-}
+def _of_questions(robot: Robot) -> dict[str, Value]:
+    questions, asked = robot.questions, robot.questions.asked
+    task = questions.task
+    last = max((joint.index for joint in robot.joints if joint.type), default=0)
+    is_linear = not asked.isdisjoint(("linear_A", "linear_B"))
+    has_equilibria = "equilibria" in asked
+    return {
+        "inner_points": and_joined([point.name for point in questions.points if point.link < last]),
+        "task_size": f"{task.rows}×{robot.n}" if task is not None and task.rows != robot.n else "",
+        "rates": any(name.endswith("_dot") for name in asked),
+        "default": task is None or task.is_default,
+        "accelerates": questions.acceleration is not None,
+        "equilibria": has_equilibria,
+        "turning_equilibria": has_equilibria and any(q.type is JointType.REVOLUTE for q in robot.coordinates),
+        "steady": has_equilibria and bool(questions.model.steady),
+        "linear": is_linear,
+        "linear_passive": is_linear and bool(robot.actions.passive),
+        "moments": any(not load.moment.is_zero for load in questions.loads),
+        "by_robot": any(load.by_robot for load in questions.loads),
+        "holds": "tau_static" in asked,
+    }
