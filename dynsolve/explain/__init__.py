@@ -28,9 +28,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     context     the robot, its exact values, their compact forms; how its formulas look
     forms       the compact form of every value; how long ones are put together from parts
     writing     sentences and pieces of formulas; the books and their sections that steps refer to
-    given       what is given of the robot and its bodies
-    given_questions
-                what is given of springs, friction and motors, and asked; what it rests on
+    given       what is given of the robot and its bodies, of what acts on it, and what is asked
     jacobian_columns
                 the columns of Jacobians in letters, and with axes and levers put in
     mass_centers

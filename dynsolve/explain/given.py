@@ -1,41 +1,56 @@
-"""What is given, a line for each symbol with its unit, and what is to be found: the exercise."""
+"""What is given, a line for each symbol with its unit, and what is to be found: the exercise.
+
+It is said before the solution, in the words of the problem file, so that the problem can be solved from it
+alone: the table or the bodies, what acts on them, what is asked, and what the solution takes for granted.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Block, Inline, List, Prose, Text
+from dynsolve.document.sentences import say
+from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.given_questions import (
-    joints,
-    of_actions,
-    of_axes,
-    of_base,
-    of_forces,
-    of_model,
-    of_questions,
-    of_values,
-)
 from dynsolve.explain.inertia import has_link_axes, is_moved, stays_with_base
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.kinematics import turned
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
-from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES
+from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles
+from dynsolve.explain.placed_bodies import turned as turning
+from dynsolve.explain.task import with_letters
 from dynsolve.explain.textbook_letters import Line
-from dynsolve.explain.writing import listed, machine, measured, name_of, side_by_side
-from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Symbol, Words
+from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
+from dynsolve.notation.tree import (
+    ZERO,
+    Negative,
+    Node,
+    Number,
+    Relation,
+    Row,
+    Symbol,
+    Words,
+    equation,
+)
+from dynsolve.notation.walk import mapped
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
-from dynsolve.robot.model import AxesKind, Body
-from dynsolve.robot.shapes import KINDS, Density, Shape
-from dynsolve.robot.units import node as unit_node
+from dynsolve.robot import units
+from dynsolve.robot.actions import JointFriction, Motor, Spring
+from dynsolve.robot.drawing.procedure import Normals
+from dynsolve.robot.model import AxesKind, Body, JointType, Robot
+from dynsolve.robot.questions import TIP, Load
+from dynsolve.robot.shapes import AXES, KINDS, Shape
 
 MOST_BODIES = 4
 """Up to this number of bodies each is named."""
 
-_COUNTS = {2: "two", 3: "three", 4: "four"}
+_COUNTS = {1: "one rigid body", 2: "two rigid bodies", 3: "three rigid bodies", 4: "four rigid bodies"}
 
 CALLED = {
     "K": "the kinetic energy",
@@ -79,7 +94,7 @@ def statement(forms: Forms, problem: Problem, sines: Iterable[Line] = ()) -> Ite
     names = [*map(_introduced, problem_names(forms.robot)), *((line.words,) for line in sines)]
     if names:
         yield List(tuple(names))
-    found = [called for name in problem.find if (called := _called(forms, name)) is not None]
+    found = [called for name in problem.find if (called := _called(forms, name))]
     if found:
         yield Text(("To be found: ", *listed(found), "."))
 
@@ -97,81 +112,132 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
     robot = forms.robot
     if problem.normals is not None:
         yield ("the axes of the arm as they are drawn.",)
-        yield from of_axes(problem.normals)
+        yield from _axes(problem.normals)
     elif robot.has_table:
-        yield (*_given(forms), ".")
+        yield (*_table(forms), ".")
     else:
-        yield from of_model(forms)
+        yield from _model(forms)
     if robot.has_table and 0 < len(robot.bodies) <= MOST_BODIES:
-        yield of_tensors(forms)
-    yield of_base(forms)
+        yield _tensors(forms)
+    yield _base(forms)
     if robot.has_dynamics and robot.given is None:
-        yield of_forces(forms)
-    elif robot.has_dynamics:
-        yield from of_actions(forms)
-    yield from of_questions(forms)
-    yield of_values(robot, problem.written, problem.units)
+        yield _gravity(forms)
+    if robot.has_dynamics:
+        yield from _actions(forms)
+    yield from _questions(forms)
+    yield _values(robot, problem.written, problem.units)
 
 
 def _introduced(line: Line) -> Prose:
     """l₁, l₂: length of link i (m)"""
-    unit: Prose = (" (", unit_node(line.unit), ")") if line.unit else ()
+    unit: Prose = (" (", units.node(line.unit), ")") if line.unit else ()
     return (line.sign, f": {line.meaning}", *unit)
 
 
-def _given(forms: Forms) -> Prose:
+def _called(forms: Forms, name: str) -> Prose:
+    """the inertia matrix D; nothing for what has neither words nor a letter"""
+    try:
+        letter: Prose = (quantities(forms.robot)[name].letter(forms.robot),) if name != "DH" else ()
+    except LookupError:
+        letter = ()
+    words = CALLED.get(name, "")
+    return (words, " ", *letter) if words and letter else (words,) if words else letter
+
+
+# -- the table, the axes of a drawing, the energies ------------------------------------------------
+
+
+def _table(forms: Forms) -> Prose:
     """The table, and what has mass."""
     robot = forms.robot
-    what = f"the table of the {machine(robot)}{joints(robot)}"
-    if not robot.bodies:
+    count = len(robot.bodies)
+    what = f"the table of the {machine(robot)}{_joints(robot)}"
+    if not count:
         return (what,)
-    if len(robot.bodies) > MOST_BODIES:
-        return (f"{what}, and mass, mass centre and inertia tensor of {len(robot.bodies)} rigid bodies",)
-    told = [of_body(forms, body) for body in robot.bodies]
-    count = "one rigid body" if len(told) == 1 else f"{_COUNTS[len(told)]} rigid bodies"
-    parts: Prose = told[0]
-    for each in told[1:]:
-        parts += ("; ", *each)
-    return (f"{what} and {count}: ", *parts)
+    if count > MOST_BODIES:
+        return (f"{what}, and mass, mass centre and inertia tensor of {count} rigid bodies",)
+    told = tuple(part for body in robot.bodies for part in ("; ", *_body(forms, body)))
+    return (f"{what} and {_COUNTS[count]}: ", *told[1:])
 
 
-def _called(forms: Forms, name: str) -> Prose | None:
-    """the inertia matrix D; None for what has neither words nor a letter"""
-    words = CALLED.get(name, "")
-    letter = None if name == "DH" else _letter(forms, name)
-    if not words and letter is None:
-        return None
-    both: list[Node | str] = [words] if words else []
-    if letter is not None:
-        both += [" ", letter] if words else [letter]
-    return tuple(both)
+def _joints(robot: Robot) -> str:
+    """with revolute joints; with a revolute and a prismatic joint; nothing of a table without joints."""
+    types = [joint.type for joint in robot.joints if joint.type]
+    words = {JointType.REVOLUTE: "revolute", JointType.PRISMATIC: "prismatic"}
+    found = [word for kind, word in words.items() if kind in types]
+    if len(types) == len(found):
+        return f" with {' and '.join(f'a {word}' for word in found)} joint" if found else ""
+    return f" with {' and '.join(found)} joints"
 
 
-def _letter(forms: Forms, name: str) -> Node | None:
-    try:
-        return quantities(forms.robot)[name].letter(forms.robot)
-    except LookupError:
-        return None
+def _axes(normals: Normals) -> Iterator[Prose]:
+    """The axes of a drawing and its hand."""
+    drawing = normals.drawing
+
+    def flat(vector: Matrix) -> Node:
+        return _flat(map(Compactor(drawing.ring).form, vector.entries))
+
+    for i, axis in enumerate(drawing.axes, 1):
+        told: Prose = (f"Joint {i}, with the variable ", Symbol(axis.coordinate))
+        told += (", slides along " if axis.slides else ", turns about ", flat(axis.line.direction))
+        told += (" through ", flat(axis.line.point)) if axis.is_placed else ()
+        yield (*told, ".")
+    yield ("In this pose the hand is at ", flat(drawing.hand.at), ".")
 
 
-# -- what an exercise says of a body: its mass, the dimensions of its shape, its mass centre, its moments
-# It is said before the solution, so that the problem can be solved from it alone.
+def _flat(entries: Iterable[Node]) -> Node:
+    """(v_x, v_y): a column as a line of text can hold it."""
+    return Row((Words("("), side_by_side(list(entries)), Words(")")))
 
-_XYZ = "xyz"
+
+def _model(forms: Forms) -> Iterator[Prose]:
+    """The bodies by their positions, or the energies, the Lagrangian or the inertia matrix."""
+    given = forms.robot.given
+    if given is not None:
+        values = ((letters.D, given.D), (letters.K, given.K), (letters.P, given.P), (letters.L, given.L))
+        yield from ((equation(letter, forms.of(value)), ".") for letter, value in values if value is not None)
+        return
+    yield from (_position(forms, body) for body in forms.robot.bodies)
+    for candidate in forms.robot.questions.candidates:
+        yield (equation(Symbol(candidate.name), forms.of(candidate.matrix)), ".")
 
 
-def of_body(forms: Forms, body: Body) -> Prose:
+def _position(forms: Forms, body: Body) -> Prose:
+    """Body 2, a point of mass m, is at (x + l sin θ, l cos θ, 0)."""
+    point = "a point " if body.is_point else ""
+    told: Prose = (f"{name_of(body).capitalize()}, {point}of mass ", measured(forms.of(body.mass), "kg"))
+    told += (", is at ", _flat(map(forms.of, body.center.entries)), ".")
+    if body.inertia is None:
+        return told
+    told += (" ", *turning(body))
+    for value, alike in _alike(_nonzero(body)).items():
+        axes = f"axis {alike[0]}" if len(alike) == 1 else f"axes {and_joined(alike)}"
+        told += (f" Its moment of inertia about {axes} through its mass centre is ",)
+        told += (measured(forms.of(value), "kg m^2"), ".")
+    return told
+
+
+# -- a body: its mass, the dimensions of its shape, its mass centre, its moments of inertia --------
+
+
+def _body(forms: Forms, body: Body) -> Prose:
     """body 2 in link 2, a uniform slender rod of mass m₂ and length l₂ along 𝐱₂, its mass centre at 𝐨₁"""
-    told: Prose = (f"{name_of(body)} in link {body.link},",)
-    if body.density is not None:
-        return (*told, *_with_density(forms, body, body.density))
-    if body.is_point:
-        return (*told, " a point", *_mass(forms, body), " ", *_center(forms, body))
-    if body.shape is not None and body.shape.formulas:
-        told += (f" a uniform {SHAPES[body.shape.kind]}", *_sized(forms, body, body.shape))
+    density, shape = body.density, body.shape
+    center = ("mass centre ", *_center(forms, body))
+    what: Prose
+    if body.is_point and density is None:
+        what = (" a point", *_mass(forms, body), " ", *center[1:])
+    elif density is not None:
+        assert density.shape is not None
+        if density.begins:
+            center = ("near end at ", letters.o(ends(forms.robot, body)[0]))
+        what = (f" a {SHAPES[density.shape.kind]}", *_sized(forms, body, density.shape), ", its ", *center)
+    elif shape is not None and shape.formulas:
+        what = (f" a uniform {SHAPES[shape.kind]}", *_sized(forms, body, shape), ", its ", *center)
     else:
-        told += _mass(forms, body)
-    return (*told, ", its mass centre ", *_center(forms, body), *_from_the_base(body))
+        what = (*_mass(forms, body), ", its ", *center)
+    axes = () if body.is_point and density is None else _from_the_base(body)
+    return (f"{name_of(body)} in link {body.link},", *what, *axes)
 
 
 def _from_the_base(body: Body) -> Prose:
@@ -181,53 +247,38 @@ def _from_the_base(body: Body) -> Prose:
     return (", its axes those of the base turned by ", turned(body.axes.turns))
 
 
-def _with_density(forms: Forms, body: Body, density: Density) -> Prose:
-    """a slender rod of mass per length ρ₀ (1 + x/l), x from its near end, and length l along 𝐱₁, ..."""
-    assert density.shape is not None
-    where: Prose = ("near end at ", letters.o(ends(forms.robot, body)[0]))
-    if not density.begins:
-        where = ("mass centre ", *_center(forms, body))
-    shape = (f" a {SHAPES[density.shape.kind]}", *_sized(forms, body, density.shape))
-    return (*shape, ", its ", *where, *_from_the_base(body))
-
-
 def _mass(forms: Forms, body: Body) -> Prose:
     if body.density is not None and body.density.shape is not None:
         slices = KINDS[body.density.shape.kind].slices
         assert slices is not None
-        told: Prose = (f" of mass per {slices.per} ", body.density.formula)
-        return (*told, ", ", Symbol("x"), " from its near end,") if body.density.varies else told
-    if body.mass.is_zero:
-        return (" without mass",)
-    return (" of mass ", measured(forms.of(body.mass), "kg"))
-
-
-# -- shapes ----------------------------------------------------------------------------------------
+        place = say(", $x$ from its near end,") if body.density.varies else ()
+        return (f" of mass per {slices.per} ", body.density.formula, *place)
+    return (" without mass",) if body.mass.is_zero else (" of mass ", measured(forms.of(body.mass), "kg"))
 
 
 def _sized(forms: Forms, body: Body, shape: Shape) -> Prose:
     """of mass m₁, radius r₁ and length l₁ along 𝐲₁; of a box: and sides b, b and c along 𝐱₁, 𝐲₁ and 𝐳₁"""
     sizes = {key: measured(forms.of(value), "m") for key, value in shape.dimensions}
+    mass = _mass(forms, body)
     if not set(sizes) <= set(DIMENSIONS):
-        along = listed([axis_of(forms, body, axis) for axis in sizes])
-        return (*_mass(forms, body), " and sides ", *listed(list(sizes.values())), " along ", *along)
-    parts: list[Prose] = [_mass(forms, body), *((f"{DIMENSIONS[key]} ", size) for key, size in sizes.items())]
+        along = listed([_axis(forms, body, axis) for axis in sizes])
+        return say(
+            "{mass} and sides {sizes} along {along}", mass=mass, sizes=listed([*sizes.values()]), along=along
+        )
+    parts = listed([mass, *((f"{DIMENSIONS[key]} ", size) for key, size in sizes.items())])
     if not shape.axis:
-        return listed(parts)
-    along = axis_of(forms, body, shape.axis)
-    return (*listed(parts), " along " if "length" in sizes else ", its axis along ", *along)
+        return parts
+    how = " along " if "length" in sizes else ", its axis along "
+    return (*parts, how, *_axis(forms, body, shape.axis))
 
 
-def axis_of(forms: Forms, body: Body, name: str) -> Prose:
+def _axis(forms: Forms, body: Body, name: str) -> Prose:
     """𝐳₁ of a body with the axes of frame 1; 𝐳₀ where it always is this; else its z-axis."""
     if has_link_axes(body):
-        return (Letter(name, Number(body.link), style="bold"),)
-    if stays_with_base(forms, body, _XYZ.index(name)):
-        return (Letter(name, Number(0), style="bold"),)
+        return (letters.bold(name, Number(body.link)),)
+    if stays_with_base(forms, body, AXES.index(name)):
+        return (letters.bold(name, Number(0)),)
     return (f"its {name}-axis",)
-
-
-# -- mass centres ----------------------------------------------------------------------------------
 
 
 def _center(forms: Forms, body: Body) -> Prose:
@@ -251,24 +302,26 @@ def _center(forms: Forms, body: Body) -> Prose:
 
 def _place(forms: Forms, entries: Sequence[Expr], start: int, frame: int) -> Prose:
     """Where a vector leads from an origin: along an axis of a frame, or by its coordinates there."""
-    along = [(axis, entry) for axis, entry in zip(_XYZ, entries, strict=True) if not entry.is_zero]
+    along = [(axis, entry) for axis, entry in zip(AXES, entries, strict=True) if not entry.is_zero]
     if not along:
         return ("at ", letters.o(start))
     if len(along) > 1:
-        at = Row((Words("("), side_by_side([forms.of(entry) for entry in entries]), Words(")")))
-        return ("at ", at, " from ", letters.o(start), f" along the axes of frame {frame}")
+        return (
+            "at ",
+            _flat(map(forms.of, entries)),
+            " from ",
+            letters.o(start),
+            f" along the axes of frame {frame}",
+        )
     ((axis, entry),) = along
-    unit: Node = Letter(axis, Number(frame), style="bold")
+    unit: Node = letters.bold(axis, Number(frame))
     shown = forms.of(entry)
     if isinstance(shown, Negative):
         shown, unit = shown.argument, Negative(unit)
     return ("at ", measured(shown, "m"), " from ", letters.o(start), " along ", unit)
 
 
-# -- tensors ---------------------------------------------------------------------------------------
-
-
-def of_tensors(forms: Forms) -> Prose:
+def _tensors(forms: Forms) -> Prose:
     """Which moments of inertia are given, about which axes; nothing where shapes tell them."""
     given = [
         body
@@ -276,66 +329,205 @@ def of_tensors(forms: Forms) -> Prose:
         if not (body.is_point or body.density or (body.shape is not None and body.shape.formulas))
     ]
     plain = [body for body in given if _is_diagonal(body) and not is_moved(body)]
-    return (*_moments(forms, plain), *(part for b in given if b not in plain for part in _tensor(forms, b)))
-
-
-def _tensor(forms: Forms, body: Body) -> Prose:
-    """Of a tensor with products of inertia, or about another point: that it is given, and about what."""
-    point: Inline = letters.o(body.link if body.about == "origin" else ends(forms.robot, body)[0])
-    about: Prose = (point,) if is_moved(body) else ("its mass centre",)
-    axes = f"the axes of frame {body.link}" if has_link_axes(body) else "its own axes"
-    return (f"The inertia tensor of {name_of(body)} about ", *about, f" along {axes} is given, too. ")
+    told = _moments(forms, plain)
+    for body in (body for body in given if body not in plain):
+        point: Inline = letters.o(body.link if body.about == "origin" else ends(forms.robot, body)[0])
+        told += say(
+            "The inertia tensor of {body} about {point} along {axes} is given, too. ",
+            body=name_of(body),
+            point=point if is_moved(body) else "its mass centre",
+            axes=f"the axes of frame {body.link}" if has_link_axes(body) else "its own axes",
+        )
+    return told
 
 
 def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
     """Moments of inertia about axes through the mass centres: of body 1 I₁, about that parallel to 𝐳₁; ..."""
-    found = [(body, value, axes) for body in bodies for value, axes in _by_value(forms, body)]
-    if not found:
-        return ()
-    if len(found) == 1 and len(found[0][2]) == 1:
-        ((body, value, (axis,)),) = found
-        what = f"The moment of inertia of {name_of(body)} about the axis through its mass centre parallel to "
-        return (what, *axis, " is ", value, ". ")
-    if len(found) == len(bodies) and all(len(axes) == 1 for _, _, axes in found):
-        return _one_each([(body, value, axis) for body, value, (axis,) in found])
+    found = [(body, _alike(_nonzero(body))) for body in bodies if _nonzero(body)]
     told: Prose = ()
-    for body in bodies:
-        own = [(value, axes) for one, value, axes in found if one is body]
-        if own:
-            axes = listed([axis for _, several in own for axis in several])
-            values = listed([value for value, _ in own])
-            that = "that" if sum(len(several) for _, several in own) == 1 else "those"
-            told += ("; " if told else "", f"of {name_of(body)} ", *values)
-            told += (f", about {that} parallel to ", *axes)
-    several = any(len(own) > 1 for own in (_nonzero(body) for body in bodies))
+    is_one_each = len(found) in (1, len(bodies))
+    if found and is_one_each and all(len(own) == 1 and len(*own.values()) == 1 for _, own in found):
+        about = (
+            "The moment of inertia of {body} about the axis through its mass centre parallel to {axis} is "
+        )
+        for body, own in found:
+            (value, (axis,)) = next(iter(own.items()))
+            told += say(about, body=name_of(body), axis=_axis(forms, body, axis))
+            told += (measured(forms.of(value), "kg m^2"),)
+            about = "; that of {body}, about such an axis parallel to {axis}, is "
+        return (*told, ". ")
+    for body, own in found:
+        axes = [_axis(forms, body, axis) for alike in own.values() for axis in alike]
+        values = listed([measured(forms.of(value), "kg m^2") for value in own])
+        that = "that" if len(axes) == 1 else "those"
+        told += ("; " if told else "", f"of {name_of(body)} ", *values)
+        told += (f", about {that} parallel to ", *listed(axes))
+    several = any(len(_nonzero(body)) > 1 for body in bodies)
     rest = "; the other entries of the tensors are taken as 0" if several else ""
-    return ("Moments of inertia about axes through the mass centres: ", *told, f"{rest}. ")
-
-
-def _one_each(found: Sequence[tuple[Body, Node, Prose]]) -> Prose:
-    """The moment of inertia of body 1 about the axis ... is I₁; that of body 2, ..."""
-    (body, value, axis), *others = found
-    what = f"The moment of inertia of {name_of(body)} about the axis through its mass centre parallel to "
-    told: Prose = (what, *axis, " is ", value)
-    for body, value, axis in others:
-        told += (f"; that of {name_of(body)}, about such an axis parallel to ", *axis, ", is ", value)
-    return (*told, ". ")
-
-
-def _by_value(forms: Forms, body: Body) -> list[tuple[Node, list[Prose]]]:
-    """The moments that are not 0, each with the axes about which it is."""
-    axes: dict[Expr, list[Prose]] = {}
-    for axis, value in _nonzero(body):
-        axes.setdefault(value, []).append(axis_of(forms, body, axis))
-    return [(measured(forms.of(value), "kg m^2"), own) for value, own in axes.items()]
+    return ("Moments of inertia about axes through the mass centres: ", *told, f"{rest}. ") if told else ()
 
 
 def _nonzero(body: Body) -> list[tuple[str, Expr]]:
     assert body.inertia is not None
-    return [(axis, body.inertia[i, i]) for i, axis in enumerate(_XYZ) if not body.inertia[i, i].is_zero]
+    return [(axis, body.inertia[i, i]) for i, axis in enumerate(AXES) if not body.inertia[i, i].is_zero]
+
+
+def _alike(moments: Iterable[tuple[str, Expr]]) -> dict[Expr, list[str]]:
+    """The values of moments, each with its axes."""
+    axes: dict[Expr, list[str]] = {}
+    for axis, value in moments:
+        axes.setdefault(value, []).append(axis)
+    return axes
 
 
 def _is_diagonal(body: Body) -> bool:
     """Whether a tensor has no products of inertia."""
     assert body.inertia is not None
     return all(body.inertia[i, j].is_zero for i in range(3) for j in range(3) if i != j)
+
+
+# -- the base, and what acts -----------------------------------------------------------------------
+
+
+def _base(forms: Forms) -> Prose:
+    """Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w; nothing where it is the world."""
+    robot = forms.robot
+    if not letters.has_base(robot):
+        return ()
+    moves = zip(AXES, map(forms.of, robot.base_position.entries), strict=True)
+    told = [("moved ", measured(far, "m"), axis) for axis, far in moves if far != ZERO]
+    told += [("turned ", angle, axis) for axis, angle in robot.base_turns]
+    is_turned = robot.base_rotation != robot.base_rotation.identity(robot.ring, 3)
+    if len(told) > 2 or (is_turned and not robot.base_turns):
+        return ("How frame 0 is placed in the world is given (1.2). ",)
+    how: Prose = ("Frame 0 is ",)
+    for place, (verb, size, axis) in enumerate(told):
+        by = verb if not place or verb != told[place - 1][0] else ""
+        how += (" and " * bool(place) + by + "by ", size, " along " if verb == "moved " else " about ")
+        how += (letters.bold(axis, Words("w")),)
+    return (*how, " in the world w. ")
+
+
+def _gravity(forms: Forms) -> Prose:
+    """Gravity g acts along -𝐲₀; there is no friction."""
+    robot = forms.robot
+    told = _weight(forms)
+    if "friction" in robot.actions.kinds:
+        return (*told, ".")
+    return (*told, " and no friction." if robot.gravity.is_zero else "; there is no friction.")
+
+
+def _weight(forms: Forms) -> Prose:
+    robot = forms.robot
+    in_world = letters.has_base(robot)
+    along = [(axis, g) for axis, g in zip(AXES, robot.gravity.entries, strict=True) if not g.is_zero]
+    if not along:
+        return ("There is no gravity",)
+    if len(along) > 1:
+        ground = "the world" if in_world else "frame 0"
+        return say("$𝐠_0$, the acceleration of gravity, is along no axis of {ground}", ground=ground)
+    ((axis, entry),) = along
+    opposite = leads_with_minus(entry)
+    size = -entry if opposite else entry
+    unit = letters.bold(axis, Words("w") if in_world else Number(0))
+    named: Prose = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
+    return ("Gravity", *named, " acts along ", Negative(unit) if opposite else unit)
+
+
+def _actions(forms: Forms) -> Iterator[Prose]:
+    """A sentence for each thing that acts beside gravity."""
+    actions = forms.robot.actions
+    names = [Symbol(q.name) for q in forms.robot.coordinates]
+    yield from (_spring(forms, spring) for spring in actions.springs)
+    for damper in actions.dampers:
+        yield ("A damper of coefficient ", forms.of(damper.damping), " acts along ", forms.of(damper.of), ".")
+    yield from (_friction(forms, friction) for friction in actions.friction)
+    yield from (_motor(forms, motor) for motor in actions.motors)
+    if actions.passive:
+        yield ("No motor drives ", *listed([names[k] for k in actions.passive]), ".")
+
+
+def _spring(forms: Forms, spring: Spring) -> Prose:
+    """A spring of stiffness k is at rest at q₁ - q₂ = 0."""
+    law = spring.law
+    if law is None:
+        return ("A spring has the potential energy ", forms.of(spring.energy), ".")
+    at_rest = equation(forms.of(law.of), forms.of(law.rest))
+    return ("A spring of stiffness ", forms.of(law.stiffness), " is at rest at ", at_rest, ".")
+
+
+def _friction(forms: Forms, friction: JointFriction) -> Prose:
+    """On q₁ acts viscous friction of coefficient f_v and Coulomb friction of coefficient f_c."""
+    kinds = (("viscous", friction.viscous), ("Coulomb", friction.coulomb))
+    there = [
+        (f"{kind} friction of coefficient ", forms.of(value)) for kind, value in kinds if not value.is_zero
+    ]
+    on = Symbol(forms.robot.coordinates[friction.coordinate].name)
+    return ("On ", on, " acts ", *listed(there), ".")
+
+
+def _motor(forms: Forms, motor: Motor) -> Prose:
+    """The rotor that turns q₂ has the moment of inertia I_m2 and the gear ratio k_r2; link 1 carries it."""
+    told: Prose = ("The rotor that drives ", Symbol(forms.robot.coordinates[motor.turns].name))
+    told += (" has the moment of inertia ", measured(forms.of(motor.inertia), "kg m^2"))
+    if motor.ratio != forms.robot.ring.one:
+        told += (" and the gear ratio ", forms.of(motor.ratio))
+    if motor.carrier:
+        axis = letters.bold(AXES[motor.axis], Number(motor.carrier))
+        told += ("; it spins about ", axis, f" and is carried by link {motor.carrier}")
+    return (*told, ".")
+
+
+# -- what is asked, and in which state; numbers ----------------------------------------------------
+
+
+def _questions(forms: Forms) -> Iterator[Prose]:
+    """Constraints, task, target, state, forces from outside, limits and assumptions."""
+    questions = forms.robot.questions
+    for constraint in questions.constraints:
+        yield ("Every motion keeps ", equation(mapped(constraint.entry, with_letters), ZERO), ".")
+    task = questions.task
+    if task is not None and task.entries and not task.is_default:
+        entries = (mapped(entry, with_letters) for entry in task.entries)
+        yield ("The task is ", equation(letters.TASK, _flat(entries)), ".")
+    if questions.target is not None:
+        yield ("To be reached: ", equation(letters.TASK, _flat(questions.target.values)), ".")
+    for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
+        if value is not None:
+            yield (equation(letters.bold("r", dots=dots), _flat(map(forms.of, value.entries))), ".")
+    yield from (_load(forms, load) for load in questions.loads)
+    for limits in questions.limits:
+        yield (Relation((limits.low, Symbol(limits.coordinate), limits.high), ("≤", "≤")), ".")
+    given = (("The state: ", questions.state.values), ("The equilibrium: ", questions.model.linearize))
+    for what, values in given:
+        shown = [equation(Symbol(name, dots), value) for name, dots, value in values]
+        if shown and not questions.state_is_reached:
+            yield (what, side_by_side(shown), ".")
+    if questions.state_is_reached:
+        yield ("The state is the configuration within these limits that reaches it.",)
+    candidates = [bound for one in questions.candidates for bound in one.assumed]
+    assumed = list(dict.fromkeys((*questions.model.assumed, *candidates)))
+    if assumed:
+        written = ConfigurationForms(forms.robot, forms.values)
+        yield ("Assumed: ", *listed([written.inequality(bound) for bound in assumed]), ".")
+
+
+def _load(forms: Forms, load: Load) -> Prose:
+    """A force F acts on link 2 at the tip."""
+    kinds = (("the force ", load.force), ("the moment ", load.moment))
+    acting = [(what, _flat(map(forms.of, value.entries))) for what, value in kinds if not value.is_zero]
+    where = "the tip" if load.point == TIP else load.point or "a given point"
+    along = f" along the axes of frame {load.link} turned as given" if load.axes is not None else ""
+    return (f"On link {load.link} acts at {where} ", *listed(acting), f"{along}.")
+
+
+def _values(robot: Robot, written: Mapping[str, str], own_units: Mapping[str, str]) -> Prose:
+    """In numbers: a₂ = 0.4318 m; nothing where the problem has no values."""
+    known = {name: unit for name, (_, unit) in roles(robot).items()}
+    given: list[Prose] = []
+    for name, text in written.items():
+        unit = own_units.get(name, known.get(name, ""))
+        value = text.replace(" deg", "°").replace("deg", "°")
+        with_unit = (" ", units.node(unit)) if unit and not value.endswith("°") else ()
+        given.append((equation(Symbol(name), Words(value)), *with_unit))
+    return (" In numbers: ", *listed(given), ".") if given else ()

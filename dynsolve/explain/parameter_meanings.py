@@ -21,16 +21,13 @@ from dynsolve.explain.writing import and_joined
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import lowered, to_unicode
-from dynsolve.notation.walk import names_in as names_in_tree
 from dynsolve.notation.walk import names_in as names_in_trees
 from dynsolve.quantities import letters
 from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Body, Convention, Joint, Robot
-from dynsolve.robot.shapes import MASS
+from dynsolve.robot.shapes import AXES, MASS, Shape
 from dynsolve.robot.units import ENERGY, si
-
-AXES = "xyz"
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,29 +67,81 @@ class Meaning:
 _AXIS = {"o": "𝐨", "x": "𝐱", "z": "𝐳"}
 _INDEXED = re.compile(r"\b([oxz])\{(\w+)\}")
 
+_UNTOLD = Meaning("")
+"""What is said of a parameter of which its role says all."""
 
-def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
-    """The role, the SI unit and the meaning of every parameter, in their order."""
-    found: dict[tuple[Role, str], dict[Meaning, None]] = {}
-    for role, name, meaning in (*_of_table(robot), *_of_bodies(robot)):
-        found.setdefault((role, name), {})[meaning] = None
+
+class Role(Enum):
+    """A role: its meaning for several parameters and for one, in the order in which they are listed."""
+
+    GRAVITY = "acceleration of gravity", "acceleration of gravity"
+    LENGTH = "lengths in the table", "length in the table"
+    ANGLE = "constant angles in the table", "constant angle in the table"
+    BASE = "place of frame 0 in the world", "place of frame 0 in the world"
+    TURN = "angles by which frame 0 is turned in the world", "angle by which frame 0 is turned in the world"
+    MASS = "masses of the bodies", "mass of a body"
+    INERTIA = "given moments of inertia", "given moment of inertia"
+    PRODUCT = "given products of inertia", "given product of inertia"
+    SHAPE = "dimensions of the bodies", "dimension of a body"
+    CENTER = "place of the mass centres in their links", "place of a mass centre in its link"
+    POSITION = "lengths in the given positions", "length in the given positions"
+    ROTOR = "moments of inertia of the rotors", "moment of inertia of a rotor"
+    RATIO = "ratios of the gears", "ratio of a gear"
+    STIFFNESS = "stiffnesses of the springs", "stiffness of a spring"
+    REST = "where the springs are relaxed", "where a spring is relaxed"
+    VISCOUS = "coefficients of viscous friction", "coefficient of viscous friction"
+    COULOMB = "coefficients of Coulomb friction", "coefficient of Coulomb friction"
+    DAMPING = "coefficients of the dampers", "coefficient of a damper"
+    OTHER = "parameters of the problem", "parameter of the problem"
+
+    @property
+    def meaning(self) -> str:
+        """What several are."""
+        return self.value[0]
+
+    @property
+    def of_one(self) -> str:
+        """What one is."""
+        return self.value[1]
+
+
+def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
+    """The role and the SI unit of every parameter; the first role counts where one has several."""
+    found: dict[str, Role] = {}
+    for role, name, _ in _places(robot):
+        found.setdefault(name, role)
+    dimensions = _dimensions(robot)
     return {
-        name: (role, unit, _with_shape(_of_role(found, role, name), _of_role(found, Role.SHAPE, name)))
-        if role is Role.LENGTH
-        else (role, unit, _of_role(found, role, name))
-        for name, (role, unit) in roles(robot).items()
+        name: (role := found.get(name, Role.OTHER), "rad" if role is Role.TURN else dimensions.get(name, ""))
+        for name in robot.parameters
     }
 
 
-def _of_role(found: Mapping[tuple[Role, str], Iterable[Meaning]], role: Role, name: str) -> Meaning:
-    return _as_one(role, tuple(found.get((role, name), (Meaning(""),))))
+def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
+    """The role, the SI unit and the meaning of every parameter, in their order."""
+    places: dict[tuple[Role, str], dict[Meaning, None]] = {}
+    for role, name, meaning in _places(robot):
+        if meaning is not _UNTOLD:
+            places.setdefault((role, name), {})[meaning] = None
+    told = {(role, name): _as_one(role, tuple(of)) for (role, name), of in places.items()}
+    found = {}
+    for name, (role, unit) in roles(robot).items():
+        own, shape = (told.get((one, name), _UNTOLD) for one in (role, Role.SHAPE))
+        if role is Role.LENGTH and own.words and shape.words:  # height of o_1 above o_0; length of body 1
+            own = replace(own, words=f"{own.words}; {shape.words}", body=shape.body, axes=shape.axes)
+        found[name] = role, unit, own
+    return found
 
 
-def _with_shape(row: Meaning, shape: Meaning) -> Meaning:
-    """A length of the table that is a dimension of a body, too: height of o_1 above o_0; length of body 1"""
-    if not (row.words and shape.words):
-        return row
-    return replace(row, words=f"{row.words}; {shape.words}", body=shape.body, axes=shape.axes)
+def _dimensions(robot: Robot) -> dict[str, str]:
+    """Units of the parameters: a torque, or the stiffness of a torsion spring, is no energy."""
+    known = Dimensions(robot.ring, robot)
+    units: dict[str, str] = {}
+    for generator in robot.ring.generators:
+        if generator.kind == "symbol" and not generator.dots:
+            found = known.of_generator(generator)
+            units[generator.name] = "" if found is None else "N m" if found == ENERGY else si(found)
+    return units
 
 
 def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
@@ -113,24 +162,59 @@ def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
     return Meaning("")
 
 
-# -- the table -------------------------------------------------------------------------------------
+# -- where parameters stand ------------------------------------------------------------------------
 
 
-def _of_table(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
-    """The lengths of the table, and where frame 0 is in the world."""
-    for axis, entry in zip(AXES, robot.base_position.entries, strict=True):
-        for name in names_in(entry):
-            if _is(entry, name):
-                yield (
-                    Role.BASE,
-                    name,
-                    Meaning("{coordinates} of o{before} in the world", before=0, axes=(axis,)),
-                )
+def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
+    """Where parameters stand, and what they are there; the strongest role first."""
+    for entry in robot.gravity.entries:
+        yield from _untold(Role.GRAVITY, names_in(entry))
     for joint in robot.joints:
         for name in names_in(joint.a):
             yield Role.LENGTH, name, _along_x(robot, joint, name) if _is(joint.a, name) else _in_row(joint)
         for name in names_in(joint.d):
             yield Role.LENGTH, name, _along_z(robot, joint, name)
+        yield from _untold(Role.ANGLE, names_of(joint.theta), names_of(joint.alpha))
+    in_world = Meaning("{coordinates} of o{before} in the world", before=0)
+    for axis, entry in zip(AXES, robot.base_position.entries, strict=True):
+        for name in names_in(entry):
+            yield Role.BASE, name, replace(in_world, axes=(axis,)) if _is(entry, name) else _UNTOLD
+    yield from _untold(Role.TURN, names_in_trees(*(angle for _, angle in robot.base_turns)))
+    for body in robot.bodies:
+        yield from _mass(body)
+    for body in robot.bodies:
+        yield from _inertia(body)
+    for body in robot.bodies:
+        if robot.has_table:
+            yield from _center(robot, body)
+        else:
+            yield from _untold(Role.POSITION, *map(names_in, body.center.entries))
+        rates = (rate for turn in body.turns for rate in turn.rates.entries)
+        yield from _untold(Role.POSITION, *map(names_in, rates))
+    yield from _acting(robot.actions)
+
+
+def _untold(role: Role, *names: Iterable[str]) -> Iterator[tuple[Role, str, Meaning]]:
+    """Parameters of which a role tells all that there is to say."""
+    return ((role, name, _UNTOLD) for some in names for name in some)
+
+
+def _acting(actions: Actions) -> Iterator[tuple[Role, str, Meaning]]:
+    """Where the parameters of what acts stand."""
+    for motor in actions.motors:
+        yield from _untold(Role.ROTOR, names_in(motor.inertia))
+        yield from _untold(Role.RATIO, names_in(motor.ratio))
+    for law in (spring.law for spring in actions.springs if spring.law):
+        yield from _untold(Role.STIFFNESS, names_in(law.stiffness))
+        yield from _untold(Role.REST, names_in(law.rest))
+    for one in actions.friction:
+        yield from _untold(Role.VISCOUS, names_in(one.viscous))
+        yield from _untold(Role.COULOMB, names_in(one.coulomb))
+    for damper in actions.dampers:
+        yield from _untold(Role.DAMPING, names_in(damper.damping))
+
+
+# -- the table -------------------------------------------------------------------------------------
 
 
 def _in_row(joint: Joint) -> Meaning:
@@ -171,27 +255,24 @@ def _is_upright(robot: Robot) -> bool:
 # -- the bodies ------------------------------------------------------------------------------------
 
 
-def _of_bodies(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
-    """Masses, moments of inertia, dimensions, and where the mass centres are."""
-    for body in robot.bodies:
-        density, shape, mass = body.density, body.shape, "mass"
-        given: Iterable[str] = names_in(body.mass)
-        if density is not None:
-            shape, mass, given = density.shape, "density", names_in_tree(density.formula)
-        alone = Meaning(f"{mass} of body {{body}}", body=body.name)
-        part = Meaning(f"part of the {mass} of body {{body}}", body=body.name)
-        for name in given:
-            is_alone = density.formula == Symbol(name) if density is not None else _is(body.mass, name)
-            yield Role.MASS, name, alone if is_alone else part
-        if shape is None:
-            yield from _moments(body)
-        else:
-            for key, value in shape.dimensions:
-                for name in names_in(value):
-                    if _is(value, name):
-                        yield Role.SHAPE, name, _dimension(body, key)
-        if robot.has_table:
-            yield from _center(robot, body)
+def _mass(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
+    """The mass or the density, and the dimensions of a body with a density."""
+    density = body.density
+    mass, names = ("mass", [*names_in(body.mass)])
+    if density is not None:
+        mass, names = "density", [*names_in_trees(density.formula)]
+        yield from _sizes(body, density.shape)
+    for name in names:
+        is_alone = density.formula == Symbol(name) if density is not None else _is(body.mass, name)
+        part = "" if is_alone else "part of the "
+        yield Role.MASS, name, Meaning(f"{part}{mass} of body {{body}}", body=body.name)
+
+
+def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[Role, str, Meaning]]:
+    """The dimensions of a shape."""
+    for key, value in shape.dimensions if shape is not None else ():
+        for name in names_in(value):
+            yield Role.SHAPE, name, _dimension(body, key) if _is(value, name) else _UNTOLD
 
 
 def _dimension(body: Body, key: str) -> Meaning:
@@ -200,36 +281,41 @@ def _dimension(body: Body, key: str) -> Meaning:
     return Meaning(f"{DIMENSIONS[key]} of body {{body}}", body=body.name)
 
 
-def _moments(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
-    """The entries of a given tensor."""
-    point = {"center": "its mass centre", "origin": "the origin of its frame"}.get(body.about, "its joint")
+def _inertia(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
+    """The dimensions of a shape, or the entries of a given tensor."""
     rows = body.inertia.rows if body.inertia is not None else ()
+    if body.shape is not None:
+        yield from _sizes(body, body.shape)
+        yield from _untold(Role.SHAPE, *(names_in(entry) for row in rows for entry in row))
+        return
+    point = {"center": "its mass centre", "origin": "the origin of its frame"}.get(body.about, "its joint")
+    moment = Meaning(f"moment of inertia of body {{body}} about {{axes}} through {point}", body=body.name)
     for i, row in enumerate(rows):
         for j, entry in enumerate(row):
             for name in names_in(entry):
                 if i != j:
                     yield Role.PRODUCT, name, Meaning("products of inertia of body {body}", body=body.name)
-                elif _is(entry, name):
-                    words = f"moment of inertia of body {{body}} about {{axes}} through {point}"
-                    yield Role.INERTIA, name, Meaning(words, body=body.name, axes=(AXES[i],))
+                else:
+                    is_alone = _is(entry, name)
+                    yield Role.INERTIA, name, replace(moment, axes=(AXES[i],)) if is_alone else _UNTOLD
 
 
 def _center(robot: Robot, body: Body) -> Iterator[tuple[Role, str, Meaning]]:
     """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
     near = _from_near_end(robot, body)
+    link, before = body.link, robot.joints[body.link - 1].parent
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
         if _is_distance(body.center, name):
             words = "distance from o{link} to the mass centre of body {body}"
-            yield Role.CENTER, name, Meaning(words, body.link, body.name)
+            yield Role.CENTER, name, Meaning(words, link, body.name)
         elif near is not None and _is_distance(near, name):
             words = "distance from o{before} to the mass centre of body {body}"
-            before = robot.joints[body.link - 1].parent
-            yield Role.CENTER, name, Meaning(words, body.link, body.name, before)
+            yield Role.CENTER, name, Meaning(words, link, body.name, before)
         else:
-            for axis, entry in zip(AXES, body.center.entries, strict=True):
-                if _is(entry, name):
-                    words = "{coordinates} of the mass centre of body {body}, in frame {link}"
-                    yield Role.CENTER, name, Meaning(words, body.link, body.name, axes=(axis,))
+            words = "{coordinates} of the mass centre of body {body}, in frame {link}"
+            alone = (axis for axis, entry in zip(AXES, body.center.entries, strict=True) if _is(entry, name))
+            yield from ((Role.CENTER, name, Meaning(words, link, body.name, axes=(axis,))) for axis in alone)
+            yield Role.CENTER, name, _UNTOLD
 
 
 def _from_near_end(robot: Robot, body: Body) -> Matrix | None:
@@ -339,113 +425,6 @@ def letters_of(body: Body) -> Iterator[tuple[str, Expr]]:
     if body.shape is not None and body.shape.formulas:
         yield MASS, body.mass
         yield from body.shape.letters
-
-
-# -- what the parameters of a problem are, by where they stand: a mass, a length of the table, a moment
-
-
-class Role(Enum):
-    """A role: its meaning for several parameters and for one, in the order in which they are listed."""
-
-    GRAVITY = "acceleration of gravity", "acceleration of gravity"
-    LENGTH = "lengths in the table", "length in the table"
-    ANGLE = "constant angles in the table", "constant angle in the table"
-    BASE = "place of frame 0 in the world", "place of frame 0 in the world"
-    TURN = "angles by which frame 0 is turned in the world", "angle by which frame 0 is turned in the world"
-    MASS = "masses of the bodies", "mass of a body"
-    INERTIA = "given moments of inertia", "given moment of inertia"
-    PRODUCT = "given products of inertia", "given product of inertia"
-    SHAPE = "dimensions of the bodies", "dimension of a body"
-    CENTER = "place of the mass centres in their links", "place of a mass centre in its link"
-    POSITION = "lengths in the given positions", "length in the given positions"
-    ROTOR = "moments of inertia of the rotors", "moment of inertia of a rotor"
-    RATIO = "ratios of the gears", "ratio of a gear"
-    STIFFNESS = "stiffnesses of the springs", "stiffness of a spring"
-    REST = "where the springs are relaxed", "where a spring is relaxed"
-    VISCOUS = "coefficients of viscous friction", "coefficient of viscous friction"
-    COULOMB = "coefficients of Coulomb friction", "coefficient of Coulomb friction"
-    DAMPING = "coefficients of the dampers", "coefficient of a damper"
-    OTHER = "parameters of the problem", "parameter of the problem"
-
-    @property
-    def meaning(self) -> str:
-        """What several are."""
-        return self.value[0]
-
-    @property
-    def of_one(self) -> str:
-        """What one is."""
-        return self.value[1]
-
-
-def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
-    """The role and the SI unit of every parameter; the first role counts where one has several."""
-    found: dict[str, Role] = {}
-    for role, names in _places(robot):
-        for name in names:
-            if name in robot.parameters:
-                found.setdefault(name, role)
-    dimensions = _dimensions(robot)
-    return {
-        name: (role := found.get(name, Role.OTHER), "rad" if role is Role.TURN else dimensions.get(name, ""))
-        for name in robot.parameters
-    }
-
-
-def _dimensions(robot: Robot) -> dict[str, str]:
-    """Units of the parameters: a torque, or the stiffness of a torsion spring, is no energy."""
-    known = Dimensions(robot.ring, robot)
-    units: dict[str, str] = {}
-    for generator in robot.ring.generators:
-        if generator.kind == "symbol" and not generator.dots:
-            found = known.of_generator(generator)
-            units[generator.name] = "" if found is None else "N m" if found == ENERGY else si(found)
-    return units
-
-
-def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
-    """Where parameters stand, the strongest role first."""
-    for entry in robot.gravity.entries:
-        yield Role.GRAVITY, names_in(entry)
-    for joint in robot.joints:
-        yield Role.LENGTH, (*names_in(joint.d), *names_in(joint.a))
-        yield Role.ANGLE, (*names_of(joint.theta), *names_of(joint.alpha))
-    for entry in robot.base_position.entries:
-        yield Role.BASE, names_in(entry)
-    yield Role.TURN, names_in_trees(*(angle for _, angle in robot.base_turns))
-    for body in robot.bodies:
-        if body.density is None:
-            yield Role.MASS, names_in(body.mass)
-        elif body.density.shape is not None:
-            for _, size in body.density.shape.dimensions:
-                yield Role.SHAPE, names_in(size)
-            yield Role.MASS, names_in_trees(body.density.formula)
-    for body in robot.bodies:
-        given = body.inertia.rows if body.inertia is not None else ()
-        for i, j in ((i, j) for i, row in enumerate(given) for j in range(len(row))):
-            own = Role.INERTIA if i == j else Role.PRODUCT
-            yield own if body.shape is None else Role.SHAPE, names_in(given[i][j])
-    for body in robot.bodies:
-        for entry in body.center.entries:
-            yield Role.CENTER if robot.has_table else Role.POSITION, names_in(entry)
-        for turn in body.turns:
-            yield Role.POSITION, (name for rate in turn.rates.entries for name in names_in(rate))
-    yield from _places_in(robot.actions)
-
-
-def _places_in(acting: Actions) -> Iterator[tuple[Role, Iterable[str]]]:
-    """Where the parameters of what acts stand."""
-    for motor in acting.motors:
-        yield Role.ROTOR, names_in(motor.inertia)
-        yield Role.RATIO, names_in(motor.ratio)
-    for law in (spring.law for spring in acting.springs if spring.law):
-        yield Role.STIFFNESS, names_in(law.stiffness)
-        yield Role.REST, names_in(law.rest)
-    for one in acting.friction:
-        yield Role.VISCOUS, names_in(one.viscous)
-        yield Role.COULOMB, names_in(one.coulomb)
-    for damper in acting.dampers:
-        yield Role.DAMPING, names_in(damper.damping)
 
 
 def names_in(expr: Expr) -> Iterator[str]:
