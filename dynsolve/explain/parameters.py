@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations_with_replacement, count
@@ -23,11 +23,13 @@ from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.regressor import combinations, known_names
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
-from dynsolve.explain.writing import SLOTINE_LI, listed, spong
+from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
+from dynsolve.explain.writing import SLOTINE_LI, listed, scalar, spong
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import Entry, Letter, Node, Number, Product, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Entry, Letter, Node, Number, Product, Row, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -41,96 +43,91 @@ MOST_SHOWN = 24
 
 @dataclass(frozen=True, slots=True)
 class _Linear:
-    """Forces that are linear in parameters: the names of both factors, and how the forces are called."""
+    """Forces that are linear in parameters: τ = Y a, and the same of a part of them."""
 
     Y: str
     a: str
     forces: Node
-    Y_letter: Letter
-    a_letter: Letter
+    of: str = ""
+
+    @property
+    def formula(self) -> Node:
+        """τ = Y a"""
+        return equation(self.forces, Product((self.letter("Y"), self.letter("a"))))
+
+    def letter(self, base: str) -> Letter:
+        """Y or a; Y_M of a part."""
+        return letters.of_part(base, self.Y[1:]) if self.of else letters.bold(base)
 
 
 _ALL = (
-    _Linear("Y", "a", letters.TAU, letters.REGRESSOR, letters.PARAMETERS),
-    _Linear(
-        "YM", "aM", Product((letters.D, letters.QDD)), letters.of_part("Y", "M"), letters.of_part("a", "M")
-    ),
-    _Linear("Yg", "ag", letters.G, letters.of_part("Y", "g"), letters.of_part("a", "g")),
+    _Linear("Y", "a", letters.TAU),
+    _Linear("YM", "aM", Product((letters.D, letters.QDD)), " of the inertia matrix"),
+    _Linear("Yg", "ag", letters.G, " of gravity"),
 )
 
 
 def steps(context: Context) -> Iterator[Step]:
     """The parameters and the regressor of the forces, and of a part of them where that is asked for."""
-    wanted = context.wanted
+    wanted, values = context.wanted, context.values
     for linear in _ALL:
+        title = f"The parameters{linear.of}"
         if {linear.a, linear.Y} & wanted and _forces(context, linear).is_zero:
             why: Prose = (linear.forces, " is 0 in every state, so that there are no parameters in it.")
-            yield Step(linear.a, STAGE, _title(linear), why, detail=Detail.BRIEF)
+            yield Step(linear.a, STAGE, title, why, detail=Detail.BRIEF)
             continue
-        formula = equation(linear.forces, Product((linear.Y_letter, linear.a_letter)))
-        group = Group(linear.a, f"{_title(linear)} and the regressor", (), formula, _SOURCE)
-        if linear.a in wanted:
-            yield replace(_parameters(context, linear), group=group, normal=NOTED)
-        if linear.Y in wanted:
-            yield replace(_regressor(context, linear), group=group)
-    if "Yr" in wanted and not context.values["tau"].is_zero:
-        yield _with_references(context)
+        group = Group(linear.a, f"{title} and the regressor", (), linear.formula, _SOURCE)
+        for name, made in ((linear.a, _parameters), (linear.Y, _regressor)):
+            if name in wanted:
+                value = values[name]
+                if isinstance(value, Skipped):
+                    yield not_derived(name, STAGE, value.why, group)
+                else:
+                    yield made(context, linear, group)
+    if "Yr" in wanted and not values["tau"].is_zero:
+        value = values["Yr"]
+        yield not_derived("Yr", STAGE, value.why) if isinstance(value, Skipped) else _with_references(context)
 
 
 def _forces(context: Context, linear: _Linear) -> Matrix:
     """The forces that are linear in the parameters."""
-    values = context.values
-    found: Matrix = {"Y": lambda: values["tau"], "Yg": lambda: values["g"]}.get(
-        linear.Y, lambda: values["D"] @ accelerations(context.robot)
-    )()
-    return found
+    name = {"Y": "tau", "Yg": "g"}.get(linear.Y, "D")
+    found: Matrix = context.values[name]
+    return found @ accelerations(context.robot) if name == "D" else found
 
 
 # -- the parameters --------------------------------------------------------------------------------
 
 
-def _parameters(context: Context, linear: _Linear) -> Step:
-    asked = context.robot.questions.model
-    value = context.values[linear.a]
-    is_given = linear.a == "a" and asked.parameters is not None
-    if isinstance(value, Skipped):
-        return Step(linear.a, STAGE, "Not derived", (value.why.capitalize() + ".",), detail=Detail.BRIEF)
-    why: Prose = (
-        "Multiplied out, ", linear.forces, " is a sum of products: what moves (coordinates, rates, "
-        "accelerations, sines and cosines) times a coefficient of parameters. ", *_known(context),
-    )  # fmt: skip
-    if is_given:
-        why = (*why, "The problem gives the entries of ", linear.a_letter, ".")
+def _parameters(context: Context, linear: _Linear, group: Group) -> Step:
+    value: Matrix = context.values[linear.a]
+    is_given = linear.a == "a" and context.robot.questions.model.parameters is not None
+    known = sorted(known_names(context.robot))
+    of_known: Prose = ()
+    if known:
+        of_known = (*listed(list(map(Symbol, known))), f" count{'s' * (len(known) == 1)} as known. ")
+    entries = "one entry" if len(value.rows) == 1 else f"{len(value.rows)} entries"
+    rank = "that is the rank of the forces over motions and parameters"
     return Step(
         id=linear.a,
         stage=STAGE,
-        title=_title(linear),
-        why=why,
-        formula=equation(linear.forces, Product((linear.Y_letter, linear.a_letter))),
+        title=f"The parameters{linear.of}",
+        why=say(
+            "Multiplied out, {forces} is a sum of products: what moves (coordinates, rates, accelerations, "
+            "sines and cosines) times a coefficient of parameters. {known}{given}",
+            forces=linear.forces,
+            known=of_known,
+            given=say("The problem gives the entries of {a}.", a=linear.letter("a")) if is_given else (),
+        ),
+        formula=linear.formula,
         source=_SOURCE,
         lines=() if is_given else tuple(_lines(context, linear, value)),
-        result=(equation(linear.a_letter, context.form(linear.a)),),
-        notes=() if is_given else ((_minimal(len(value.rows)),),),
+        result=(equation(linear.letter("a"), context.form(linear.a)),),
+        notes=() if is_given else ((f"Fewer than {entries} are not enough: {rank}.",),),
         detail=Detail.BRIEF,
+        normal=NOTED,
+        group=group,
     )
-
-
-def _title(linear: _Linear) -> str:
-    return {"a": "The parameters", "aM": "The parameters of the inertia matrix"}.get(
-        linear.a, "The parameters of gravity"
-    )
-
-
-def _known(context: Context) -> Prose:
-    known = sorted(known_names(context.robot))
-    if not known:
-        return ()
-    return (*listed([Symbol(name) for name in known]), f" count{'s' * (len(known) == 1)} as known. ")
-
-
-def _minimal(count: int) -> str:
-    entries = "one entry" if count == 1 else f"{count} entries"
-    return f"Fewer than {entries} are not enough: that is the rank of the forces over motions and parameters."
 
 
 def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Line]:
@@ -138,21 +135,17 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
     found = combinations(context.robot, _forces(context, linear), parameters)
     if not 0 < len(found) <= MOST_SHOWN:
         return
-    by: Prose = (
-        "The coefficients that occur, without numbers and known factors that all terms of one share:",
-    )
-    yield Line(by, tuple(context.show(coefficient) for coefficient, _ in found))
-    names = [Entry(linear.a_letter, Number(k)) for k in range(1, len(parameters.rows) + 1)]
+    by = "The coefficients that occur, without numbers and known factors that all terms of one share:"
+    yield Line((by,), tuple(context.show(coefficient) for coefficient, _ in found))
+    names = [Entry(linear.letter("a"), Number(k)) for k in range(1, len(parameters.rows) + 1)]
     dependent = [
         equation(context.show(coefficient), _sum(context, names, factors))
         for coefficient, factors in found
         if coefficient not in parameters.entries
     ]
     if dependent:
-        yield Line(
-            ("Some are combinations of the entries that are chosen below, and need none of their own:",),
-            tuple(dependent),
-        )
+        by = "Some are combinations of the entries that are chosen below, and need none of their own:"
+        yield Line((by,), tuple(dependent))
 
 
 def _sum(context: Context, names: Sequence[Node], factors: tuple[RationalExpr, ...]) -> Node:
@@ -160,62 +153,44 @@ def _sum(context: Context, names: Sequence[Node], factors: tuple[RationalExpr, .
     terms = []
     for name, factor in zip(names, factors, strict=True):
         if not factor.is_zero:
-            (row,) = _shown(context, factor)
-            terms.append(times(1, [(row, 1), (name, 1)]))
+            shown = scalar(context.forms.of(FractionMatrix(factor.ring, ((factor,),))))
+            terms.append(times(1, [(shown, 1), (name, 1)]))
     return total(terms)
-
-
-def _shown(context: Context, factor: RationalExpr) -> tuple[Node]:
-    form = context.forms.of(FractionMatrix(factor.ring, ((factor,),)))
-    ((node,),) = form.rows  # type: ignore[attr-defined]
-    return (node,)
 
 
 # -- the regressor ---------------------------------------------------------------------------------
 
 
-def _regressor(context: Context, linear: _Linear) -> Step:
-    value = context.values[linear.Y]
-    if isinstance(value, Skipped):
-        return Step(linear.Y, STAGE, "Not derived", (value.why.capitalize() + ".",), detail=Detail.BRIEF)
-    why: Prose = (
-        "Each force has a row. Column k holds what stands in it beside entry k of ", linear.a_letter, ".",
-    )  # fmt: skip
+def _regressor(context: Context, linear: _Linear, group: Group) -> Step:
+    a = linear.letter("a")
     return Step(
         id=linear.Y,
         stage=STAGE,
-        title={"Y": "The regressor", "YM": "The regressor of the inertia matrix"}.get(
-            linear.Y, "The regressor of gravity"
-        ),
-        why=why,
-        formula=equation(linear.forces, Product((linear.Y_letter, linear.a_letter))),
+        title=f"The regressor{linear.of}",
+        why=say("Each force has a row. Column k holds what stands in it beside entry k of {a}.", a=a),
+        formula=linear.formula,
         source=_SOURCE,
-        result=(equation(linear.Y_letter, context.form(linear.Y)),),
+        result=(equation(linear.letter("Y"), context.form(linear.Y)),),
         detail=Detail.BRIEF,
+        group=group,
     )
 
 
 def _with_references(context: Context) -> Step:
-    value = context.values["Yr"]
-    if isinstance(value, Skipped):
-        return Step("Yr", STAGE, "Not derived", (value.why.capitalize() + ".",), detail=Detail.BRIEF)
-    rates, accelerations = (letters.bold("q", Symbol("r"), dots=dots) for dots in (1, 2))
-    Y = letters.of_part("Y", "r")
     return Step(
         id="Yr",
         stage=STAGE,
         title="The regressor with reference rates",
-        why=("Adaptive control puts reference rates ", rates, " and accelerations ", accelerations,
-             " in the place of the arm's own where these are multiplied by ", letters.D, " and ", letters.C,
-             "; the rates inside ", letters.C, " stay. The parameters are the same."),
-        formula=equation(
-            Sum((Product((letters.D, accelerations)), Product((letters.C, rates)), letters.G)),
-            Product((Y, letters.PARAMETERS)),
+        why=say(
+            "Adaptive control puts reference rates $𝐪̇_r$ and accelerations $𝐪̈_r$ in the place of the arm's "
+            "own where these are multiplied by $𝐃$ and $𝐂$; the rates inside $𝐂$ stay. The parameters are "
+            "the same."
         ),
+        formula=formula("𝐃 𝐪̈_r + 𝐂 𝐪̇_r + 𝐠 = 𝐘_r 𝐚"),
         source=SLOTINE_LI.section("9.2"),
-        result=(equation(Y, context.form("Yr")),),
-        notes=(("Here the choice of ", letters.C, " counts: with that of Christoffel ",
-                Row((letters.rate(letters.D), Words(" - 2"), letters.C)), " is skew-symmetric."),),
+        result=(equation(letters.of_part("Y", "r"), context.form("Yr")),),
+        notes=(say("Here the choice of $𝐂$ counts: with that of Christoffel {skew} is skew-symmetric.",
+                   skew=Row((letters.rate(letters.D), Words(" - 2"), letters.C))),),
         detail=Detail.BRIEF,
     )  # fmt: skip
 
@@ -313,17 +288,14 @@ class BaseParameters:
 
     def _coefficients(self, expr: Expr) -> dict[Exponents, Coefficient]:
         """The coefficient of every product of sines, cosines and coordinates."""
-        found = self._split.get(expr)
-        if found is None:
-            found = self._split[expr] = self._split_up(expr)
-        return found
-
-    def _split_up(self, expr: Expr) -> dict[Exponents, Coefficient]:
+        if expr in self._split:
+            return self._split[expr]
         result: dict[Exponents, Coefficient] = {}
         for e, f in expr.poly.to_dict().items():
             motion = tuple(0 if i in self._parameters else int(x) for i, x in enumerate(e))
             own = tuple(int(x) if i in self._parameters else 0 for i, x in enumerate(e))
             result.setdefault(motion, {})[own] = fraction(f)
+        self._split[expr] = result
         return result
 
     def _without_lengths(self, coefficient: Coefficient) -> tuple[Exponents, Coefficient]:
@@ -425,22 +397,17 @@ class BaseParameters:
 
     def expr(self, expr: Expr) -> Expr:
         """D's or g's entry in base parameters, in `ring`."""
-        found = self._carried.get(expr)
-        if found is None:
-            found = self._carried[expr] = self._carry(expr)
-        return found
-
-    def _carry(self, expr: Expr) -> Expr:
+        if expr in self._carried:
+            return self._carried[expr]
         ring = self.ring
         total: dict[Exponents, Fraction] = {}
-        width = len(ring.generators)
         for motion, coefficient in self._coefficients(expr).items():
             for own, f in self._written(coefficient):
                 e = tuple(x + (motion[i] if i < len(motion) else 0) for i, x in enumerate(own))
-                assert len(e) == width
                 total[e] = total.get(e, Fraction(0)) + f
         terms = {e: fmpq(f.numerator, f.denominator) for e, f in total.items() if f}
-        return Expr(ring, ring.reduce(ring.ctx.from_dict(terms)))
+        self._carried[expr] = Expr(ring, ring.reduce(ring.ctx.from_dict(terms)))
+        return self._carried[expr]
 
     def _written(self, coefficient: Coefficient) -> Iterator[tuple[Exponents, Fraction]]:
         shared, whole = self._without_lengths(coefficient)

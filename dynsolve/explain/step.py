@@ -145,3 +145,8 @@ class Step:
     hint_title: str = ""
     task: Node | None = None
     is_task: bool = True
+
+
+def not_derived(id: str, stage: Stage, why: str, group: Group | None = None) -> Step:
+    """What a step says of a result whose work goes over a bound."""
+    return Step(id, stage, "Not derived", (f"{why.capitalize()}.",), detail=Detail.BRIEF, group=group)
