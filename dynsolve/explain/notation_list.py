@@ -10,15 +10,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from dynsolve.document import Block, Inline, Prose, Table
+from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.parameter_meanings import Role, meanings, shape_letters, told_together
-from dynsolve.explain.recurring import Definition
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, shorthands, units_of
 from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
-from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.explain.writing import agreeing, listed, side_by_side
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Function, Letter, Node, Product, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
@@ -32,18 +32,19 @@ COUNTING = ("i", "j", "k", "n", "t")
 # -- the names of the problem ----------------------------------------------------------------------
 
 
-def of_problem(robot: Robot, style: Style) -> Iterator[Line]:
-    """The names of the problem, and the shorthands."""
-    yield from problem_names(robot)
-    yield from _shorthands(robot, style)
-
-
 def problem_names(robot: Robot) -> Iterator[Line]:
     """The coordinates, and the parameters by what they are."""
-    yield from _coordinates(robot)
-    candidates = [one.name for one in robot.questions.candidates if robot.given is None]
-    if candidates:
-        yield _named(candidates, "matrices that are to be judged", "")
+    of_joint = "joint " if robot.has_table else ""
+    for kind, what, unit in (
+        (JointType.REVOLUTE, "angle", "rad"),
+        (JointType.PRISMATIC, "displacement", "m"),
+    ):
+        names = [q.name for q in robot.coordinates if q.type is kind]
+        many = "s" if len(names) > 1 else ""
+        if names:
+            yield _named(names, f"{of_joint}{what}{many}: generalized coordinate{many}", unit)
+    if robot.given is None and robot.questions.candidates:
+        yield _named([one.name for one in robot.questions.candidates], "matrices that are to be judged", "")
     known = meanings(robot)
     for role in Role:
         units = dict.fromkeys(unit for own, unit, _ in known.values() if own is role)
@@ -61,28 +62,11 @@ def _named(names: Sequence[str], meaning: str, unit: str) -> Line:
     return Line(tuple(map(Symbol, names)), meaning, unit, kinds)
 
 
-def _coordinates(robot: Robot) -> Iterator[Line]:
-    of_joint = "joint " if robot.has_table else ""
-    for kind, (what, unit) in _COORDINATES.items():
-        names = [q.name for q in robot.coordinates if q.type is kind]
-        if names:
-            many = "s" if len(names) > 1 else ""
-            yield _named(names, f"{of_joint}{what}{many}: generalized coordinate{many}", unit)
-
-
-_COORDINATES = {
-    JointType.REVOLUTE: ("angle", "rad"),
-    JointType.PRISMATIC: ("displacement", "m"),
-}
-
-
 def _shorthands(robot: Robot, style: Style) -> Iterator[Line]:
     """s_1 and c_1, each by its meaning: of the coordinates, whatever a row of the table adds to them."""
-    shown = list(shorthands(robot, style))
-    if not shown:
-        return
-    kinds = frozenset(kind for node in shown if (kind := kind_of(node, style)))
-    yield Line(tuple(shown), "sines and cosines of the coordinates", "", kinds)
+    if shown := tuple(shorthands(robot, style)):
+        kinds = frozenset(kind for node in shown if (kind := kind_of(node, style)))
+        yield Line(shown, "sines and cosines of the coordinates", "", kinds)
 
 
 def shorthands_in(blocks: Iterable[Block], robot: Robot, style: Style) -> list[Line]:
@@ -95,18 +79,11 @@ def shorthands_in(blocks: Iterable[Block], robot: Robot, style: Style) -> list[L
     ]
 
 
-def written_out(node: Function) -> Node:
+def _written_out(node: Function) -> Node:
     """A sine or cosine that no style abbreviates: sin θ_1, sin(θ_1 + θ_2)."""
     if isinstance(node.argument, Sum):
         return Row((Words(f"{node.name}("), node.argument, Words(")")))
     return Row((Words(f"{node.name} "), node.argument))
-
-
-def _meaning_of_shorthands(shown: Sequence[Function]) -> Node:
-    """The first sine and cosine, and the first of a sum, or else the next."""
-    of_sums = [node for node in shown if isinstance(node.argument, Sum)]
-    examples = [*shown[:2], *(of_sums or shown[2:])[:2]]
-    return side_by_side([equation(node, written_out(node)) for node in dict.fromkeys(examples)])
 
 
 # -- the lines of a report -------------------------------------------------------------------------
@@ -146,7 +123,8 @@ def notation(
     own = {("", "name", name) for name in (*robot.parameters, *(q.name for q in robot.coordinates))}
     general = [replace(line, kinds=line.kinds - own) for line in textbook(robot, style)]
     lines = [
-        *of_problem(robot, style),
+        *problem_names(robot),
+        *_shorthands(robot, style),
         *_of_abbreviations(robot, short),
         *general,
         *_of_shapes(robot, occurring - own),
@@ -155,33 +133,26 @@ def notation(
     shown = _merged(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
-    remarks = (
-        *_counting(occurring - own),
-        *_units_of_entries(robot, occurring),
-        *_bold(occurring),
-        *_of_craig(robot, occurring),
-    )
-    return Notation(remarks, shown)
+    return Notation(tuple(_remarks(robot, occurring, own)), shown)
 
 
 def _merged(lines: Iterable[Line]) -> tuple[Line, ...]:
     """The lines, those of one meaning in one: the masses m_1 and m_2 of the problem, and m_i of a formula."""
     found: dict[object, Line] = {}
     for line in lines:
-        first = found.get(key := (line.words, line.unit))
-        found[key] = (
-            line
-            if first is None
-            else replace(first, signs=(*first.signs, *line.signs), kinds=first.kinds | line.kinds)
-        )
+        key = line.words, line.unit
+        first = found.get(key, replace(line, signs=(), kinds=frozenset()))
+        found[key] = replace(first, signs=(*first.signs, *line.signs), kinds=first.kinds | line.kinds)
     return tuple(found.values())
 
 
 def _told(line: Line, style: Style) -> Line:
     """The line with what there is to say of the choice of its signs."""
     sines = [sign for sign in line.signs if isinstance(sign, Function)]
-    if sines:
-        return replace(line, meaning=_meaning_of_shorthands(sines))
+    if sines:  # the first sine and cosine, and the first of a sum, or else the next
+        of_sums = [node for node in sines if isinstance(node.argument, Sum)]
+        examples = dict.fromkeys([*sines[:2], *(of_sums or sines[2:])[:2]])
+        return replace(line, meaning=side_by_side([equation(node, _written_out(node)) for node in examples]))
     changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
     if changed:
         spong = GREEK.get(changed[0].base, changed[0].base)
@@ -191,25 +162,15 @@ def _told(line: Line, style: Style) -> Line:
 
 
 def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]:
-    """The names of constants and recurring terms."""
+    """The names of constants and recurring terms: in a long model all of a kind in one line."""
     if short is None:
         return
-    yield from (_where_they_occur(robot, short.sums) if short.at_symbols else _in_a_section(robot, short))
-
-
-def _where_they_occur(robot: Robot, sums: Sequence[Definition]) -> Iterator[Line]:
-    """The names of a short model."""
-    for unit, names in units_of(robot, sums).items():
-        told = "abbreviation, defined where it first occurs"
-        yield _named(
-            names, told if len(names) == 1 else "abbreviations, defined where they first occur", unit
-        )
-
-
-def _in_a_section(robot: Robot, short: Abbreviated) -> Iterator[Line]:
-    """The names of a long model, all of a kind in one line."""
-    by_unit = units_of(robot, short.definitions)
-    of = {name: unit for unit, names in by_unit.items() for name in names}
+    if short.at_symbols:
+        for unit, names in units_of(robot, short.sums).items():
+            it = "abbreviation|abbreviations, defined where it|they first occurs|occur"
+            yield _named(names, agreeing(it, len(names)), unit)
+        return
+    of = {name: unit for unit, names in units_of(robot, short.definitions).items() for name in names}
     for definitions, what in ((short.constants, "inertial constants"), (short.sums, "recurring terms")):
         names = [one.name.name for one in definitions]
         if names:
@@ -235,42 +196,23 @@ def _of_drawing(robot: Robot, unknown: set[Kind]) -> Iterator[Line]:
         yield _named(names, "lengths in the drawing alone", "m")
 
 
-def _counting(occurring: set[Kind]) -> Iterator[Inline]:
-    """What counts, and the time."""
-    names = [name for name in COUNTING if ("", "name", name) in occurring]
-    if any("#" in shape for _, kind, shape in occurring if kind != "name"):
-        yield from (
-            *listed([Symbol(name) for name in "ijk"]),
-            " count rows, frames, bodies and coordinates. ",
-        )
+def _remarks(robot: Robot, occurring: set[Kind], own: set[Kind]) -> Iterator[Inline]:
+    """What is said of all signs: what counts, the time, units of entries, bold letters."""
+    names = [name for name in COUNTING if ("", "name", name) in occurring - own]
+    if any("#" in shape for _, kind, shape in occurring - own if kind != "name"):
+        yield from say("$i$, $j$ and $k$ count rows, frames, bodies and coordinates. ")
     if "n" in names:
-        yield from (Symbol("n"), " is the number of coordinates. ")
+        yield from say("$n$ is the number of coordinates. ")
     if "t" in names:
-        yield from ("A dot is the derivative with respect to the time ", Symbol("t"), ". ")
-    if TRANSPOSED in occurring:
+        yield from say("A dot is the derivative with respect to the time $t$. ")
+    if TRANSPOSED in occurring - own:
         yield "A superscript T denotes the transpose. "
-
-
-def _units_of_entries(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:
-    """What the entries of D, C, N and c_ijk are measured in where not all coordinates are angles."""
-    if len({q.type for q in robot.coordinates}) < 2:
-        return
-    shown = [sign for sign in ENTRIES_IN_PRODUCTS if kind_of(sign, PLAIN) in occurring]
-    if shown:
-        of = "The unit" if len(shown) == 1 else "The units"
-        verb = "is" if len(shown) == 1 else "are"
-        yield from (f"{of} of ", *listed(shown), f" {verb} listed for angles: ")
+    entries = [sign for sign in ENTRIES_IN_PRODUCTS if kind_of(sign, PLAIN) in occurring]
+    if entries and len({q.type for q in robot.coordinates}) > 1:
+        units, are = ("The unit", "is") if len(entries) == 1 else ("The units", "are")
+        yield from (f"{units} of ", *listed(entries), f" {are} listed for angles: ")
         yield "divide by the metre for each index that belongs to a length. "
-
-
-def _of_craig(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:
-    """What Craig calls the parts of the model, for those who come from his convention."""
-    if robot.convention is Convention.MODIFIED and kind_of(letters.D, PLAIN) in occurring:
-        ours = [letters.D, Product((letters.C, letters.QD)), letters.G]
-        yield from (" Craig writes M, V and G for ", *listed(ours), ".")
-
-
-def _bold(occurring: set[Kind]) -> Iterator[Inline]:
-    """What a bold letter is."""
     if any(kind == "bold" for _, kind, _ in occurring):
         yield "Bold letters are vectors and matrices."
+    if robot.convention is Convention.MODIFIED and kind_of(letters.D, PLAIN) in occurring:
+        yield from say(" Craig writes M, V and G for $𝐃$, $𝐂 𝐪̇$ and $𝐠$.")
