@@ -31,6 +31,9 @@ class Book:
         """A reference to a section, as it stands beside a formula.
 
         Raises KeyError for a section that is not in the table.
+
+        >>> spong("7.2.2"), craig("3.5"), siciliano("7.1.3"), mls("6.1.2")
+        ('§7.2.2', 'Craig §3.5', 'Siciliano et al. §7.1.3', 'Murray, Li, Sastry §6.1.2')
         """
         if number not in self.sections:
             raise KeyError(f"{self.full}: section {number} is not in the table of citations")
@@ -162,40 +165,8 @@ _IN_A_LIST = "Spong et al."
 """What the course's own book is called where no report names it at its start."""
 
 
-def spong(section: str) -> str:
-    """A reference to the course's book.
-
-    >>> spong("7.2.2")
-    '§7.2.2'
-    """
-    return SPONG.section(section)
-
-
-def craig(section: str) -> str:
-    """A reference to Craig.
-
-    >>> craig("3.5")
-    'Craig §3.5'
-    """
-    return CRAIG.section(section)
-
-
-def siciliano(section: str) -> str:
-    """A reference to Siciliano, Sciavicco, Villani and Oriolo.
-
-    >>> siciliano("7.1.3")
-    'Siciliano et al. §7.1.3'
-    """
-    return SICILIANO.section(section)
-
-
-def mls(section: str) -> str:
-    """A reference to Murray, Li and Sastry.
-
-    >>> mls("6.1.2")
-    'Murray, Li, Sastry §6.1.2'
-    """
-    return MURRAY_LI_SASTRY.section(section)
+spong, craig, siciliano, mls = (book.section for book in (SPONG, CRAIG, SICILIANO, MURRAY_LI_SASTRY))
+"""References to these books by the number of a section."""
 
 
 def by_itself(source: str) -> str:
@@ -210,15 +181,10 @@ def by_itself(source: str) -> str:
 
 def cited(sources: Iterable[str]) -> Iterator[Book]:
     """The books that references name, in the order of the table."""
-    told = tuple(source for source in sources if SIGN in source)
-    for book in BOOKS:
-        others = [other.name for other in BOOKS if other.name]
-        if book.name:
-            found = any(book.name in source for source in told)
-        else:
-            found = any(not any(name in source for name in others) for source in told)
-        if found:
-            yield book
+    named = [book.name for book in BOOKS if book.name]
+    told = [source for source in sources if SIGN in source]
+    own = any(not any(name in source for name in named) for source in told)  # the course's has no name
+    return (book for book in BOOKS if (any(book.name in source for source in told) if book.name else own))
 
 
 LARGEST_WORKING = 260

@@ -18,7 +18,6 @@
     documents       a solution as a document: stages, steps, numbers
     measured_steps  ≈ before what is rounded, and units, in a model in numbers
     remarks         what the problem's author says of results, as notes
-    earlier_results which of the equations before it a step uses
     depths          what a depth shows of the steps
     notebook        how a solution shows itself in a notebook
     summary         its closing section: the model, its matrices, the forces row by row

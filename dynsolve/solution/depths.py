@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain, zip_longest
+from itertools import chain, count, zip_longest
+from typing import Any
 
 from dynsolve.document import (
     DEFINITIONS,
@@ -40,7 +41,6 @@ from dynsolve.notation.walk import walk
 from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import leads_on
 from dynsolve.render.terminal_boxes import TextBox, boxed, pieces
-from dynsolve.solution.earlier_results import EarlierResults, labelled_results
 
 Drawn = Callable[[Figure | ArmFigure], Picture | None]
 """What makes a picture of a drawing; none where there is no such pose of the arm."""
@@ -55,15 +55,14 @@ class Item:
     steps: tuple[Step, ...]
 
     @property
-    def is_group(self) -> bool:
-        """Whether it is several steps under one title."""
-        return len(self.steps) > 1
+    def group(self) -> Group | None:
+        """What several steps are under one title; one step alone is none."""
+        return self.steps[0].group if len(self.steps) > 1 else None
 
     @property
     def title(self) -> str:
         """That of the group, or of the step."""
-        group = self.steps[0].group
-        return group.title if group and self.is_group else self.steps[0].title
+        return (self.group or self.steps[0]).title
 
     @property
     def detail(self) -> Detail:
@@ -91,7 +90,7 @@ class Shown:
     style: Style
     drawn: Drawn | None
     in_summary: frozenset[str]
-    earlier: EarlierResults = field(default_factory=EarlierResults)
+    earlier: EarlierResults = field(default_factory=lambda: EarlierResults())
     said: set[str] = field(default_factory=set)
     named: list[Relation] = field(default_factory=list)  # names that nothing shown has so far
 
@@ -110,25 +109,23 @@ class Shown:
             else:
                 place, extra = place + 1, 0
                 label = f"{number}.{place}"
-            if item.is_group and self.detail is Detail.FULL:
+            if item.group and self.detail is Detail.FULL:
                 yield Fold(f"{label} {item.title}", tuple(self.members(item, label)))
                 extra = len(item.steps)
             elif item.detail <= self.detail:
-                yield Fold(f"{label} {item.title}", tuple(self.blocks(item)))
+                yield Fold(f"{label} {item.title}", self.blocks(item))
             else:
                 outcomes += [step for step in item.steps if step.outcome]
                 for step in item.steps:
                     self.earlier.add(step)
         if outcomes and self.detail is Detail.NORMAL:
-            told = tuple(step.outcome for step in outcomes)
-            yield Fold(f"{number}.{place + 1} {CHECKS}", (List(told),))
+            yield Fold(f"{number}.{place + 1} {CHECKS}", (List(tuple(step.outcome for step in outcomes)),))
 
-    def blocks(self, item: Item) -> Iterator[Block]:
+    def blocks(self, item: Item) -> tuple[Block, ...]:
         """An item as one step."""
         if self.detail is Detail.FULL:
-            yield from self.whole(item.steps[0])
-        else:
-            yield from condensed(list(self.worked(item)), self.style)
+            return tuple(self.whole(item.steps[0]))
+        return tuple(condensed(list(self.worked(item)), self.style))
 
     # -- full --------------------------------------------------------------------------------------
 
@@ -163,7 +160,7 @@ class Shown:
 
     def worked(self, item: Item) -> Iterator[Block]:
         """An item as one step of a worked example."""
-        group = item.steps[0].group if item.is_group else None
+        group = item.group
         if group and group.why:
             yield Text(group.why)
         if group and group.formula is not None:
@@ -213,22 +210,12 @@ def normal(step: Step, group: Group | None) -> Step:
         parts &= ~Part.WHY
     if group and group.formula is not None:
         parts &= ~Part.FORMULA
-    lines = tuple(
-        line
-        for line in step.lines
-        if line.label.startswith(DEFINITIONS) or (Part.LINES in parts and line.detail < Detail.FULL)
-    )
-    return replace(
-        step,
-        why=step.why if Part.WHY in parts else (),
-        formula=step.formula if Part.FORMULA in parts else None,
-        further=step.further if Part.FURTHER in parts else (),
-        working=step.working if Part.WORKING in parts else (),
-        lines=lines,
-        concluding=step.concluding if Part.CONCLUDING in parts else (),
-        result=step.result if Part.RESULT in parts else (),
-        notes=step.notes if Part.NOTES in parts else (),
-    )
+    least = Detail.FULL if Part.LINES in parts else Detail.RESULTS
+    lines = (line for line in step.lines if line.detail < least or line.label.startswith(DEFINITIONS))
+    hidden: dict[str, Any] = {str(part.name).lower(): () for part in Part if part not in parts}
+    if "formula" in hidden:
+        hidden["formula"] = None
+    return replace(step, **{**hidden, "lines": tuple(lines)})
 
 
 def step_blocks(step: Step, inputs: tuple[str, ...] = (), drawn: Drawn | None = None) -> Iterator[Block]:
@@ -239,9 +226,8 @@ def step_blocks(step: Step, inputs: tuple[str, ...] = (), drawn: Drawn | None = 
         picture = attempted(lambda: drawn(figure), lambda: None, f"the picture of {step.title}")
         yield from () if picture is None else (picture,)
     table = () if step.table is None else (Table(step.table.header, step.table.rows),)
-    yield from () if step.table_last else table
-    yield from _way(step, inputs)
-    yield from table if step.table_last else ()
+    way = _way(step, inputs)
+    yield from chain(way, table) if step.table_last else chain(table, way)
     yield from result_blocks(step)
     for note in step.notes:
         yield Note(note)
@@ -313,24 +299,21 @@ _ROOM = 84
 """The cells of a terminal up to which formulas stand side by side."""
 
 
-def condensed(blocks: Sequence[Block], style: Style) -> Iterator[Block]:
+def condensed(blocks: Sequence[Block], style: Style) -> list[Block]:
     """The blocks, formulas that follow each other without a word between them in one display.
 
     Equations with the same left side become a chain, matrices stand side by side where there is room, and
     equations between numbers one under another.
     """
     printer = UnicodePrinter(style)
-    waiting: Formula | Equations | None = None
+    found: list[Block] = []
     for each in blocks:
         block = _packed(each, printer)
-        joined = None if waiting is None else _joined(waiting, block, printer)
-        if joined is None:
-            yield from () if waiting is None else (waiting,)
-            waiting = block if isinstance(block, Formula | Equations) else None
-            yield from () if waiting is not None else (block,)
-        else:
-            waiting = joined
-    yield from () if waiting is None else (waiting,)
+        joined = _joined(found[-1], block, printer) if found else None
+        if joined is not None:
+            found.pop()
+        found.append(joined or block)
+    return found
 
 
 def _packed(block: Block, printer: UnicodePrinter) -> Block:
@@ -345,7 +328,7 @@ def _packed(block: Block, printer: UnicodePrinter) -> Block:
     return replace(block, nodes=tuple(map(side_by_side, rows)), in_columns=False)
 
 
-def _joined(one: Formula | Equations, other: Block, printer: UnicodePrinter) -> Formula | Equations | None:
+def _joined(one: Block, other: Block, printer: UnicodePrinter) -> Formula | Equations | None:
     """Two displays as one; None where they stay apart."""
     if isinstance(one, Formula) and isinstance(other, Formula):
         return _chained(one, other, printer) or _beside(one, other, printer) or _listed(one, other, printer)
@@ -418,3 +401,60 @@ def _cells(node: Node, printer: UnicodePrinter) -> int:
         (piece if isinstance(piece, TextBox) else boxed(piece, printer)).width
         for piece in pieces(node, printer)
     )
+
+
+# -- what a step refers back to: of the steps that it is computed from, the equations that it uses -----
+# A step may have several results, the axes and origins of all joints above all.  A later step cites those of
+# them whose left side stands in its own formulas, and all of them where none does.
+
+
+def labelled_results(step: Step) -> Iterator[tuple[Node, str]]:
+    """The results of a step that have a number, each with its label."""
+    if step.together:
+        yield side_by_side(step.result), step.id
+    elif not step.listed:  # results without a name are numbered
+        labels = chain((step.id, *step.also), (f"{step.id}-{place}" for place in count(2)))
+        yield from zip(step.result, labels, strict=False)
+
+
+class EarlierResults:
+    """The numbered results of the steps so far."""
+
+    def __init__(self) -> None:
+        self._results: dict[str, list[tuple[Node, str]]] = {}
+
+    def add(self, step: Step) -> None:
+        """Remember a step."""
+        for line in step.lines:
+            if line.label:
+                self._results[line.label] = [(formula, line.label) for formula in line.formulas]
+        if step.listed or step.together:  # in one display
+            results = [(result, step.id) for result in step.result]
+            self._results |= dict.fromkeys((step.id, *step.also), results)
+        else:
+            self._results[step.id] = list(labelled_results(step))
+
+    def used(self, step: Step, names: Iterable[str]) -> tuple[str, ...]:
+        """The labels of the equations of the steps `names` that a step uses; `x#2` is the second of x."""
+        lines = [node for line in step.lines for node in line.formulas]
+        formulas = [node for node in (step.formula, *step.further, *step.working, *lines) if node is not None]
+        parts = frozenset(walk(*formulas))
+        labels: list[str] = []
+        for whole in names:
+            name, _, place = whole.partition("#")
+            results = self._results.get(name)
+            if results is None:  # a further result of an earlier step, by its own label
+                labels.append(name)
+                continue
+            if place:  # a step that is shown in another form may not have it
+                labels += [label for _, label in results[int(place) - 1 : int(place)]]
+                continue
+            cited = [label for node, label in results if any(left in parts for left in _left_sides(node))]
+            labels += cited or [label for _, label in results]
+        return tuple(dict.fromkeys(labels))
+
+
+def _left_sides(node: Node) -> Iterator[Node]:
+    """The left side of an equation, or of several on one line."""
+    parts = node.parts if isinstance(node, Row) else (node,)
+    return (part.parts[0] for part in parts if isinstance(part, Relation))

@@ -8,15 +8,8 @@ from itertools import groupby
 from operator import attrgetter
 
 from dynsolve.derivation.rules import course_rules
-from dynsolve.document import (
-    Block,
-    Document,
-    Equations,
-    Fold,
-    Heading,
-    Prose,
-    Text,
-)
+from dynsolve.document import Block, Document, Equations, Fold, Heading, Prose, Text
+from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
 from dynsolve.explain.given import statement
@@ -24,9 +17,8 @@ from dynsolve.explain.notation_list import notation, shorthands_in
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
 from dynsolve.explain.writing import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, listed, machine
-from dynsolve.notation.tree import Number, Power, Relation, Row, Words, equation
+from dynsolve.notation.tree import Number, Power, Row, Words, equation
 from dynsolve.notation.walk import walk
-from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.depths import Drawn, Shown
@@ -205,35 +197,33 @@ def definition_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
         return
     yield Heading("Abbreviations", 2)
     if short.constants:
-        yield Fold("Inertial constants", tuple(_constant_blocks(short, what)))
+        told = Text(_of_constants(short, what))
+        yield Fold("Inertial constants", (told, _definitions(short.constants, CONSTANTS_LIST)))
     if short.sums:
-        yield Fold("Recurring terms", tuple(_recurring_blocks(short)))
+        told = Text(("Terms that occur several times below, each in terms of those before it.",))
+        yield Fold("Recurring terms", (told, _definitions(short.sums, SUMS_LIST)))
 
 
-def _constant_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
+def _definitions(definitions: Iterable[Definition], label: str) -> Equations:
+    defined = tuple(equation(one.name, one.meaning) for one in definitions)
+    return Equations(defined, in_columns=True, label=label)
+
+
+def _of_constants(short: Abbreviated, what: str) -> Prose:
     count = len(short.constants) + len(short.kept)
-    own: Prose = (", and ", *listed(short.kept)) if short.kept else ()
-    yield Text((
-        f"The {what} has {count} base parameter{'s' if count > 1 else ''}: the fewest combinations of "
-        "masses, mass centres, moments and products of inertia, and lengths, in which ",
-        *listed([letters.D, letters.G]),
-        f" are linear, the lengths of the table being known ({KHALIL_DOMBRE.section('9.4')}; "
-        f"{GAUTIER_KHALIL}). Only these can be determined from the motions and forces of the joints. Their "
-        "number is fixed, their choice is not: as many independent linear combinations of them serve as "
-        "well. Chosen here are the constants below",
-        *own,
-        ".",
-    ))  # fmt: skip
-    yield Equations(tuple(map(_defined, short.constants)), in_columns=True, label=CONSTANTS_LIST)
-
-
-def _recurring_blocks(short: Abbreviated) -> Iterator[Block]:
-    yield Text(("Terms that occur several times below, each in terms of those before it.",))
-    yield Equations(tuple(map(_defined, short.sums)), in_columns=True, label=SUMS_LIST)
-
-
-def _defined(definition: Definition) -> Relation:
-    return equation(definition.name, definition.meaning)
+    return say(
+        "The {what} has {count} base {parameters}: the fewest combinations of masses, mass centres, "
+        "moments and products of inertia, and lengths, in which $𝐃$ and $𝐠$ are linear, the lengths of "
+        "the table being known ({book}; {article}). Only these can be determined from the motions and "
+        "forces of the joints. Their number is fixed, their choice is not: as many independent linear "
+        "combinations of them serve as well. Chosen here are the constants below{kept}.",
+        what=what,
+        count=count,
+        parameters="parameter" if count == 1 else "parameters",
+        book=KHALIL_DOMBRE.section("9.4"),
+        article=GAUTIER_KHALIL,
+        kept=(", and ", *listed(short.kept)) if short.kept else (),
+    )
 
 
 def _closing(solution: Dynamics, detail: Detail, sources: Iterable[str]) -> Iterator[Block]:

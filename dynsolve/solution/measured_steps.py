@@ -12,8 +12,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from typing import Any
 
-from dynsolve.document import Inline
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import measured
 from dynsolve.notation.printing import Style
@@ -71,28 +71,20 @@ def _is_rounded(node: Node, style: Style) -> bool:
 def _step(step: Step, style: Style) -> Step:
     """A step with all its formulas marked."""
 
-    def inline(part: Inline) -> Inline:
-        return marked(part, style) if isinstance(part, Node) else part
-
-    def formulas(nodes: Iterable[Node]) -> tuple[Node, ...]:
-        return tuple(marked(node, style) for node in nodes)
+    def all_of(parts: Iterable[Any]) -> tuple[Any, ...]:
+        return tuple(marked(part, style) if isinstance(part, Node) else part for part in parts)
 
     table = step.table
-    if table is not None:
-        table = replace(table, rows=tuple(tuple(map(inline, row)) for row in table.rows))
     return replace(
         step,
-        why=tuple(map(inline, step.why)),
-        further=formulas(step.further),
-        working=formulas(step.working),
-        lines=tuple(
-            replace(line, by=tuple(map(inline, line.by)), formulas=formulas(line.formulas))
-            for line in step.lines
-        ),
-        concluding=tuple(map(inline, step.concluding)),
-        result=formulas(step.result),
-        notes=tuple(tuple(map(inline, note)) for note in step.notes),
-        table=table,
+        why=all_of(step.why),
+        further=all_of(step.further),
+        working=all_of(step.working),
+        lines=tuple(replace(line, by=all_of(line.by), formulas=all_of(line.formulas)) for line in step.lines),
+        concluding=all_of(step.concluding),
+        result=all_of(step.result),
+        notes=tuple(map(all_of, step.notes)),
+        table=None if table is None else replace(table, rows=tuple(map(all_of, table.rows))),
     )
 
 
@@ -145,15 +137,8 @@ def _measured(node: Node, known: Mapping[Node, str], otherwise: str, style: Styl
     matrix = value.argument if isinstance(value, Transpose) else value
     if not isinstance(matrix, Matrix):
         return replace(node, parts=(*before, measured(value, unit)))
-    if _is_zero(matrix) or not _leaves_room(matrix, style):
+    write = UnicodePrinter(style).text
+    is_zero = all(entry == ZERO for row in matrix.rows for entry in row)
+    if is_zero or any(sum(width(write(entry)) + 2 for entry in row) > _WIDEST for row in matrix.rows):
         return node
     return replace(node, parts=(*before, Row((value, Words(" "), units.node(unit)))))
-
-
-def _is_zero(matrix: Matrix) -> bool:
-    return all(entry == ZERO for row in matrix.rows for entry in row)
-
-
-def _leaves_room(matrix: Matrix, style: Style) -> bool:
-    printer = UnicodePrinter(style)
-    return all(sum(width(printer.text(entry)) + 2 for entry in row) <= _WIDEST for row in matrix.rows)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from dynsolve.document import Block, Equations, Formula, Heading, List, Prose, Reference, Table, Text
+from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.given import CALLED
 from dynsolve.explain.named_steps import labels_of_names
@@ -70,9 +71,10 @@ def _model(
     yield Formula(model.formula, source=model.source if detail > Detail.RESULTS else "")
     if short is not None and short.at_symbols:
         yield from _names(by_id, short)
-    found = Reference(_MATRICES, ", ")
-    matrices = tuple(_results(by_id, [name for name in _MATRICES if name in by_id]))
-    yield Text(("With the matrices" if model.result else "The matrices", " of this robot", found, ":"))
+    own = [by_id[name] for name in _MATRICES if name in by_id]
+    matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
+    what = "With the matrices" if model.result else "The matrices"
+    yield Text((what, " of this robot", Reference(_MATRICES, ", "), ":"))
     if model.result:
         yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
     else:
@@ -89,8 +91,8 @@ def _model(
 
 def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
     """What the names in C, or in all of the matrices, stand for."""
-    where: Prose = ("the matrices",) if short.inertias and short.inertias.definitions else (letters.C,)
-    below: Prose = ("In ", *where, " and in the rows below")
+    where = "the matrices" if short.inertias and short.inertias.definitions else letters.C
+    below: Prose = ("In ", where, " and in the rows below")
     defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
     meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
     if short.single is not None and len(meanings) == 1:
@@ -112,11 +114,14 @@ def _long_model(robot: Robot, model: Step, by_id: Mapping[str, Step], detail: De
     yield Text(model.why)
     assert model.formula is not None
     yield Formula(model.formula, source=model.source)
-    number = list(stages_of(robot)).index(model.stage) + 1
-    with_symbols = by_id["christoffel"].detail <= detail
-    yield Text(_where_they_are(f" are those of section {number}", with_symbols))
-    if with_symbols:
-        yield from _lines(model)
+    place = f" are those of section {list(stages_of(robot)).index(model.stage) + 1}"
+    D, g = (letters.D, Reference(("D",))), (letters.G, Reference(("g",)))
+    if by_id["christoffel"].detail > detail:
+        yield Text((*listed([D, g]), *say("{place}; $𝐂$ follows from $𝐃$ as it is told there.", place=place)))
+        return
+    symbols = say("the Christoffel symbols{which}, which make $𝐂$,", which=Reference(("christoffel",)))
+    yield Text((*listed([D, symbols, g]), f"{place}."))
+    yield from _lines(model)
 
 
 def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
@@ -129,11 +134,9 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
         for result in step.result
         if isinstance(result, Relation) and result.parts[0] == letter
     ]
-    if by_letter:
-        yield by_letter[-1]
-        return
+    yield from by_letter[-1:]
     step = next((step for step in steps if name in (step.id, *step.also)), None)
-    if step is None:
+    if by_letter or step is None:
         return
     called = CALLED.get(name, step.title)
     yield Text((f"{called[0].upper()}{called[1:]}:",))
@@ -155,26 +158,3 @@ def _lines(step: Step) -> Iterator[Block]:
     for line in step.lines:
         yield Text(line.by)
         yield Equations(line.formulas)
-
-
-def _where_they_are(place: str, with_symbols: bool) -> Prose:
-    """Where D, C and g of a long model are; C is its Christoffel symbols, where these are shown."""
-    D, g = (letters.D, Reference(("D",))), (letters.G, Reference(("g",)))
-    if not with_symbols:
-        return (
-            *listed([D, g]),
-            f"{place}; ",
-            letters.C,
-            " follows from ",
-            letters.D,
-            " as it is told there.",
-        )
-    symbols = ("the Christoffel symbols", Reference(("christoffel",)), ", which make ", letters.C, ",")
-    return (*listed([D, symbols, g]), f"{place}.")
-
-
-def _results(by_id: Mapping[str, Step], names: Sequence[str]) -> Iterator[Formula]:
-    """The first results of steps, as these print them."""
-    for name in names:
-        step = by_id[name]
-        yield Formula(step.result[0], entries=step.entries)

@@ -15,8 +15,8 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import children
 from dynsolve.render import markdown
 from dynsolve.render.references import numbered
+from dynsolve.solution.depths import labelled_results
 from dynsolve.solution.documents import solution_document
-from dynsolve.solution.earlier_results import labelled_results
 from tests.support import ALL_PROBLEMS, solved
 
 LONG = ["puma560", "stanford-6"]
