@@ -1,20 +1,24 @@
 """The exact value of a formula of numbers with roots, sines, cosines and their inverses.
 
 What a solution of the inverse kinematics gives for numbers: a length is a sum of square
-roots, an angle the direction of a point whose coordinates are.
+roots, an angle the direction of a point whose coordinates are.  What is neither has a value in
+floating point.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import reduce
+from math import atan2, inf
 from operator import add, mul
+from typing import Any
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.surd_angles import PI, SurdAngle
 from dynsolve.algebra.surds import NotExact, Surd
 from dynsolve.errors import AlgebraError
+from dynsolve.notation.build import negated
 from dynsolve.notation.tree import (
     Arguments,
     Degrees,
@@ -29,6 +33,7 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
+from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
 
 Exact = Surd | SurdAngle
 """A number, or an angle."""
@@ -174,3 +179,53 @@ def _number(value: Exact) -> Surd:
     if isinstance(value, Surd):
         return value
     raise NotExact
+
+
+# -- in floating point -----------------------------------------------------------------------------
+
+DIGITS = 12
+"""So many digits has a value that has no formula."""
+
+_ROUNDING = 1e-9
+"""What rounding may make of 0, and of what is on the boundary."""
+
+
+def number_of(formula: Node, values: Mapping[str, float]) -> float:
+    """The value of a formula; what is beyond a boundary by rounding alone is on it.
+
+    Raises NoValue beyond that, Undetermined for the direction of a point to itself.
+    """
+    return float(compile_trees([formula], _NEARLY).run(values)[0])
+
+
+def _within(name: str, low: float, high: float) -> Callable[[float], float]:
+    """The function of this name between bounds."""
+
+    def at(x: float) -> float:
+        if not low - _ROUNDING <= x <= high + _ROUNDING:
+            raise NoValue(name, decimal(x, 4))
+        return float(FUNCTIONS[name](min(max(x, low), high)))
+
+    return at
+
+
+def _direction(both: tuple[float, float]) -> float:
+    if max(map(abs, both)) < _ROUNDING:
+        raise Undetermined
+    return atan2(*both)
+
+
+_NEARLY: dict[str, Callable[[Any], Any]] = {
+    **FUNCTIONS,
+    "acos": _within("acos", -1, 1),
+    "asin": _within("asin", -1, 1),
+    "sqrt": _within("sqrt", 0, inf),
+    "atan2": _direction,
+}
+
+
+def decimal(value: float, digits: int = DIGITS) -> Node:
+    """A number in floating point, as a decimal."""
+    exact = Fraction(f"{value:.{digits}g}")
+    size = Number(abs(exact.numerator), exact.denominator, decimal=True)
+    return negated(size) if exact < 0 else size

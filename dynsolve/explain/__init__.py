@@ -42,10 +42,9 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     terms       what each term of a force is, and the step of D q̈ + C q̇ + g = τ
     inverse_formulas
                 the solutions of inverse kinematics as formulas, and their conditions
-    target, inverse_target
-                the configurations that reach a target in numbers, and their steps
+    target      the configurations that reach a target in numbers, and their steps
     inverse_figures
-                drawings of the solutions and of singular configurations
+                drawings of the solutions
     recursions  the Newton-Euler recursions, link by link
     sanity      checks that a person can do on the finished model
     working     the lines between a formula and its result, each proved before it is shown

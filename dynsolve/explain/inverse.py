@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+from math import inf
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.positivity import is_nonnegative, is_positive
@@ -19,46 +20,40 @@ from dynsolve.derivation.inverse.equations import (
     Turned,
     lineage,
 )
-from dynsolve.derivation.inverse.solving import Part, Solving
+from dynsolve.derivation.inverse.solving import FixedPoint, Part, Solving, Turn
 from dynsolve.derivation.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
 from dynsolve.document import Prose, Table
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_figures import figure_of
 from dynsolve.explain.inverse_formulas import ConfigurationForms, InverseFormulas
-from dynsolve.explain.inverse_target import given_numbers, introduction, pose_task, target_steps, wrist_notes
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
 from dynsolve.explain.step import Part as Shown
-from dynsolve.explain.writing import listed, side_by_side, spong
-from dynsolve.notation.build import cost, negated, power, times, total
+from dynsolve.explain.target import target_steps
+from dynsolve.explain.writing import agreeing, and_joined, craig, listed, spong, turns
+from dynsolve.notation.build import cost, power, times, total
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
-    Arguments,
     Function,
     Letter,
-    Negative,
+    Matrix,
     Node,
     Number,
-    Power,
-    Product,
     Reference,
     Relation,
-    Sum,
     Symbol,
     column,
     equation,
 )
-from dynsolve.notation.walk import names_in
+from dynsolve.notation.walk import names_in, with_formulas
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model import Robot
 
 STAGE = Stage.INVERSE
-_SOURCE = spong("3.3")
 
 SHORT = 4
 """Formulas with more operations are not repeated in the table of the branches."""
-
-_ORDINALS = ("the first", "the second")
-_SIGNS = ("with +", "with -")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -66,56 +61,75 @@ def steps(context: Context) -> Iterator[Step]:
     if "inverse" not in context.wanted:
         return
     forms = ConfigurationForms(context.robot, context.values)
-    task = context.robot.questions.task
-    assert task is not None
-    yield pose_task(context) if task.is_pose else _task(context, forms)
+    yield _task(context, forms)
     if forms.solved is None:
-        yield _unsolved(forms)
+        yield Step(
+            id=_id_of_branches(forms),
+            stage=STAGE,
+            title="No closed form",
+            why=(
+                "No equation with one unknown in a known form was found: turned into the frames of the "
+                "joints, squared and added, these equations stay coupled. Such arms are solved numerically.",
+            ),
+            detail=Detail.BRIEF,
+            notes=tuple(_of_pieper(context.robot)),
+            normal=NOTED,
+            uses=(),
+        )
     else:
-        yield from _Explainer(context, forms, forms.solved.solving).steps()
+        yield from _unknowns(forms, forms.solved.solving)
+        yield _branches(forms, forms.solved.solving)
     if forms.target is not None:
         yield from target_steps(forms.target)
 
 
 def _task(context: Context, forms: ConfigurationForms) -> Step:
-    names = context.robot.questions.reached
-    numbers = given_numbers(forms.target) if forms.target is not None else ()
-    wanted = column(*(Symbol(name) for name in names))
-    return Step(
+    """The pose that is to be reached, or the components of the task."""
+    names = [*map(Symbol, context.robot.questions.reached)]
+    asked, frame = column(*names), len(context.robot.joints)
+    step = Step(
         id="inverse_task",
         stage=STAGE,
         title="What is to be solved",
         why=("The values of the task are given, and the joint variables that give them are looked for.",),
-        formula=equation(letters.TASK, wanted),
-        source=_SOURCE,
-        result=(equation(context.form("r"), wanted), *numbers),
+        formula=equation(letters.TASK, asked),
+        source=spong("3.3"),
         uses=("r",),
         is_task=False,
     )
-
-
-def _unsolved(forms: ConfigurationForms) -> Step:
-    return Step(
-        id=_id_of_branches(forms),
-        stage=STAGE,
-        title="No closed form",
-        why=(
-            "No equation with one unknown in a known form was found: turned into the frames of the joints, "
-            "squared and added, these equations stay coupled. Such arms are solved numerically.",
-        ),
-        detail=Detail.BRIEF,
-        notes=tuple(_of_pieper(forms.robot)),
-        normal=NOTED,
-        uses=(),
+    if not _is_pose(context.robot):
+        given = () if forms.target is None else forms.target.given
+        numbers = (equation(Symbol(name), value) for name, value in given)
+        return replace(step, result=(equation(context.form("r"), asked), *numbers))
+    rows = [(*names[3 * k + 3 : 3 * k + 6], names[k]) for k in range(3)]
+    last = (Number(0), Number(0), Number(0), Number(1))
+    few = (
+        f"With {context.robot.n} joint{'s' * (context.robot.n > 1)} only some poses are reached: the "
+        "equations give the joint variables, and the others hold where the pose is one of these."
     )
+    return replace(
+        step,
+        why=(
+            "The position and the rotation of the last frame are given, and the joint variables that give "
+            "them are looked for.",
+        ),
+        formula=equation(letters.H(context.robot, frame), Matrix((*rows, last))),
+        source=spong("3.3.1"),
+        uses=(f"H{frame}",),
+        notes=((few,),) if context.robot.n < 6 else (),
+    )
+
+
+def _is_pose(robot: Robot) -> bool:
+    task = robot.questions.task
+    return task is not None and task.is_pose
 
 
 def _of_pieper(robot: Robot) -> Iterator[Prose]:
     """What is known of three joints that turn, though they are not solved for in a known form."""
-    task = robot.questions.task
-    wanted = [entry.quantity for entry in task.entries if isinstance(entry, Reference)] if task else []
-    all_turn = robot.n == 3 and all(q.type is JointType.REVOLUTE for q in robot.coordinates)
-    if all_turn and len(wanted) == 3 and len(set(wanted)) == 1:
+    entries = robot.questions.task.entries if robot.questions.task else ()
+    points = [entry.quantity for entry in entries if isinstance(entry, Reference)]
+    if robot.n == 3 and all(map(turns, robot.coordinates)) and len(points) == 3 and len(set(points)) == 1:
         yield (
             "Brought to one angle, the equations of a point that three joints turn are of degree four in the "
             "tangent of half that angle (Pieper 1968; Craig, section 4.6): at most four configurations reach "
@@ -128,398 +142,412 @@ def _id_of_branches(forms: ConfigurationForms) -> str:
     return "inverse" if forms.target is None else "inverse_branches"
 
 
-@dataclass(frozen=True)
-class _Explainer:
-    """Explains how one task is solved."""
-
-    context: Context
-    forms: ConfigurationForms
-    solving: Solving
-
-    def steps(self) -> Iterator[Step]:
-        """The unknowns, one after the other, and the branches."""
-        before: tuple[Solved, ...] = ()
-        general: list[Node | None] = []
-        for number, part in enumerate(self.solving.parts, 1):
-            yield from introduction(self.formulas, part, number, before)
-            for step in part.solved:
-                found = self._step(step, before, part)
-                told = found.formula in general
-                yield replace(found, normal=found.normal & ~Shown.FORMULA) if told else found
-                general.append(found.formula)
-                before = (*before, step)
-        yield self._branches()
-
-    def _step(self, step: Solved, before: tuple[Solved, ...], part: Part) -> Step:
-        """How one unknown is found."""
-        unknown = Symbol(step.coordinate)
-        way = InverseWay(self.formulas, step, before)
-        results = self.formulas.results(unknown, step)
-        lines = tuple(way.lines)
-        shown = names_in(*results, *(lines[-1].formulas if lines else way.working))
-        return Step(
-            id=f"inverse_{step.coordinate}",
-            stage=STAGE,
-            title=f"Solving for {step.coordinate}",
-            why=self._why(step),
-            working=way.working,
-            lines=lines,
-            formula=_general(step),
-            source=_SOURCE,
-            concluding=("So:",) if lines else (),
-            result=results,
-            figure=figure_of(self.formulas, step),
-            notes=tuple(self._notes(step, part)),
-            normal=NOTED if way.starts_anew or not lines else RESUMED,
-            uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
-        )
-
-    @property
-    def formulas(self) -> InverseFormulas:
-        return self.forms.inverse_formulas
-
-    # -- words -------------------------------------------------------------------------------------
-
-    def _why(self, step: Solved) -> Prose:
-        if isinstance(step, Remainder):
-            return ("The task gives the sum of the angles; the others are known now.",)
-        return (*_origin([e.origin for e in step.equations]), *_form(step))
-
-    def _notes(self, step: Solved, part: Part) -> Iterator[Prose]:
-        """When there is a solution, and when there are infinitely many."""
-        if part.turn is not None and part.turn.is_wrist:
-            yield from wrist_notes(self.formulas, part.turn, step)
-            return
-        form = self.formulas.form
-        one = "; on the boundary, with =, the two solutions are one."
-        match step:
-            case OneLine() if not step.value.is_zero and (step.cosine.is_zero or step.sine.is_zero):
-                ratio = self.formulas.ratio(step.value, step.cosine + step.sine)
-                within = Relation((Negative(Number(1)), ratio, Number(1)), ("≤", "≤"))
-                yield ("There are solutions where ", within, one)
-            case OneLine() if not step.value.is_zero:
-                yield ("There are solutions where ", self.formulas.boundary(step), one)
-            case RootLength():
-                radicand = Relation((self.formulas.radicand(step), Number(0)), ("≥",))
-                yield ("There are solutions where ", radicand, one)
-            case Length() if not (is_nonnegative(step.factor) or is_nonnegative(-step.factor)):
-                yield ("This needs ", Relation((form(step.factor), Number(0)), ("≠",)), ".")
-        free = self._free(step)
-        if free:
-            unknown = Symbol(step.coordinate)
-            yield ("Where ", *listed(free), ", ", unknown, " is free: infinitely many solutions.")
-
-    def _free(self, step: Solved) -> list[Node]:
-        """The equations under which an angle may be anything, as far as they can hold."""
-        match step:
-            case OneLine(_, cosine, sine, value) if value.is_zero:
-                factors = [sine, cosine]
-            case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
-                factors = [factor for factor in (cosine, sine) if not factor.is_zero]
-            case _:
-                return []
-        if any(is_positive(factor * factor) for factor in factors):
-            return []
-        return [equation(self.forms.vanishing(factor), Number(0)) for factor in factors]
-
-    # -- the branches ------------------------------------------------------------------------------
-
-    def _branches(self) -> Step:
-        """All of them, each put into r(q)."""
-        found = self.forms.inverse
-        names = [step.coordinate for step in self.solving.solved]
-        table = Table(("", *map(Symbol, names)), tuple(self._rows()))
-        count = len(found)
-        why: Prose = ("There is one solution",) if count == 1 else (f"Together there are {count} solutions",)
-        return Step(
-            id=_id_of_branches(self.forms),
-            stage=STAGE,
-            title="The solution" if count == 1 else f"The {count} solutions",
-            why=(*why, ", each put into ", self._task, " to see that it gives what is asked. A coordinate "
-                 "that stands in a formula is that of the same line."),
-            table=table,
-            notes=(*self._conditions(), *self._free_coordinates()),
-            normal=NOTED,
-            detail=Detail.BRIEF,
-            uses=tuple(f"inverse_{name}" for name in names),
-            hint=("Put every choice among these into ", self._task,
-                  ": those that give what is asked are the solutions."),
-            hint_title="The solutions",
-        )  # fmt: skip
-
-    @property
-    def _task(self) -> Node:
-        """What is to have given values."""
-        task = self.context.robot.questions.task
-        return letters.FRAME_OF_Q if task is not None and task.is_pose else letters.TASK_OF_Q
-
-    def _rows(self) -> Iterator[tuple[Node | str, ...]]:
-        """A branch a row: formulas that are short, and of the others which of their two is meant."""
-        assert self.forms.solved is not None
-        for number, branch in enumerate(self.forms.solved.branches, 1):
-            row: list[Node | str] = [str(number)]
-            for step, index in zip(self.solving.solved, branch.choice, strict=True):
-                solutions = self.formulas.solutions(step)
-                shown = solutions[index]
-                if cost(shown) <= SHORT:
-                    row.append(shown)
-                elif len(solutions) == 1:
-                    row.append("as above")
-                else:
-                    row.append((_SIGNS if self.formulas.has_signs(step) else _ORDINALS)[index])
-            yield tuple(row)
-
-    def _conditions(self) -> Iterator[Prose]:
-        """Where the branches are solutions, those with the same conditions together."""
-        lines: dict[Conditions, list[str]] = {}
-        for number, when in enumerate(self.forms.when, 1):
-            lines.setdefault(when, []).append(str(number))
-        for when, numbers in lines.items():
-            if when:
-                several = len(numbers) > 1
-                which = listed(numbers) if len(lines) > 1 else ()
-                start = ("Lines " if several else "Line ") if which else "They" if several else "This"
-                conditions = listed([equation(*one.sides) for one in when])
-                yield (start, *which, " hold where " if several else " holds where ", *conditions,
-                       " alone: the joints give ", self._task, " no other values.")  # fmt: skip
-
-    def _free_coordinates(self) -> Iterator[Prose]:
-        free = self.solving.free
-        sums = [step for step in self.solving.solved if isinstance(step, Remainder)]
-        bound = [name for name in free if any(name in dict(step.others) for step in sums)]
-        if bound:
-            yield (*listed(list(map(Symbol, bound))), " may be anything; the others follow.")
-        unused = [name for name in free if name not in bound]
-        if unused:
-            verb = " does" if len(unused) == 1 else " do"
-            yield (*listed(list(map(Symbol, unused))), f"{verb} not change the task, and may be anything.")
+# -- one unknown -----------------------------------------------------------------------------------
 
 
-# -- words -----------------------------------------------------------------------------------------
+def _unknowns(forms: ConfigurationForms, solving: Solving) -> Iterator[Step]:
+    """The unknowns, one after the other."""
+    before: tuple[Solved, ...] = ()
+    general: list[Node | None] = []
+    for number, part in enumerate(solving.parts, 1):
+        yield from _starting(forms.inverse_formulas, part, number, before)
+        for solved in part.solved:
+            found = _unknown(forms, solved, before, part)
+            told = found.formula in general
+            yield replace(found, normal=found.normal & ~Shown.FORMULA) if told else found
+            general.append(found.formula)
+            before = (*before, solved)
+
+
+def _unknown(forms: ConfigurationForms, step: Solved, before: Sequence[Solved], part: Part) -> Step:
+    """How one unknown is found."""
+    formulas = forms.inverse_formulas
+    known = {e.expr for earlier in before for e in lineage(earlier.equations)}
+    needed = {e.expr: e for e in _new(step.equations, known)}.values()
+    first, made = list[Equation](), list[Equation]()
+    for e in needed:
+        (first if isinstance(e.origin, Direct) or e.expr in known else made).append(e)
+    lines = tuple(_lines(formulas, step, made))
+    first.sort(key=lambda e: e.origin.index if isinstance(e.origin, Given) else inf)  # as in the task
+    working = tuple(_equation(formulas, e) for e in first)
+    results = formulas.results(Symbol(step.coordinate), step)
+    shown = names_in(*results, *(lines[-1].formulas if lines else working))
+    starts_anew = any(e.expr not in known for e in first)
+    if isinstance(step, Remainder):
+        why: Prose = ("The task gives the sum of the angles; the others are known now.",)
+    else:
+        why = (*_origin([e.origin for e in step.equations]), *say(_form(step), q=Symbol(step.coordinate)))
+    return Step(
+        id=f"inverse_{step.coordinate}",
+        stage=STAGE,
+        title=f"Solving for {step.coordinate}",
+        why=why,
+        working=working,
+        lines=lines,
+        formula=_general(step),
+        source=spong("3.3"),
+        concluding=("So:",) if lines else (),
+        result=results,
+        figure=figure_of(formulas, step),
+        notes=tuple(_notes(forms, step, part.turn)),
+        normal=NOTED if starts_anew or not lines else RESUMED,
+        uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
+    )
 
 
 def _origin(origins: Sequence[Origin]) -> Prose:
     """How the equations are made."""
     match origins[0]:
-        case Given():
-            which = "Component" if len(origins) == 1 else "Components"
-            numbers = listed([str(o.index + 1) for o in origins if isinstance(o, Given)])
-            verb = " has" if len(origins) == 1 else " have"
-            return (f"{which} ", *numbers, f" of the task{verb} no other unknown. ")
-        case OfPoint():
-            which = "Coordinate" if len(origins) == 1 else "Coordinates"
-            axes = listed(["xyz"[o.index] for o in origins if isinstance(o, OfPoint)])
-            verb = " has" if len(origins) == 1 else " have"
-            seen = _seen(origins[0].joint)
-            return (f"{which} ", *axes, f" of the point{seen}{verb} no other unknown. ")
-        case OfTurn():
-            which = "Entry" if len(origins) == 1 else "Entries"
-            places = listed([f"({o.row + 1}, {o.column + 1})" for o in origins if isinstance(o, OfTurn)])
-            verb = " has" if len(origins) == 1 else " have"
-            return (f"{which} ", *places, f" of the rotation{verb} no other unknown. ")
         case Squared():
-            return ("Turning a vector does not change its length: in the sum of the squares the other angles "
-                    "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",)  # fmt: skip
-        case Turned(_, _, name):
             return (
-                "Turned back by ",
-                Symbol(name),
-                ", the components have that angle on the left side alone. ",
+                "Turning a vector does not change its length: in the sum of the squares the other angles "
+                "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",
             )
+        case Turned(_, _, name):
+            text = "Turned back by {q}, the components have that angle on the left side alone. "
+            return say(text, q=Symbol(name))
+        case Given():
+            text = "Component|Components {places} of the task"
+        case OfPoint(_, joint):
+            seen = f", seen from the frame before joint {joint}," if joint else ""
+            text = f"Coordinate|Coordinates {{places}} of the point{seen}"
+        case OfTurn():
+            text = "Entry|Entries {places} of the rotation"
+    places = []
+    for origin in origins:
+        match origin:
+            case Given(index):
+                places.append(str(index + 1))
+            case OfPoint(index):
+                places.append("xyz"[index])
+            case OfTurn(row, column):
+                places.append(f"({row + 1}, {column + 1})")
+    return say(agreeing(f"{text} has|have no other unknown. ", len(origins)), places=listed(places))
 
 
-def _seen(joint: int) -> str:
-    """From where a point is seen that is not seen from where the arm begins."""
-    return f", seen from the frame before joint {joint}," if joint else ""
-
-
-def _form(step: Solved) -> Prose:
+def _form(step: Solved) -> str:
     """What kind of equation it is."""
-    unknown = Symbol(step.coordinate)
     match step:
         case TwoLines() if step.is_rotation:
-            return ("Two equations in the sine and the cosine of ", unknown, " give the angle: one joint "
-                    "turns a vector to where it is to be (Paden-Kahan subproblem 1).")  # fmt: skip
+            return (
+                "Two equations in the sine and the cosine of {q} give the angle: one joint turns a vector to "
+                "where it is to be (Paden-Kahan subproblem 1)."
+            )
         case TwoLines():
-            return ("Two equations in the sine and the cosine of ", unknown, " give the angle.")
+            return "Two equations in the sine and the cosine of {q} give the angle."
         case OneLine() if step.value.is_zero:
-            return ("The ratio of sine and cosine gives ", unknown, " up to half a turn: two angles.")
+            return "The ratio of sine and cosine gives {q} up to half a turn: two angles."
         case OneLine() if step.sine.is_zero:
-            return ("The cosine of ", unknown, " belongs to two angles, which differ by their sign.")
+            return "The cosine of {q} belongs to two angles, which differ by their sign."
         case OneLine() if step.cosine.is_zero:
-            return ("The sine of ", unknown, " belongs to two angles, whose sum is π.")
+            return "The sine of {q} belongs to two angles, whose sum is π."
         case OneLine():
-            return ("One equation in the cosine and the sine of ", unknown, " has two solutions.")
+            return "One equation in the cosine and the sine of {q} has two solutions."
         case Length():
-            return ("The length ", unknown, " stands in it to the first power.")
-        case _:
-            return ("The length ", unknown, " stands in it as a square: two lengths.")
-
-
-# -- the general formulas --------------------------------------------------------------------------
-
-_A, _B, _X, _Y = (Letter(letter, style="italic") for letter in "ABXY")
-_ANGLE = Symbol("psi")
-_COS, _SIN = Function("cos", _ANGLE), Function("sin", _ANGLE)
+            return "The length {q} stands in it to the first power."
+    return "The length {q} stands in it as a square: two lengths."
 
 
 def _general(step: Solved) -> Node | None:
     """The form that an equation has, and its solution."""
+    both = {name: Letter(name) for name in "ABXY"}
     match step:
         case TwoLines() if step.is_rotation and not (step.first[0].is_zero or step.first[1].is_zero):
-            turned = (
-                equation(Sum((Product((_A, _COS)), Negative(Product((_B, _SIN))))), _X),
-                equation(Sum((Product((_A, _SIN)), Product((_B, _COS)))), _Y),
-            )
-            difference = Sum((_atan2(_Y, _X), Negative(_atan2(_B, _A))))
-            return _implies(side_by_side(turned), difference)
+            turned = formula("{A} cos ψ - {B} sin ψ = {X}, {A} sin ψ + {B} cos ψ = {Y}", **both)
+            return formula("{turned} ⇒ ψ = atan2({Y}, {X}) - atan2({B}, {A})", turned=turned, **both)
         case OneLine() if step.value.is_zero:
-            both = side_by_side((_atan2(_A, _B), _atan2(Negative(_A), Negative(_B))))
-            return _implies(equation(Product((_A, _COS)), Product((_B, _SIN))), both)
+            either = formula("atan2({A}, {B}), atan2(-{A}, -{B})", **both)
+            return formula("{A} cos ψ = {B} sin ψ ⇒ ψ = {either}", either=either, **both)
         case OneLine() if not (step.cosine.is_zero or step.sine.is_zero):
-            square = [Power(letter, Number(2)) for letter in (_A, _B, _X)]
-            root = Function("sqrt", Sum((square[0], square[1], negated(square[2]))))
-            either = Relation((_atan2(_B, _A), _atan2(root, _X)), ("±",))
-            return _implies(equation(Sum((Product((_A, _COS)), Product((_B, _SIN)))), _X), either)
+            either = formula("atan2({B}, {A}) ± atan2(sqrt({A}² + {B}² - {X}²), {X})", **both)
+            return formula("{A} cos ψ + {B} sin ψ = {X} ⇒ ψ = {either}", either=either, **both)
     return None
 
 
-def _atan2(y: Node, x: Node) -> Node:
-    return Function("atan2", Arguments((y, x)))
+def _notes(forms: ConfigurationForms, step: Solved, turn: Turn | None) -> Iterator[Prose]:
+    """When there is a solution, and when there are infinitely many."""
+    if turn is not None and turn.is_wrist:
+        yield from _wrist_notes(forms.inverse_formulas, turn, step)
+        return
+    formulas, q = forms.inverse_formulas, Symbol(step.coordinate)
+    there: Node | None = None
+    factors: list[Expr] = []
+    match step:
+        case OneLine(_, cosine, sine, value) if value.is_zero:
+            factors = [sine, cosine]
+        case OneLine(_, cosine, sine, value) if cosine.is_zero or sine.is_zero:
+            there = formula("-1 ≤ {ratio} ≤ 1", ratio=formulas.ratio(value, cosine + sine))
+        case OneLine():
+            there = formulas.boundary(step)
+        case RootLength():
+            there = formula("{radicand} ≥ 0", radicand=formulas.radicand(step))
+        case Length() if not (is_nonnegative(step.factor) or is_nonnegative(-step.factor)):
+            yield say("This needs ${factor} ≠ 0$.", factor=formulas.form(step.factor))
+        case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
+            factors = [factor for factor in (cosine, sine) if not factor.is_zero]
+    if there is not None:
+        text = "There are solutions where {there}; on the boundary, with =, the two solutions are one."
+        yield say(text, there=there)
+    if factors and not any(is_positive(factor * factor) for factor in factors):
+        zeros = [equation(forms.vanishing(factor), Number(0)) for factor in factors]
+        yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
 
 
-def _implies(condition: Node, angle: Node) -> Node:
-    """condition ⇒ ψ = angle"""
-    return Relation((condition, equation(_ANGLE, angle)), ("⇒",))
+# -- the way to an unknown: components turned, squared and added, then sorted ----------------------
 
 
-# -- the way to an unknown of the inverse kinematics: components turned, squared and added, then sorted
-
-
-@dataclass(frozen=True)
-class InverseWay:
-    """The lines to the equations of one step; `before` are the steps that were taken earlier."""
-
-    formulas: InverseFormulas
-    step: Solved
-    before: tuple[Solved, ...]
-
-    @property
-    def working(self) -> tuple[Node, ...]:
-        """The equations that it begins with: components of the task, or equations of earlier steps."""
-        return tuple(map(self._equation, sorted(self._first, key=_component)))
-
-    @property
-    def lines(self) -> Iterator[Line]:
-        """How the others are made of them, and how the unknown is taken out."""
-        pairs: dict[tuple[Expr, Expr, str], dict[bool, Equation]] = {}
-        for made in self._made:
-            match made.origin:
-                case Turned(first, second, name, is_second):
-                    pairs.setdefault((first.expr, second.expr, name), {})[is_second] = made
-        told: set[tuple[Expr, Expr, str]] = set()
-        for made in self._made:
-            match made.origin:
-                case Turned(first, second, name):
-                    key = first.expr, second.expr, name
-                    if key not in told:
-                        told.add(key)
-                        yield self._turned((first, second), name, pairs[key])
+def _new(equations: Sequence[Equation], known: Collection[Expr]) -> Iterator[Equation]:
+    """Equations after those that they come from, as far as these are not known."""
+    for e in equations:
+        if e.expr not in known:
+            match e.origin:
+                case Turned(first, second):
+                    yield from _new((first, second), known)
                 case Squared(parts):
-                    squares = equation(
-                        total([power(self._form(e.left), 2) for e in parts if not e.left.is_zero]),
-                        total([power(self._form(e.right), 2) for e in parts]),
+                    yield from _new(parts, known)
+        yield e
+
+
+def _lines(formulas: InverseFormulas, step: Solved, made: Sequence[Equation]) -> Iterator[Line]:
+    """How equations are made of others, and how the unknown is taken out."""
+    form = formulas.form
+    pairs: dict[tuple[Expr, Expr, str], dict[bool, Equation]] = {}
+    for e in made:
+        match e.origin:
+            case Turned(first, second, name, is_second):
+                pairs.setdefault((first.expr, second.expr, name), {})[is_second] = e
+    for e in made:
+        match e.origin:
+            case Turned(first, second, name):
+                both = sorted(pairs.pop((first.expr, second.expr, name), {}).items())
+                if both:
+                    shown = tuple(_equation(formulas, one) for _, one in both)
+                    how = listed(
+                        [_turned_by(formulas, (first, second), name, second_one) for second_one, _ in both]
                     )
-                    yield Line(("The squares of these equations, added:",), (squares,))
-                    yield Line(("Multiplied out, with s² + c² = 1:",), (self._equation(made),))
-        yield from self._sorted()
+                    yield Line(say("Turned back by {q} ({how}):", q=Symbol(name), how=how), shown)
+            case Squared(parts):
+                left = total([power(form(part.left), 2) for part in parts if not part.left.is_zero])
+                right = total([power(form(part.right), 2) for part in parts])
+                yield Line(("The squares of these equations, added:",), (equation(left, right),))
+                yield Line(("Multiplied out, with s² + c² = 1:",), (_equation(formulas, e),))
+    q = Symbol(step.coordinate)
+    rows: list[tuple[Expr, Expr, Expr]] = []
+    match step:
+        case TwoLines(_, upper, lower):
+            if max(map(len, (*upper[:2], *lower[:2]))) > 1:
+                rows = [upper, lower]
+        case OneLine(_, cosine, sine, value) if not value.is_zero:
+            if cosine.is_zero or sine.is_zero:
+                name, word = ("cos", "cosine") if sine.is_zero else ("sin", "sine")
+                solved = equation(Function(name, q), formulas.ratio(value, cosine + sine))
+                yield Line((f"Solved for the {word}:",), (solved,))
+            else:
+                rows = [(cosine, sine, value)]
 
-    # -- where the equations come from -------------------------------------------------------------
-
-    @property
-    def _shown(self) -> Mapping[Expr, None]:
-        """What is 0 by an equation that an earlier step has shown."""
-        return dict.fromkeys(e.expr for step in self.before for e in lineage(step.equations))
-
-    @property
-    def _needed(self) -> tuple[Equation, ...]:
-        """The equations of this step with those that they come from, as far as they are new, each once."""
-        return tuple({e.expr: e for e in self._new(self.step.equations)}.values())
-
-    def _new(self, equations: tuple[Equation, ...]) -> Iterator[Equation]:
-        for e in equations:
-            if e.expr not in self._shown:
-                match e.origin:
-                    case Turned(first, second):
-                        yield from self._new((first, second))
-                    case Squared(parts):
-                        yield from self._new(parts)
-            yield e
-
-    @property
-    def starts_anew(self) -> bool:
-        """Whether an equation that it starts from was in no earlier step."""
-        return any(e.expr not in self._shown for e in self._first)
-
-    @property
-    def _first(self) -> tuple[Equation, ...]:
-        return tuple(e for e in self._needed if self._is_first(e))
-
-    @property
-    def _made(self) -> tuple[Equation, ...]:
-        return tuple(e for e in self._needed if not self._is_first(e))
-
-    def _is_first(self, e: Equation) -> bool:
-        return isinstance(e.origin, Direct) or e.expr in self._shown
-
-    def _turned(self, pair: tuple[Equation, Equation], name: str, made: Mapping[bool, Equation]) -> Line:
-        """Two components turned back by an angle, as the sums that a hand writes."""
-        c, s = (Function(f, Symbol(name)) for f in ("cos", "sin"))
-        one, other = (self._form(e.left) for e in pair)
-        ways: dict[bool, Prose] = {
-            False: (c, " times the equation of ", one, " plus ", s, " times that of ", other),
-            True: (c, " times the equation of ", other, " minus ", s, " times that of ", one),
-        }
-        said = listed([ways[is_second] for is_second in sorted(made)])
-        by: Prose = ("Turned back by ", Symbol(name), " (", *said, "):")
-        return Line(by, tuple(self._equation(made[is_second]) for is_second in sorted(made)))
-
-    # -- the unknown -------------------------------------------------------------------------------
-
-    def _sorted(self) -> Iterator[Line]:
-        """The equations as sums of the cosine and the sine of the unknown."""
-        q = Symbol(self.step.coordinate)
-        match self.step:
-            case TwoLines(_, first, second):
-                if max(map(len, (*first[:2], *second[:2]))) > 1:
-                    by: Prose = ("Sorted by the cosine and the sine of ", q, ":")
-                    yield Line(by, (self._line(*first), self._line(*second)))
-            case OneLine(_, cosine, sine, value) if not value.is_zero:
-                if cosine.is_zero or sine.is_zero:
-                    name = "cos" if sine.is_zero else "sin"
-                    solved = equation(Function(name, q), self.formulas.ratio(value, cosine + sine))
-                    yield Line((f"Solved for the {'cosine' if sine.is_zero else 'sine'}:",), (solved,))
-                else:
-                    by = ("Sorted by the cosine and the sine of ", q, ":")
-                    yield Line(by, (self._line(cosine, sine, value),))
-
-    def _line(self, cosine: Expr, sine: Expr, value: Expr) -> Node:
+    def line(cosine: Expr, sine: Expr, value: Expr) -> Node:
         """A cos q + B sin q = X"""
-        q = Symbol(self.step.coordinate)
-        terms = [
-            times(1, [(self._form(factor), 1), (Function(name, q), 1)])
-            for factor, name in ((cosine, "cos"), (sine, "sin"))
-            if not factor.is_zero
-        ]
-        return equation(total(terms), self._form(value))
+        both = [(factor, name) for factor, name in ((cosine, "cos"), (sine, "sin")) if not factor.is_zero]
+        terms = [times(1, [(form(factor), 1), (Function(name, q), 1)]) for factor, name in both]
+        return equation(total(terms), form(value))
 
-    def _equation(self, e: Equation) -> Node:
-        return equation(self._form(e.left), self._form(e.right))
-
-    def _form(self, expr: Expr) -> Node:
-        return self.formulas.form(expr)
+    if rows:
+        by = say("Sorted by the cosine and the sine of {q}:", q=q)
+        yield Line(by, tuple(line(*row) for row in rows))
 
 
-def _component(e: Equation) -> float:
-    """Components of the task in their order, what was made of them behind."""
-    return e.origin.index if isinstance(e.origin, Given) else float("inf")
+def _turned_by(formulas: InverseFormulas, pair: Sequence[Equation], name: str, is_second: bool) -> Prose:
+    """Two components turned back by an angle, as the sum that a hand writes."""
+    one, other = (formulas.form(e.left) for e in (reversed(pair) if is_second else pair))
+    return say(
+        "$cos {q}$ times the equation of {one} {sign} $sin {q}$ times that of {other}",
+        q=Symbol(name),
+        one=one,
+        sign="minus" if is_second else "plus",
+        other=other,
+    )
+
+
+def _equation(formulas: InverseFormulas, e: Equation) -> Node:
+    return equation(formulas.form(e.left), formulas.form(e.right))
+
+
+# -- what the steps of a part start from: a rotation that is left, a point -------------------------
+
+
+def _starting(forms: InverseFormulas, part: Part, number: int, before: Sequence[Solved]) -> Iterator[Step]:
+    if part.turn is not None:
+        yield _turn(forms, part.turn, number, before)
+    if part.parallel:
+        joints = and_joined([str(k) for k in part.parallel])
+        yield Step(
+            id=f"inverse_parallel_{number}",
+            stage=STAGE,
+            title="Parallel axes",
+            why=(
+                f"The axes of joints {joints} are parallel. In that direction these joints move nothing, and "
+                "they turn nothing out of it: what is seen along it holds the others alone, and these come "
+                "first.",
+            ),
+            source=craig("4.6"),
+            uses=(),
+        )
+    if part.point is not None:
+        title, why = _about(part.point)
+        known = forms.matrix(part.point.known)
+        meant = {d.name: forms.form(d.value) for d in part.point.definitions}
+        defined = (equation(known, with_formulas(known, meant)),) if meant else ()
+        yield Step(
+            id=f"inverse_point_{number}",
+            stage=STAGE,
+            title=title,
+            why=(why,),
+            result=(*defined, equation(known, forms.matrix(part.point.made))),
+            source=spong("3.3.2"),
+            detail=Detail.NORMAL,
+            uses=("inverse_task", *((f"inverse_turn_{number}",) if part.turn else ())),
+        )
+
+
+def _about(point: FixedPoint) -> tuple[str, str]:
+    """What a point is called, and what it is good for."""
+    count, joints = point.last - point.first + 1, _joints(point)
+    seen = "fixed in the base, and the pose says where the hand sees it"
+    if not point.from_hand:
+        seen = "fixed in the hand, and the pose says where it is"
+    alone = f"It is {seen}. Only the other joints move it"
+    if count == 0:
+        return "The origin of the last frame", "Every joint moves it."
+    if count == 1:
+        why = f"Joint {point.first} turns about its axis and does not move this point. {alone}."
+        return f"A point on the axis of joint {point.first}", why
+    why = f"The axes of joints {joints} meet in one point, which these joints do not move. {alone}"
+    if count >= 3 and not point.from_hand:
+        why += " to its place, and the wrist then turns the hand: position and rotation are decoupled."
+    else:
+        why += "."
+    is_wrist = count == 3 and not point.from_hand
+    return "The wrist centre" if is_wrist else f"The point where the axes of joints {joints} meet", why
+
+
+def _joints(told: FixedPoint | Turn) -> str:
+    return and_joined([str(k) for k in range(told.first, told.last + 1)])
+
+
+_OF_A_WRIST = (
+    " The last joint does not move its own axis: the first two turn that to where it is to be (Paden-Kahan "
+    "subproblem 2), and the last turns the hand about it (subproblem 1)."
+)
+
+
+def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[Solved]) -> Step:
+    """The rotation that is left for some joints."""
+    joints = f"joint {turn.first}" if turn.first == turn.last else f"joints {_joints(turn)}"
+    known, made = (formulas.matrix(pose.block(0, 3, 0, 3)) for pose in (turn.known, turn.made))
+    rotation = formula("𝐔 = {known} = {made}", known=known, made=made)
+    values = tuple(equation(Symbol(d.name), formulas.form(d.value)) for d in turn.definitions)
+    return Step(
+        id=f"inverse_turn_{number}",
+        stage=STAGE,
+        title="The rotation of the wrist" if turn.is_wrist else f"What is left for {joints}",
+        why=say(
+            "The other joints are known now. Taken off the given pose, they leave to {joints} the rotation "
+            "$𝐔$, which is also the product of the rotations of these joints.{subproblems}",
+            joints=joints,
+            subproblems=_OF_A_WRIST if turn.is_wrist else "",
+        ),
+        working=(rotation,),
+        source=spong("3.3.2"),
+        concluding=("From the given pose and the joints that are known:",) if values else (),
+        result=values or (rotation,),
+        listed=True,
+        uses=("inverse_task", *(f"inverse_{step.coordinate}" for step in before)),
+    )
+
+
+def _wrist_notes(formulas: InverseFormulas, turn: Turn, step: Solved) -> Iterator[Prose]:
+    """Where a spherical wrist is singular; said with its first angle that has two values."""
+    if not isinstance(step, OneLine):
+        return
+    first, middle, last = map(Symbol, turn.names)
+    where = formula("sin {middle} = 0", middle=middle)
+    if len(turn.made[2, 2]) != 1:  # else it is ± the cosine of the angle between the outer axes
+        where = Relation((formulas.form(turn.known[2, 2]), Number(1)), ("= ±",))
+    text = (
+        "Where {where} the first and the last axis of the wrist are one line: the wrist is singular. Only "
+        "the sum of {first} and {last}, or their difference, is given then, and one of them is free: "
+        "infinitely many solutions."
+    )
+    yield say(text, where=where, first=first, last=last)
+
+
+# -- the branches ----------------------------------------------------------------------------------
+
+
+def _branches(forms: ConfigurationForms, solving: Solving) -> Step:
+    """All of them, each put into r(q)."""
+    names, count = [step.coordinate for step in solving.solved], len(forms.inverse)
+    task = letters.FRAME_OF_Q if _is_pose(forms.robot) else letters.TASK_OF_Q
+    return Step(
+        id=_id_of_branches(forms),
+        stage=STAGE,
+        title="The solution" if count == 1 else f"The {count} solutions",
+        why=say(
+            "{count}, each put into {task} to see that it gives what is asked. A coordinate that stands in a "
+            "formula is that of the same line.",
+            count="There is one solution" if count == 1 else f"Together there are {count} solutions",
+            task=task,
+        ),
+        table=Table(("", *map(Symbol, names)), tuple(_rows(forms, solving))),
+        notes=(*_conditions(forms, task), *_free_coordinates(solving)),
+        normal=NOTED,
+        detail=Detail.BRIEF,
+        uses=tuple(f"inverse_{name}" for name in names),
+        hint=say(
+            "Put every choice among these into {task}: those that give what is asked are the solutions.",
+            task=task,
+        ),
+        hint_title="The solutions",
+    )
+
+
+def _rows(forms: ConfigurationForms, solving: Solving) -> Iterator[tuple[Node | str, ...]]:
+    """A branch a row: formulas that are short, and of the others which of their two is meant."""
+    assert forms.solved is not None
+    for number, branch in enumerate(forms.solved.branches, 1):
+        row: list[Node | str] = [str(number)]
+        for step, index in zip(solving.solved, branch.choice, strict=True):
+            solutions = forms.inverse_formulas.solutions(step)
+            if cost(solutions[index]) <= SHORT:
+                row.append(solutions[index])
+            elif len(solutions) == 1:
+                row.append("as above")
+            else:
+                signs = forms.inverse_formulas.has_signs(step)
+                row.append((("with +", "with -") if signs else ("the first", "the second"))[index])
+        yield tuple(row)
+
+
+def _conditions(forms: ConfigurationForms, task: Node) -> Iterator[Prose]:
+    """Where the branches are solutions, those with the same conditions together."""
+    lines: dict[Conditions, list[str]] = {}
+    for number, when in enumerate(forms.when, 1):
+        lines.setdefault(when, []).append(str(number))
+    for when, numbers in lines.items():
+        if when:
+            which = "Line|Lines {numbers} holds|hold" if len(lines) > 1 else "This|They holds|hold"
+            text = " where {conditions} alone: the joints give {task} no other values."
+            conditions = listed([equation(*one.sides) for one in when])
+            which = agreeing(which, len(numbers))
+            yield say(which + text, numbers=listed(numbers), conditions=conditions, task=task)
+
+
+def _free_coordinates(solving: Solving) -> Iterator[Prose]:
+    sums = [step for step in solving.solved if isinstance(step, Remainder)]
+    bound = [name for name in solving.free if any(name in dict(step.others) for step in sums)]
+    unused = [name for name in solving.free if name not in bound]
+    if bound:
+        yield say("{q} may be anything; the others follow.", q=listed([*map(Symbol, bound)]))
+    if unused:
+        text = agreeing("{q} does|do not change the task, and may be anything.", len(unused))
+        yield say(text, q=listed([*map(Symbol, unused)]))

@@ -8,7 +8,6 @@ law of cosines          c² = a² + b² + 2 a b cos ψ, where squares were added
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import product
 from math import cos, pi, sin
 
@@ -16,12 +15,11 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.positivity import is_nonnegative
 from dynsolve.derivation.inverse.equations import Equation, Given, OfPoint, Squared, Turned
 from dynsolve.derivation.inverse.subproblems import OneLine, Solved, TwoLines
-from dynsolve.document.figures import ArmArrow, ArmFigure, Figure, FigureAngle, FigureLine, LineKind, Place
+from dynsolve.document.figures import Figure, FigureAngle, FigureLine, LineKind, Place
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, negated, split_sign, total
-from dynsolve.notation.tree import ZERO, Function, Matrix, Node, Number, Quotient, Reference, Symbol
-from dynsolve.robot.model import Robot
-from dynsolve.robot.questions import TIP
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import ZERO, Function, Node, Symbol
 
 MOST = 6
 """Formulas with more operations are not written on a line of a drawing."""
@@ -66,23 +64,12 @@ def _is_length(equation: Equation) -> bool:
 
 
 def _projection(formulas: InverseFormulas, step: OneLine, turned: Turned) -> Figure | None:
-    """From (x, y) turned back, of which the second component is known: what is seen along the axis."""
-    if not (_is_length(turned.first) and _is_length(turned.second)):
-        return None
-    found = _components(step, turned)
-    if found is None:
-        return None
-    point = formulas.form(turned.first.left), formulas.form(turned.second.left)
-    along, across = (None if value is None else formulas.form(value) for value in found)
-    caption = "Seen along the axis of the joint; not to scale."
-    return _in_a_plane(Symbol(step.coordinate), point, (along, across), caption)
-
-
-def _components(step: OneLine, turned: Turned) -> tuple[Expr | None, Expr | None] | None:
-    """(A, B) where the point is after it is turned back, None for the one that the equation does not give.
+    """From (x, y) turned back, of which one component is known: what is seen along the axis.
 
     c x + s y = A, or -s x + c y = B, each perhaps with the opposite sign.
     """
+    if not (_is_length(turned.first) and _is_length(turned.second)):
+        return None
     x, y = turned.first.left, turned.second.left
     of_cosine, of_sine = (y, -x) if turned.is_second else (x, y)
     if (step.cosine, step.sine) == (of_cosine, of_sine):
@@ -91,41 +78,42 @@ def _components(step: OneLine, turned: Turned) -> tuple[Expr | None, Expr | None
         value = -step.value
     else:
         return None
-    return (None, value) if turned.is_second else (value, None)
+    vector = (None, value) if turned.is_second else (value, None)
+    return _in_a_plane(formulas, step, (x, y), vector, "Seen along the axis of the joint; not to scale.")
 
 
 def _turned_vector(formulas: InverseFormulas, step: TwoLines) -> Figure | None:
     """(A, B) turned by the angle is (X, Y)."""
-    a, b, x = step.first
-    c, d, y = step.second
+    (a, b, x), (c, d, y) = step.first, step.second
     if d == a and c == -b:  # a c + b s = x, a s - b c = y
-        vector, point = (a, -b), (x, y)
+        b = -b
     else:
-        vector, point = (a, b), (x, -y)
-    if all(value.is_zero for value in vector):
+        y = -y
+    if a.is_zero and b.is_zero:
         return None
-    ends = formulas.form(point[0]), formulas.form(point[1])
     caption = "The vector of what is known, turned by the joint; not to scale."
-    return _in_a_plane(
-        Symbol(step.coordinate), ends, (formulas.form(vector[0]), formulas.form(vector[1])), caption
-    )
+    return _in_a_plane(formulas, step, (x, y), (a, b), caption)
 
 
 def _in_a_plane(
-    angle: Node, point: tuple[Node, Node], vector: tuple[Node | None, Node | None], caption: str
+    formulas: InverseFormulas,
+    step: Solved,
+    point: tuple[Expr, Expr],
+    vector: tuple[Expr | None, Expr | None],
+    caption: str,
 ) -> Figure:
     """A right angle of two lengths, the first turned by the angle, and where it ends; None is not known."""
-    along, across = vector
-    unit, normal = _direction(_TURN), _direction(_TURN + pi / 2)
-    foot = _moved(_ORIGIN, unit, 0.0 if along == ZERO else _LONG)
+    x, y = map(formulas.form, point)
+    along, across = (None if value is None else formulas.form(value) for value in vector)
+    foot = _moved(_ORIGIN, _TURN, 0.0 if along == ZERO else _LONG)
     sign, width = (1, None) if across is None else split_sign(across)
-    end = _moved(foot, normal, 0.0 if width == ZERO else sign * _ACROSS)
+    end = _moved(foot, _TURN + pi / 2, 0.0 if width == ZERO else sign * _ACROSS)
     below = (end[0], 0.0)
     lines = [
         FigureLine(_ORIGIN, (3.1, 0.0), LineKind.AXIS),
         FigureLine(_ORIGIN, (0.0, 2.5), LineKind.AXIS),
-        FigureLine(below, _ORIGIN, LineKind.HELP, _short(point[0])),
-        FigureLine(end, below, LineKind.HELP, _short(point[1])),
+        FigureLine(below, _ORIGIN, LineKind.HELP, _short(x)),
+        FigureLine(end, below, LineKind.HELP, _short(y)),
         FigureLine(foot, _ORIGIN, LineKind.LENGTH, _short(along)),
     ]
     if end != foot:
@@ -133,7 +121,9 @@ def _in_a_plane(
             FigureLine(end, foot, LineKind.LENGTH, _short(width)),
             FigureLine(_ORIGIN, end, LineKind.HELP),
         ]
-    return Figure(caption, tuple(lines), (FigureAngle(_ORIGIN, 0.0, _TURN, angle),), (_ORIGIN, end))
+    return Figure(
+        caption, tuple(lines), (FigureAngle(_ORIGIN, 0.0, _TURN, Symbol(step.coordinate)),), (_ORIGIN, end)
+    )
 
 
 # -- the law of cosines ----------------------------------------------------------------------------
@@ -151,13 +141,13 @@ def _law_of_cosines(formulas: InverseFormulas, step: OneLine) -> Figure | None:
     apart = constant - sides[0] - sides[1]
     distance = Function("sqrt", formulas.form(squared.left - apart))
     bend = _bend(formulas, step, sign)
-    elbow = _moved(_ORIGIN, _direction(_TURN), 1.7)
-    end = _moved(elbow, _direction(_TURN + _BEND), 1.4)
+    elbow = _moved(_ORIGIN, _TURN, 1.7)
+    end = _moved(elbow, _TURN + _BEND, 1.4)
     lines = (
         FigureLine(elbow, _ORIGIN, LineKind.LENGTH, first),
         FigureLine(end, elbow, LineKind.LENGTH, second),
         FigureLine(_ORIGIN, end, LineKind.HELP, _short(distance, 2 * MOST)),
-        FigureLine(elbow, _moved(elbow, _direction(_TURN), 0.9), LineKind.HELP),
+        FigureLine(elbow, _moved(elbow, _TURN, 0.9), LineKind.HELP),
     )
     caption = "Two lengths and the distance of their ends: the law of cosines; not to scale."
     angle = FigureAngle(elbow, _TURN, _TURN + _BEND, bend)
@@ -169,10 +159,9 @@ def _bend(formulas: InverseFormulas, step: OneLine, sign: int) -> Node:
     q = Symbol(step.coordinate)
     a, b = step.cosine * sign, step.sine * sign
     if b.is_zero:
-        return q if is_nonnegative(a) else total([q, negated(Symbol("pi"))])
+        return q if is_nonnegative(a) else formula("{q} - π", q=q)
     if a.is_zero:
-        right = Quotient(Symbol("pi"), Number(2))
-        return total([q, negated(right) if is_nonnegative(b) else right])
+        return formula("{q} - π/2" if is_nonnegative(b) else "{q} + π/2", q=q)
     return total([q, negated(formulas.direction(b, a))])
 
 
@@ -214,62 +203,5 @@ def _short(name: Node | None, most: int = MOST) -> Node | None:
     return name if name is not None and cost(name) <= most else None
 
 
-def _direction(angle: float) -> Place:
-    return cos(angle), sin(angle)
-
-
-def _moved(start: Place, direction: Place, by: float) -> Place:
-    return start[0] + by * direction[0], start[1] + by * direction[1]
-
-
-# -- drawings of singular configurations: the arm there, and the directions that are lost at its tip
-
-MOST_ARROWS = 3
-_POSITIONS = 3
-"""The rows of J that are velocities of the tip."""
-
-
-def singular_figure_of(
-    robot: Robot, matrix: str, zeros: Sequence[Node], names: Sequence[Node], lost: Sequence[Matrix]
-) -> ArmFigure | None:
-    """The arm where the conditions hold; None without links, or where no motion of the tip is lost.
-
-    `matrix` is the Jacobian that loses rank, `lost` the columns w with wᵀ J = 0.
-    """
-    axes = _axes_of_rows(robot, matrix)
-    if not robot.has_table or axes is None:
-        return None
-    arrows = tuple(
-        ArmArrow(name, direction)
-        for name, w in zip(names, lost, strict=True)
-        if (direction := _motion(w, axes)) is not None
-    )
-    if not arrows or len(arrows) > MOST_ARROWS:
-        return None
-    those = "the arrow" if len(arrows) == 1 else "the arrows"
-    return ArmFigure(f"The arm in this case: its tip cannot move along {those}.", tuple(zeros), arrows)
-
-
-def _axes_of_rows(robot: Robot, matrix: str) -> tuple[int | None, ...] | None:
-    """The axis of the world along which each row of a Jacobian is a velocity of the tip, or None."""
-    task = robot.questions.task
-    if matrix == "J" or task is None or task.is_twist:
-        return (*range(_POSITIONS), *(None,) * _POSITIONS)
-    return tuple(map(_axis, task.entries))
-
-
-def _axis(entry: Node) -> int | None:
-    if isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None:
-        return entry.row - 1
-    return None
-
-
-def _motion(w: Matrix, axes: Sequence[int | None]) -> tuple[Node, Node, Node] | None:
-    """A lost direction as a motion of the tip; None where something else takes part in it."""
-    found: list[Node] = [ZERO, ZERO, ZERO]
-    for (component,), axis in zip(w.rows, axes, strict=True):
-        if axis is not None:
-            found[axis] = component
-        elif component != ZERO:
-            return None
-    return (found[0], found[1], found[2]) if any(part != ZERO for part in found) else None
+def _moved(start: Place, angle: float, by: float) -> Place:
+    return start[0] + by * cos(angle), start[1] + by * sin(angle)

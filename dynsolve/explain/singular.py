@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
+from dynsolve.document.figures import ArmArrow, ArmFigure
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.inverse_figures import singular_figure_of
 from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import agreeing, listed, spong
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Node, Row, Transpose, equation
+from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import TIP
 
 STAGE = Stage.SINGULAR
 _LOST = spong("4.10")
@@ -164,7 +166,7 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
         source=_LOST if lost else "",
         working=(equation(J, forms.matrix(loss.jacobian)),) if lost and exact else (),
         result=tuple(equation(name, value) for name, value in zip(names, lost, strict=True)),
-        figure=singular_figure_of(context.robot, _matrix(context), forms.singular[case], names, lost),
+        figure=_figure(context.robot, _matrix(context), forms.singular[case], names, lost),
         uses=(_matrix(context), f"singular#{case + 1}"),
         hint=(
             "In each case: how great is the rank, and which w is orthogonal to every velocity that the "
@@ -189,3 +191,47 @@ def _letter(context: Context) -> Node:
 
 def _matrix(context: Context) -> str:
     return context.values.rules["singular"].inputs[0]
+
+
+# -- the arm there, and the directions that are lost at its tip -------------------------------------
+
+MOST_ARROWS = 3
+
+
+def _figure(
+    robot: Robot, matrix: str, zeros: Sequence[Node], names: Sequence[Node], lost: Sequence[Matrix]
+) -> ArmFigure | None:
+    """The arm where the conditions hold; None without links, or where no motion of the tip is lost.
+
+    `matrix` is the Jacobian that loses rank, `lost` the columns w with wᵀ J = 0.
+    """
+    if not robot.has_table:
+        return None
+    task = robot.questions.task
+    axes: tuple[int | None, ...] = (0, 1, 2, None, None, None)
+    if matrix != "J" and task is not None and not task.is_twist:
+        axes = tuple(map(_axis, task.entries))
+    motions = [(name, _motion(w, axes)) for name, w in zip(names, lost, strict=True)]
+    arrows = tuple(ArmArrow(name, direction) for name, direction in motions if direction is not None)
+    if not arrows or len(arrows) > MOST_ARROWS:
+        return None
+    those = agreeing("the arrow|arrows", len(arrows))
+    return ArmFigure(f"The arm in this case: its tip cannot move along {those}.", tuple(zeros), arrows)
+
+
+def _axis(entry: Node) -> int | None:
+    """The axis of the world along which a component of the task is a coordinate of the tip, or None."""
+    if isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None:
+        return entry.row - 1
+    return None
+
+
+def _motion(w: Matrix, axes: Sequence[int | None]) -> tuple[Node, Node, Node] | None:
+    """A lost direction as a motion of the tip; None where something else takes part in it."""
+    found: list[Node] = [ZERO, ZERO, ZERO]
+    for (component,), axis in zip(w.rows, axes, strict=True):
+        if axis is not None:
+            found[axis] = component
+        elif component != ZERO:
+            return None
+    return (found[0], found[1], found[2]) if any(part != ZERO for part in found) else None

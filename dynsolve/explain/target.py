@@ -1,4 +1,4 @@
-"""The configurations that reach a target given in numbers, as formulas.
+"""The configurations that reach a target given in numbers, as formulas, and the steps that tell of them.
 
 The branches of the closed form are worked out exactly, as sums of square roots and angles
 with such sines and cosines.  Where there is no closed form, or its formulas say nothing at
@@ -11,22 +11,40 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from math import acos, asin, atan2, floor, pi, sqrt
-from typing import TYPE_CHECKING, Any
+from itertools import groupby
+from math import degrees, floor, pi
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.surd_angles import SurdAngle
-from dynsolve.algebra.surd_values import Exact, NoValue, Undetermined, exact_value
+from dynsolve.algebra.surd_values import Exact, NoValue, Undetermined, decimal, exact_value, number_of
 from dynsolve.algebra.surds import NotExact
 from dynsolve.derivation.configuration_check import Condition, Conditions, holds
 from dynsolve.derivation.reached import CLOSE, angle_rows, gap, near, same_configuration
+from dynsolve.document import Prose, Table
+from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.build import negated, times, total
-from dynsolve.notation.tree import ZERO, Negative, Node, Number, Product, Quotient, Sum, Symbol
-from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
-from dynsolve.notation.walk import mapped, names_in
+from dynsolve.explain.step import NOTED, Detail, Group, Step
+from dynsolve.explain.writing import agreeing, listed
+from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.tree import (
+    ZERO,
+    Degrees,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Product,
+    Quotient,
+    Relation,
+    Sum,
+    Symbol,
+    equation,
+)
+from dynsolve.notation.walk import mapped, names_in, walk
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Target
 
@@ -117,7 +135,7 @@ class TargetForms:
         """Their values in floating point."""
         found: dict[str, float] = {"pi": pi}
         for name, node in self.written.items():
-            found[name] = number_of(name, node, found)
+            found[name] = number_of(node, found)
         return found
 
     @cached_property
@@ -145,16 +163,15 @@ class TargetForms:
     def configurations(self) -> tuple[Configuration, ...]:
         """All that are found, each once."""
         found: list[Configuration] = []
-        for one in (*self._closed, *self._searched):
-            index = next((i for i, other in enumerate(found) if self._is_same(one, other)), None)
-            if index is None:
-                found.append(replace(one, outside=self._outside(one)))
+        closed = [one for one in self._at_target if isinstance(one, Configuration)]
+        for one in (*closed, *self._searched):
+            for i, other in enumerate(found):
+                if one.free == other.free and same_configuration(self.robot.ring, one.numbers, other.numbers):
+                    found[i] = replace(other, branches=(*other.branches, *one.branches))
+                    break
             else:
-                found[index] = replace(found[index], branches=(*found[index].branches, *one.branches))
+                found.append(replace(one, outside=self._outside(one)))
         return tuple(found)
-
-    def _is_same(self, one: Configuration, other: Configuration) -> bool:
-        return one.free == other.free and same_configuration(self.robot.ring, one.numbers, other.numbers)
 
     @property
     def lost(self) -> tuple[Lost, ...]:
@@ -171,10 +188,6 @@ class TargetForms:
         """Whether configurations are looked for in numbers, too."""
         return self.branches is None or None in self._at_target
 
-    @property
-    def _closed(self) -> tuple[Configuration, ...]:
-        return tuple(one for one in self._at_target if isinstance(one, Configuration))
-
     @cached_property
     def _at_target(self) -> tuple[Configuration | Lost | Unmet | None, ...]:
         """Each branch at the target; None where its formulas say nothing there."""
@@ -186,13 +199,15 @@ class TargetForms:
         for one in when:
             if names_in(*one.sides).isdisjoint(branch) and not holds(one, self.numbers):
                 return Unmet(number, one)
-        try:
-            found = branch_values(branch, self.numbers, self.exact)
-            others = [self._elsewhere(branch, place) for place in _OTHER_PLACES] if found.free else []
-        except Unreal as error:
-            return Lost(number, error.coordinate, error.function, error.argument)
-        except ZeroDivisionError:
-            return None
+        found = self._values(number, branch)
+        if not isinstance(found, BranchValues):
+            return found
+        others = []
+        for place in _OTHER_PLACES if found.free else ():
+            other = self._values(number, branch, place)
+            if not isinstance(other, BranchValues):
+                return other
+            others.append(other)
         names = self.robot.ring.names
         unused = {name: 0.0 for name in names if name not in branch}
         for one in when:
@@ -200,18 +215,30 @@ class TargetForms:
                 return Unmet(number, one)
         if not all(self.reaches({**unused, **one.numbers}) for one in (found, *others)):
             return None
+        formulas = {n: self._formula(n, branch, found, others) for n in branch if n not in found.free}
+        constant = [n for n in names if n in formulas and not names_in(formulas[n]) & set(names)]
         return Configuration(
             numbers={name: found.numbers.get(name, 0.0) for name in names},
-            formulas=_constants_first(
-                names, {n: self._formula(n, branch, found, others) for n in branch if n not in found.free}
-            ),
+            formulas={name: formulas[name] for name in dict.fromkeys((*constant, *formulas))},
             branches=(number,),
             free=tuple(name for name in names if name in unused or name in found.free),
         )
 
-    def _elsewhere(self, branch: Mapping[str, Node], place: float) -> BranchValues:
-        """The branch with its free coordinates at another place."""
-        return branch_values(branch, self.numbers, {**self.exact}, place)
+    def _values(
+        self, number: int, branch: Mapping[str, Node], place: float = 0.0
+    ) -> BranchValues | Lost | None:
+        """Every coordinate of a branch, what is free at `place`; None where a formula says nothing."""
+        found = BranchValues(dict(self.numbers), dict(self.exact))
+        for name in sorted(names_in(*branch.values()) - {*branch, *self.numbers}):
+            found.set_free(name, place)
+        for name, formula in branch.items():
+            try:
+                found.put(name, formula)
+            except Undetermined:
+                found.set_free(name, place)
+            except NoValue as error:
+                return None if error.function == "/" else Lost(number, name, error.function, error.argument)
+        return found
 
     def _formula(
         self, name: str, branch: Mapping[str, Node], found: BranchValues, others: Sequence[BranchValues]
@@ -223,13 +250,15 @@ class TargetForms:
         kind = dict(self.robot.ring.coordinates)[name]
         moves = [gap(kind, other.numbers[name], found.numbers[name]) for other in others]
         if all(abs(move) < CLOSE for move in moves):
-            return shown(name, branch, found, self.written)
+            if name in found.exact:
+                return found.exact[name].node
+            return with_numbers(branch[name], self.written, found.exact)
         for sign in (1, -1):
             turns = [gap(kind, move, sign * place) for move, place in zip(moves, _OTHER_PLACES, strict=True)]
             if name in found.exact and len(found.free) == 1 and all(abs(turn) < CLOSE for turn in turns):
                 first = Symbol(next(iter(found.free)))
                 return total([first if sign > 0 else negated(first), found.exact[name].node])
-        return shown(name, branch, replace(found, exact={}), self.written)
+        return with_numbers(branch[name], self.written, {})
 
     @cached_property
     def _found(self) -> Found | None:
@@ -251,44 +280,25 @@ class TargetForms:
         """Whether configurations are only known not to stand alone: there may be infinitely many."""
         return self._found is not None and bool(self._found.others) and not self.configurations
 
-    # -- limits ------------------------------------------------------------------------------------
-
     def _outside(self, one: Configuration) -> tuple[str, ...]:
         """The coordinates beyond their limits; an angle is within where whole turns bring it there."""
         found = []
-        kinds = dict(self.robot.ring.coordinates)
         for limits in self.robot.questions.limits:
             name = limits.coordinate
-            low, high = (number_of(name, end, self.numbers) for end in (limits.low, limits.high))
+            low, high = (number_of(end, self.numbers) for end in (limits.low, limits.high))
             value = one.numbers[name]
-            if kinds[name] == "revolute":
+            if self.turns(name):
                 value -= 2 * pi * floor((value - low + CLOSE) / (2 * pi))
             if name not in one.free and not low - CLOSE <= value <= high + CLOSE:
                 found.append(name)
         return tuple(found)
 
-
-def _constants_first(names: Sequence[str], formulas: Mapping[str, Node]) -> dict[str, Node]:
-    """The formulas that are numbers, in the order of the coordinates, before those that hold others."""
-    constant = [name for name in names if name in formulas and not names_in(formulas[name]) & set(names)]
-    return {name: formulas[name] for name in dict.fromkeys((*constant, *formulas))}
+    def turns(self, name: str) -> bool:
+        """Whether a coordinate is an angle."""
+        return dict(self.robot.ring.coordinates)[name] == "revolute"
 
 
 # -- one branch of the inverse kinematics at numbers: every coordinate, exactly where it can be ----
-
-DIGITS = 12
-"""So many digits has a value that has no formula."""
-
-_ROUNDING = 1e-9
-"""What rounding may make of 0, and of what is on the boundary."""
-
-
-class Unreal(Exception):
-    """A coordinate has no real value: `function` was taken of `argument`."""
-
-    def __init__(self, coordinate: str, function: str, argument: Node) -> None:
-        super().__init__(coordinate)
-        self.coordinate, self.function, self.argument = coordinate, function, argument
 
 
 @dataclass(slots=True)
@@ -302,24 +312,12 @@ class BranchValues:
     exact: dict[str, Exact]
     free: dict[str, float] = field(default_factory=dict)
 
-    def put(self, name: str, formula: Node, place: float) -> None:
-        """Work out one coordinate; one that is free is put at `place`.
-
-        Raises Unreal where it has no real value, ZeroDivisionError where its formula says nothing.
-        """
+    def put(self, name: str, formula: Node) -> None:
+        """Work out one coordinate, exactly where that goes."""
         try:
             value = exact_value(formula, self.exact)
-        except NoValue as error:
-            if error.function == "/":
-                raise ZeroDivisionError from None
-            raise Unreal(name, error.function, error.argument) from None
-        except Undetermined:
-            self.set_free(name, place)
         except NotExact:
-            try:
-                self.numbers[name] = number_of(name, formula, self.numbers)
-            except _NoDirection:
-                self.set_free(name, place)
+            self.numbers[name] = number_of(formula, self.numbers)
         else:
             self.exact[name], self.numbers[name] = value, float(value)
 
@@ -328,23 +326,6 @@ class BranchValues:
         self.numbers[name] = self.free[name] = place * (1 + len(self.free))
         if not place:
             self.exact[name] = SurdAngle.of_degrees(0)
-
-
-def branch_values(
-    branch: Mapping[str, Node], numbers: Mapping[str, float], exact: Mapping[str, Exact], place: float = 0.0
-) -> BranchValues:
-    """Every coordinate of a branch; raises as `BranchValues.put` does."""
-    found = BranchValues(dict(numbers), dict(exact))
-    for name in sorted(names_in(*branch.values()) - {*branch, *numbers}):
-        found.set_free(name, place)
-    for name, formula in branch.items():
-        found.put(name, formula, place)
-    return found
-
-
-def shown(name: str, branch: Mapping[str, Node], found: BranchValues, written: Mapping[str, Node]) -> Node:
-    """A coordinate as a formula: its exact value, else its formula with numbers in it."""
-    return found.exact[name].node if name in found.exact else with_numbers(branch[name], written, found.exact)
 
 
 def with_numbers(formula: Node, written: Mapping[str, Node], exact: Mapping[str, Exact]) -> Node:
@@ -375,42 +356,183 @@ def _folded(part: Node) -> Node:
     return part
 
 
-def decimal(value: float, digits: int = DIGITS) -> Node:
-    """A number in floating point, as a decimal."""
-    exact = Fraction(f"{value:.{digits}g}")
-    size = Number(abs(exact.numerator), exact.denominator, decimal=True)
-    return negated(size) if exact < 0 else size
+# -- steps of it: each configuration that reaches the numbers, or why there is none ----------------
+
+_DIGITS = 4
+
+LONGEST = 60
+"""A formula with more operations is no help to a reader; its value stands alone."""
+
+_REAL = {
+    "acos": "no angle has a cosine beyond -1 and 1",
+    "asin": "no angle has a sine beyond -1 and 1",
+    "sqrt": "a negative number has no real root",
+}
 
 
-# -- floating point --------------------------------------------------------------------------------
+def target_steps(forms: TargetForms) -> Iterator[Step]:
+    """A step for each configuration, and the table of all."""
+    whole = _all(forms)
+    group = Group("inverse", whole.title)
+    for number, one in enumerate(forms.configurations, 1):
+        yield Step(
+            id=f"inverse_{number}",
+            stage=Stage.INVERSE,
+            title=f"Configuration {number}",
+            why=_where_from(one),
+            result=tuple(_value(forms, one, name) for name in one.formulas),
+            notes=tuple(_remarks(one)),
+            listed=True,
+            uses=("inverse_branches",) if one.branches else (),
+            is_task=False,
+            group=group,
+            normal=NOTED,
+        )
+    yield replace(whole, group=group, normal=NOTED)
 
 
-class _NoDirection(Exception):
-    """The direction of a point to itself."""
+def _where_from(one: Configuration) -> Prose:
+    if not one.branches:
+        return say("Found in numbers, and put into $𝐫(𝐪)$.")
+    if len(one.branches) == 1:
+        return say("Branch {branch} with these numbers.", branch=one.branches[0])
+    return say(
+        "Branches {branches} with these numbers: they are one, for the target is on their boundary.",
+        branches=listed([str(branch) for branch in one.branches]),
+    )
 
 
-def number_of(name: str, formula: Node, values: Mapping[str, float]) -> float:
-    """The value of a formula; what is beyond a boundary by rounding alone is on it."""
+def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
+    """q = its formula ≈ its value"""
+    formula, value = one.formulas[name], one.numbers[name]
+    if rational_value(formula) == 0 or _depends(one, name):
+        return equation(Symbol(name), formula)
+    number = decimal(value, _DIGITS)
+    if cost(formula) > LONGEST:
+        formula = decimal(value)
+    is_decimal = _is_decimal(formula)
+    shown = [number if is_decimal else formula]
+    if rational_value(formula) is None:
+        shown.append(number)
+    if forms.turns(name):
+        is_plain = not any(isinstance(part, Function) for part in walk(formula)) and not is_decimal
+        if is_plain and names_in(formula) <= {"pi"}:
+            return Relation((Symbol(name), formula, _in_degrees(value)), ("=", "="))
+        shown.append(_in_degrees(value))
+    return Relation((Symbol(name), *shown), ("≈" if is_decimal else "=", *["≈"] * (len(shown) - 1)))
 
-    def within(function: Any, low: float, high: float) -> Any:
-        def at(x: float) -> float:
-            if not low - _ROUNDING <= x <= high + _ROUNDING:
-                raise Unreal(name, labels[function], decimal(x, 4))
-            return float(function(min(max(x, low), high)))
 
-        return at
+def _depends(one: Configuration, name: str) -> bool:
+    """Whether a coordinate is given by one that is free."""
+    return name in one.formulas and bool(names_in(one.formulas[name]) & set(one.free))
 
-    def direction(both: tuple[float, float]) -> float:
-        if max(map(abs, both)) < _ROUNDING:
-            raise _NoDirection
-        return atan2(*both)
 
-    labels = {acos: "acos", asin: "asin", sqrt: "sqrt"}
-    functions = {
-        **FUNCTIONS,
-        "acos": within(acos, -1, 1),
-        "asin": within(asin, -1, 1),
-        "sqrt": within(sqrt, 0, float("inf")),
-        "atan2": direction,
-    }
-    return float(compile_trees([formula], functions).run(values)[0])
+def _is_decimal(node: Node) -> bool:
+    inner = split_sign(node)[1]
+    return isinstance(inner, Number) and inner.decimal
+
+
+def _in_degrees(value: float) -> Node:
+    hundredths = Fraction(round(abs(degrees(value)) * 100), 100)
+    size = Degrees(hundredths.numerator, hundredths.denominator)
+    return Negative(size) if value < 0 and hundredths else size
+
+
+def _remarks(one: Configuration) -> Iterator[Prose]:
+    for names, text in (
+        (one.free, "{q} is|are free here: infinitely many solutions."),
+        (one.outside, "{q} is|are beyond the limits."),
+    ):
+        if names:
+            yield say(agreeing(text, len(names)), q=listed([*map(Symbol, names)]))
+
+
+def _all(forms: TargetForms) -> Step:
+    """The configurations in a table; where there are none, why."""
+    found = forms.configurations
+    title = "Infinitely many configurations" if forms.is_family else "Out of reach"
+    if found:
+        several = f"The {len(found)} configurations that reach it"
+        title = "The configuration that reaches it" if len(found) == 1 else several
+    return Step(
+        id="inverse",
+        stage=Stage.INVERSE,
+        title=title,
+        why=told(forms) if found else reason(forms),
+        table=_table(forms) if found else None,
+        notes=tuple(_lost(forms)),
+        detail=Detail.BRIEF,
+        uses=tuple(f"inverse_{number}" for number in range(1, len(found) + 1)),
+        hint=(
+            "Put the numbers into every branch. Look at the arguments of roots, of arccos and arcsin: is the "
+            "branch real, is it one with another? And at atan2: are both its arguments 0?",
+        ),
+        hint_title="The configurations that reach it",
+    )
+
+
+def told(forms: TargetForms) -> Prose:
+    """How the configurations were found, and how they are known to be right."""
+    if forms.is_searched:
+        return say(
+            "Newton's method from 200 configurations led to these, each put into $𝐫(𝐪)$ to ten digits. That "
+            "there are no others is not proved."
+        )
+    return say("Each is put into $𝐫(𝐪)$ to see that it gives the task.")
+
+
+def reason(forms: TargetForms) -> Prose:
+    """Why there is no configuration, or none that stands alone; nothing where there are some."""
+    if forms.configurations:
+        return ()
+    if forms.is_family:
+        return ("The configurations that reach this do not stand alone: there are infinitely many.",)
+    if forms.unmet:
+        return say("No configuration reaches this: no joint gives $𝐫(𝐪)$ these values.")
+    if forms.lost:
+        return ("No configuration reaches this: no branch is real.",)
+    return ("No configuration that reaches this was found: Newton's method from 200 of them led to none.",)
+
+
+def _table(forms: TargetForms) -> Table:
+    names = [q.name for q in forms.robot.coordinates]
+    limited = bool(forms.robot.questions.limits)
+    rows = []
+    for number, one in enumerate(forms.configurations, 1):
+        row: list[Node | str] = [str(number)]
+        for name in names:
+            value = one.numbers[name]
+            if name in one.free:
+                row.append("free")
+            elif _depends(one, name):
+                row.append(one.formulas[name])
+            else:
+                row.append(_in_degrees(value) if forms.turns(name) else decimal(value, _DIGITS))
+        if limited:
+            row.append("beyond" if one.outside else "within")
+        rows.append(tuple(row))
+    return Table(("", *map(Symbol, names), *(("Limits",) if limited else ())), tuple(rows))
+
+
+def _lost(forms: TargetForms) -> Iterator[Prose]:
+    """Why branches are not real or no solutions, those with one reason together."""
+    for condition, unmet in groupby(forms.unmet, key=lambda one: one.condition):
+        numbers = [str(one.branch) for one in unmet]
+        text = agreeing(
+            "Branch|Branches {numbers} needs|need {condition}, which does not hold here.", len(numbers)
+        )
+        yield say(text, numbers=listed(numbers), condition=equation(*condition.sides))
+
+    def why(lost: Lost) -> tuple[str, str, str]:
+        return lost.coordinate, lost.function, repr(lost.argument)
+
+    for _, together in groupby(sorted(forms.lost, key=why), key=why):
+        one, *others = together
+        text = "Branch|Branches {numbers} is|are not real: {q} needs {value}, and {why}."
+        yield say(
+            agreeing(text, 1 + len(others)),
+            numbers=listed([str(each.branch) for each in (one, *others)]),
+            q=Symbol(one.coordinate),
+            value=Function(one.function, one.argument),
+            why=_REAL[one.function],
+        )

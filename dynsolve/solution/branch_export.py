@@ -62,7 +62,7 @@ def beside_branches(forms: ConfigurationForms, write: Callable[[Prose], str]) ->
     """
     if forms.target is None:
         return
-    from dynsolve.explain.inverse_target import reason, told
+    from dynsolve.explain.target import reason, told
 
     found = forms.target.configurations
     yield (
