@@ -3,7 +3,7 @@
 A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
 `jacobian`, `inertia` (with `mass_centers`), `energy`, `torque` (with the Lagrangian), `vectorized` (with
 `christoffel`); `frames` of a drawing; `task` (with points), `singular`, `inverse`, `rates` (with statics),
-`newton_euler` (made in `recursions`), `parameters`, `equilibria`, `forward_dynamics` (with the inertia of
+`newton_euler`, `parameters`, `equilibria`, `forward_dynamics` (with the inertia of
 the task), `definite` and `constraints` where something of them is asked.  To explain a further quantity,
 yield a `Step` in the file of its stage:
 
@@ -29,8 +29,6 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     forms       the compact form of every value; how long ones are put together from parts
     writing     sentences and pieces of formulas; the books and their sections that steps refer to
     given       what is given of the robot and its bodies, of what acts on it, and what is asked
-    jacobian_columns
-                the columns of Jacobians in letters, and with axes and levers put in
     mass_centers
                 where mass centres are, tensors turned to the base, bodies with a density
     placed_bodies
@@ -45,7 +43,6 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     target      the configurations that reach a target in numbers, and their steps
     inverse_figures
                 drawings of the solutions
-    recursions  the Newton-Euler recursions, link by link
     sanity      checks that a person can do on the finished model
     working     the lines between a formula and its result, each proved before it is shown
 

@@ -10,8 +10,7 @@ from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps, potential_steps
 from dynsolve.explain.context import Context
-from dynsolve.explain.jacobian import where_told_read_off
-from dynsolve.explain.jacobian_columns import (
+from dynsolve.explain.jacobian import (
     BESIDE,
     ZERO,
     coordinate_column,
@@ -20,6 +19,7 @@ from dynsolve.explain.jacobian_columns import (
     how_read_off,
     parallel,
     read_off,
+    where_told_read_off,
 )
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined

@@ -1,50 +1,74 @@
-"""Steps of the end-effector Jacobian: axes and origins, column by column, J_v and J_ω."""
+"""Steps of the end-effector Jacobian: axes and origins, column by column, J_v and J_ω.
+
+And the columns z × (p - o) of any point, in letters and with the axes and levers of a robot put in.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import pairwise
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.algebra.expr import Expr
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose, Reference
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.jacobian_columns import (
-    BESIDE,
-    ZERO,
-    column_shown,
-    coordinate_column,
-    end_of,
-    frame_parts,
-    how_read_off,
-    joints_moved,
-    read_off,
-    used_in_cross,
-)
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Group, Part, Step
-from dynsolve.explain.working.identities import said
-from dynsolve.explain.writing import and_joined, column_of, craig, listed, side_by_side, spong, turns
+from dynsolve.explain.working import squares
+from dynsolve.explain.working.identities import Identity, said, used_in_product
+from dynsolve.explain.writing import (
+    and_joined,
+    block_of,
+    column_of,
+    craig,
+    is_small,
+    listed,
+    side_by_side,
+    spong,
+    sum_of,
+    turns,
+)
+from dynsolve.notation.build import total
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    Cross,
     Letter,
     Matrix,
+    Negative,
     Node,
     Number,
+    Parenthesized,
     Product,
     Relation,
+    Row,
+    Sum,
     Symbol,
     Transpose,
+    Words,
     column,
     equation,
     number,
 )
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
 
 STAGE = Stage.JACOBIAN
+
+ZERO = Letter("0", style="bold")
+"""The zero vector."""
+
+BESIDE = 2
+"""Up to this number of columns J_v and J_ω, and v and ω, stand on one line."""
+
+_WIDEST_ROW = 66
+"""The characters up to which a column is written as one row, which fits the lines of an article."""
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -57,44 +81,38 @@ def steps(context: Context) -> Iterator[Step]:
     yield replace(whole, group=group)
 
 
+# -- the step of axes and origins ------------------------------------------------------------------
+
+
 def _axes(context: Context) -> Step:
-    robot = context.robot
-    moving, told = _moving_frames(robot), told_frames(robot)
-    last = told[-1]
-    pairs: list[Node] = []
+    moving, told = _moving_frames(context.robot), told_frames(context.robot)
+    shown: dict[int, list[Node]] = {i: [_origin(context, i, moving)] for i in told}
     for i in moving:
-        z = equation(letters.z(i), frame_parts(context, i)[0])
-        pairs.append(side_by_side([z, _origin(context, i, moving)]))
-    if last not in moving:
-        pairs.append(_origin(context, last, moving))
+        shown[i].insert(0, equation(letters.z(i), frame_parts(context, i)[0]))
+    matrices: Prose = ("each ", replace(letters.H(context.robot, 0), sub=letters.COUNT))
+    if context.is_short:  # of a long arm not all of them are printed
+        matrices = say("$𝐇${where}", where=Reference(tuple(f"H{i}" for i in told if i), " in "))
+    is_frame_0 = 0 in moving and not letters.has_base(context.robot)
+    read_off = _told_read_off(context)
     return Step(
         id="axes",
         stage=STAGE,
         title="Axes and origins of the frames",
-        why=(
-            "In the first three rows of ",
-            *_matrices_of_frames(context, told),
-            " the third column is ",
-            Letter("z", style="bold"),
-            ", the fourth ",
-            Letter("o", style="bold"),
-            *_of_frame_0(context, moving),
-            *_about(context),
-            *_same_origins(context, moving),
-            *_wrist(context),
-            *_read_off(context),
+        why=say(
+            "In the first three rows of {matrices} the third column is $𝐳$, the fourth $𝐨${frame_0}. "
+            "{about}{same}{wrist}{read_off}",
+            matrices=matrices,
+            frame_0=say("; $𝐳_0$ and $𝐨_0$ are those of frame 0 itself") if is_frame_0 else (),
+            about=_about(context),
+            same=_same_origins(context, moving),
+            wrist=_wrist(context),
+            # told once, as the mass centres have such products too
+            read_off=say(" {how}.", how=how_read_off(context, read_off[1])) if read_off else (),
         ),
         source=spong("4.6") if context.standard else craig("3.4"),
-        result=tuple(pairs),
+        result=tuple(map(side_by_side, shown.values())),
         uses=(),
     )
-
-
-def _matrices_of_frames(context: Context, told: Sequence[int]) -> Prose:
-    """The matrices whose columns are looked at: of a long arm not all of them are printed."""
-    if context.is_short:
-        return (Letter("H", style="bold"), Reference(tuple(f"H{i}" for i in told if i), " in "))
-    return ("each ", replace(letters.H(context.robot, 0), sub=letters.COUNT))
 
 
 def _moving_frames(robot: Robot) -> list[int]:
@@ -111,39 +129,46 @@ def told_frames(robot: Robot) -> tuple[int, ...]:
 def _origin(context: Context, i: int, moving: Sequence[int]) -> Relation:
     """o_i with its value, or the earlier origin in the same moving point."""
     point = frame_parts(context, i)[1]
-    ring, entries = context.robot.ring, origin(context.values[f"H{i}"]).entries
-    if any(map(ring.depends_on_coordinates, entries)):
+    entries = origin(context.values[f"H{i}"]).entries
+    if any(map(context.robot.ring.depends_on_coordinates, entries)):
         for j in moving:
             if j < i and frame_parts(context, j)[1] == point:
                 return equation(letters.o(i), letters.o(j))
     return equation(letters.o(i), point)
 
 
-def _of_frame_0(context: Context, moving: Sequence[int]) -> Prose:
-    """Whose z_0 and o_0 are: no product of matrices leads to frame 0 where it is the world."""
-    if 0 not in moving or letters.has_base(context.robot):
-        return ()
-    return ("; ", letters.z(0), " and ", letters.o(0), " are those of frame 0 itself")
+def _about(context: Context) -> Prose:
+    """About or along whose axis a joint moves."""
+    robot = context.robot
+    kinds = {JointType.REVOLUTE: "turns about", JointType.PRISMATIC: "slides along"}
+    moves = " or ".join(words for kind, words in kinds.items() if any(j.type is kind for j in robot.joints))
+    if robot.is_tree:
+        frame = "the frame that its row starts from" if context.standard else "its own frame"
+        return say("A joint {moves} the $𝐳$ of {frame}.", moves=moves, frame=frame)
+    told = say("In the {which} convention joint i {moves} ", which=robot.convention.value, moves=moves)
+    if context.standard:
+        return told + say("$𝐳_(i-1)$, the axis of the frame before it.")
+    return told + say(
+        "$𝐳_i$, the axis of its own frame: where Spong, in the standard convention, has $𝐳_(i-1)$ and "
+        "$𝐨_(i-1)$, here stand $𝐳_i$ and $𝐨_i$."
+    )
 
 
 def _same_origins(context: Context, moving: Sequence[int]) -> Prose:
     """Why origins are equal: a row whose d and a are 0 leaves the origin where it is."""
     robot = context.robot
-    told = told_frames(robot)
-    origins = {i: _origin(context, i, moving) for i in told if i}
+    origins = {i: _origin(context, i, moving) for i in told_frames(robot) if i}
     rows = [robot.joints[i - 1] for i, named in origins.items() if isinstance(named.parts[1], Letter)]
     if not rows or robot.is_tree or any(not (row.a.is_zero and row.d.is_zero) for row in rows):
         return ()
     _, d, a, _ = letters.columns(robot, letters.COUNT)
-    where = f"row {rows[0].index}" if len(rows) == 1 else f"rows {and_joined([str(r.index) for r in rows])}"
-    equal = listed([origins[row.index] for row in rows])
-    return (f" In {where} of the table ", d, " and ", a, " are 0, so ", *equal, ".")
-
-
-def _motions(robot: Robot) -> str:
-    """How the joints move along or about their axes."""
-    kinds = {JointType.REVOLUTE: "turns about", JointType.PRISMATIC: "slides along"}
-    return " or ".join(words for kind, words in kinds.items() if any(j.type is kind for j in robot.joints))
+    return say(
+        " In {rows} of the table {d} and {a} are 0, so {equal}.",
+        rows=f"row{'s' if len(rows) > 1 else ''} {and_joined([str(row.index) for row in rows])}",
+        d=d,
+        a=a,
+        equal=listed([origins[row.index] for row in rows]),
+    )
 
 
 def _wrist(context: Context) -> Prose:
@@ -157,34 +182,12 @@ def _wrist(context: Context) -> Prose:
     turned = all(not algebra.cross(one, other).is_zero for (one, _), (other, _) in pairwise(lines))
     for i, (_, point) in zip(frames, lines, strict=True):
         if turned and all(algebra.cross(z, point - o).is_zero for z, o in lines):
-            axes = listed([letters.z(k) for k in frames])
-            return (" The last three axes, ", *axes, ", meet in ", letters.o(i), ": a spherical wrist.")
+            words = " The last three axes, {axes}, meet in {o}: a spherical wrist."
+            return say(words, axes=listed([letters.z(k) for k in frames]), o=letters.o(i))
     return ()
 
 
-def _about(context: Context) -> Prose:
-    """About or along whose axis a joint moves."""
-    robot = context.robot
-    z = letters.bold("z")
-    if robot.is_tree:
-        frame = "the frame that its row starts from" if context.standard else "its own frame"
-        return (". A joint ", f"{_motions(robot)} the ", z, f" of {frame}.")
-    before = letters.bold("z", letters.BEFORE if context.standard else letters.COUNT)
-    told: Prose = (f". In the {robot.convention.value} convention joint i {_motions(robot)} ", before)
-    if context.standard:
-        return (*told, ", the axis of the frame before it.")
-    return (
-        *told,
-        ", the axis of its own frame: where Spong, in the standard convention, has ",
-        letters.bold("z", letters.BEFORE),
-        " and ",
-        letters.bold("o", letters.BEFORE),
-        ", here stand ",
-        letters.bold("z", letters.COUNT),
-        " and ",
-        letters.bold("o", letters.COUNT),
-        ".",
-    )
+# -- the columns -----------------------------------------------------------------------------------
 
 
 def _plain_joint(context: Context, k: int) -> Joint | None:
@@ -194,149 +197,113 @@ def _plain_joint(context: Context, k: int) -> Joint | None:
 
 
 def _column(context: Context, q: Coordinate) -> Step:
-    robot, k = context.robot, q.index - 1
-    last = len(robot.joints)
+    k, last, point = q.index - 1, len(context.robot.joints), end_of(context)
     in_letters = coordinate_column(context, k, last, letters.o(last))
-    if in_letters is None:
-        return _still_column(context, q)
-    linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
-    name = Letter("J", Number(q.index), style="bold")
-    joint = _plain_joint(context, k)
-    return Step(
+    name = letters.bold("J", Number(q.index))
+    step = Step(
         id=f"J{q.index}",
         stage=STAGE,
         title=f"Column {q.index} of the Jacobian",
-        why=(Symbol(q.name), *_column_why(context, q, joint)),
-        formula=equation(name, column(*in_letters)),
-        source=spong("4.6.3"),
-        working=column_shown(context, joints_moved(context, k, last), end_of(context), in_letters[0], linear),
-        concluding=_turning_named(context, joint),
-        result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
-        uses=("axes",),
-    )
-
-
-_WIDEST_ROW = 66
-"""The characters up to which a column is written as one row, which fits the lines of an article."""
-
-
-def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:
-    """A column, written as a transposed row where those of all coordinates fit."""
-    linear, angular = context.matrix("Jv"), context.matrix("Jw")
-    columns = zip(*linear.rows, strict=True), zip(*angular.rows, strict=True)
-    fits = all(
-        matrix_width(context, Matrix(((*v, *w),))) <= _WIDEST_ROW for v, w in zip(*columns, strict=True)
-    )
-    row = Matrix((tuple(entry for (entry,) in rows),))
-    return Transpose(row) if fits else Matrix(rows)
-
-
-def _still_column(context: Context, q: Coordinate) -> Step:
-    """The column of a coordinate that does not move the end: the angle of a motor, or of another branch."""
-    moved = context.robot.joints_of(q)
-    why = f" does not move {context.end}: its column is zero."
-    if not moved and any(motor.turns == q.index - 1 for motor in context.robot.actions.motors):
-        why = " turns a rotor alone and moves no link: its column is zero."
-    name = Letter("J", Number(q.index), style="bold")
-    return Step(
-        id=f"J{q.index}",
-        stage=STAGE,
-        title=f"Column {q.index} of the Jacobian",
-        why=(Symbol(q.name), why),
         source=spong("4.6.3"),
         result=(equation(name, ZERO),),
         uses=("axes",),
     )
+    if in_letters is None:
+        drives = not context.robot.joints_of(q) and any(m.turns == k for m in context.robot.actions.motors)
+        why = " turns a rotor alone and moves no link" if drives else f" does not move {context.end}"
+        return replace(step, why=(Symbol(q.name), why, ": its column is zero."))
+    linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
+    joint = _plain_joint(context, k)
+    used: list[Identity] = []
+    if joint and joint.type is not JointType.PRISMATIC and context.is_short:
+        used = used_in_cross(context, joint, point)
+    return replace(
+        step,
+        why=(Symbol(q.name), *_column_why(context, q, joint)),
+        formula=equation(name, column(*in_letters)),
+        working=column_shown(context, joints_moved(context, k, last), point, in_letters[0], linear),
+        concluding=("With ", *said(used), ":") if used else (),
+        result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
+    )
 
 
-def _turning_named(context: Context, joint: Joint | None) -> Prose:
-    """The identities by which z × (o_n - o), worked out, becomes what is printed."""
-    if joint is None or joint.type is JointType.PRISMATIC or not context.is_short:
-        return ()
-    used = used_in_cross(context, joint, end_of(context))
-    return ("With ", *said(used), ":") if used else ()
-
-
-def _read_off(context: Context) -> Prose:
-    """How a product with an axis of the base is read off: told once, as the mass centres have such too."""
-    told = _told_read_off(context)
-    return (" ", *how_read_off(context, told[1]), ".") if told else ()
-
-
-def _told_read_off(context: Context) -> tuple[int, Joint] | None:
-    """The coordinate (from 0) of whose column it is told how it is read off, and the joint that it moves."""
-    robot = context.robot
-    if not (context.is_short and robot.has_table and robot.bodies):
-        return None
-    joint = read_off(context, len(robot.joints), end_of(context))
-    alone = [_plain_joint(context, k) for k in range(robot.n)]
-    return (alone.index(joint), joint) if joint and joint in alone else None
-
-
-def where_told_read_off(context: Context) -> str:
-    """The column that tells how a product with an axis of the base is read off; "" where none does."""
-    told = _told_read_off(context)
-    return f"J{told[0] + 1}" if told else ""
+def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:
+    """A column, written as a transposed row where those of all coordinates fit."""
+    linear, angular = context.matrix("Jv").rows, context.matrix("Jw").rows
+    in_rows = [Matrix((entries,)) for entries in zip(*linear, *angular, strict=True)]
+    fits = all(matrix_width(context, row) <= _WIDEST_ROW for row in in_rows)
+    return Transpose(Matrix((tuple(entry for (entry,) in rows),))) if fits else Matrix(rows)
 
 
 def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
     robot = context.robot
     if joint is None:
         moved = joints_moved(context, q.index - 1, len(robot.joints))
-        where = listed([str(j.index) for _, j in moved])
-        if len(moved) > 1:
-            return (
-                " moves the joints of rows ",
-                *where,
-                *((f" on the way to {context.end}",) if robot.is_tree else ()),
-                "; its column is the sum of theirs, each times the rate at which that joint moves with ",
-                Symbol(q.name),
-                ".",
-            )
-        return (
-            " moves the joint of row ",
-            *where,
-            " at ",
-            number(moved[0][0]),
-            " times its own rate, and so its column.",
+        if len(moved) == 1:
+            words = " moves the joint of row {row} at {rate} times its own rate, and so its column."
+            return say(words, row=moved[0][1].index, rate=number(moved[0][0]))
+        return say(
+            " moves the joints of rows {rows}{way}; its column is the sum of theirs, each times the rate at "
+            "which that joint moves with {q}.",
+            rows=listed([str(j.index) for _, j in moved]),
+            way=f" on the way to {context.end}" if robot.is_tree else "",
+            q=Symbol(q.name),
         )
-    if turns(q):
-        return (
-            " turns everything after it about the axis ",
-            letters.z(joint_frame(robot, joint)),
-            f". At unit rate the velocity of {context.end} is the cross product of the axis "
-            "and the vector to that point from ",
-            letters.o(joint_frame(robot, joint)),
-            " on the axis; the angular velocity is the axis.",
-        )
-    z = letters.z(joint_frame(robot, joint))
-    return (
-        " moves everything after it along the axis ", z,
-        f". At unit rate the velocity of {context.end} is that axis, and nothing turns.",
-    )  # fmt: skip
+    i = joint_frame(robot, joint)
+    return say(
+        " turns everything after it about the axis {z}. At unit rate the velocity of {end} is the cross "
+        "product of the axis and the vector to that point from {o} on the axis; the angular velocity is the "
+        "axis."
+        if turns(q)
+        else " moves everything after it along the axis {z}. At unit rate the velocity of {end} is that "
+        "axis, and nothing turns.",
+        z=letters.z(i),
+        o=letters.o(i),
+        end=context.end,
+    )
+
+
+def _told_read_off(context: Context) -> tuple[str, Joint] | None:
+    """The column of which it is told how it is read off, and the joint of its coordinate."""
+    robot = context.robot
+    if not (context.is_short and robot.has_table and robot.bodies):
+        return None
+    joint = read_off(context, len(robot.joints), end_of(context))
+    alone = [_plain_joint(context, k) for k in range(robot.n)]
+    return (f"J{alone.index(joint) + 1}", joint) if joint and joint in alone else None
+
+
+def where_told_read_off(context: Context) -> str:
+    """The column that tells how a product with an axis of the base is read off; "" where none does."""
+    told = _told_read_off(context)
+    return told[0] if told else ""
+
+
+# -- the whole -------------------------------------------------------------------------------------
 
 
 def _whole(context: Context) -> Step:
-    Jv, Jw = context.form("Jv"), context.form("Jw")
-    in_letters: list[Node] = [letters.J, column(letters.JV, letters.JW)]
+    n, last = context.robot.n, len(context.robot.joints)
+    in_letters = [letters.J, column(letters.JV, letters.JW)]
     if context.is_short:
-        in_letters.append(_columns_in_letters(context))
+        columns = (coordinate_column(context, k, last, letters.o(last)) or (ZERO, ZERO) for k in range(n))
+        in_letters.append(Matrix(tuple(zip(*columns, strict=True))))
     return Step(
         id="J",
         stage=STAGE,
         title=f"The Jacobian of {context.end}",
-        why=(
-            "The columns side by side. ",
-            Product((letters.JV, letters.QD)),
-            f" is the velocity of {context.end}, ",
-            Product((letters.JW, letters.QD)),
-            f" the angular velocity of frame {len(context.robot.joints)}.",
-            *_still(context),
+        why=say(
+            "The columns side by side. ${Jv} 𝐪̇$ is the velocity of {end}, $𝐉_ω 𝐪̇$ the angular velocity of "
+            "frame {last}.{still}",
+            Jv=letters.JV,
+            end=context.end,
+            last=last,
+            still=_still(context),
         ),
         formula=equation(*in_letters),
         source=spong("4.6.3"),
-        result=(equation(letters.JV, Jv), equation(letters.JW, Jw)),
-        together=context.robot.n <= BESIDE,
+        result=(equation(letters.JV, context.form("Jv")), equation(letters.JW, context.form("Jw"))),
+        together=n <= BESIDE,
         also=("Jw",),
         uses=tuple(f"J{q.index}" for q in context.robot.coordinates),
         detail=Detail.BRIEF,
@@ -350,12 +317,250 @@ def _still(context: Context) -> Prose:
     if slides or not all(algebra.cross(axis(H), end_of(context) - origin(H)).is_zero for H in frames):
         return ()
     which = "all joint axes" if len(frames) > 1 else "the joint axis"
-    last = letters.o(len(context.robot.joints))
-    return (" ", equation(letters.JV, ZERO), ", as ", last, f" lies on {which}.")
+    o = letters.o(len(context.robot.joints))
+    return say(" {zero}, as {o} lies on {which}.", zero=equation(letters.JV, ZERO), o=o, which=which)
 
 
-def _columns_in_letters(context: Context) -> Matrix:
-    """[z × (o_n - o) ...; z ...], a column a coordinate."""
-    last = len(context.robot.joints)
-    columns = (coordinate_column(context, k, last, letters.o(last)) for k in range(context.robot.n))
-    return Matrix(tuple(zip(*(column or (ZERO, ZERO) for column in columns), strict=True)))
+# -- columns z × (p - o) of a point p: in letters ---------------------------------------------------
+
+
+def frame_parts(context: Context, i: int) -> tuple[Matrix, Matrix]:
+    """(z_i, o_i) as trees."""
+    H = context.matrix(f"H{i}")
+    return block_of(H, 3, 2, 3), block_of(H, 3, 3, 4)
+
+
+def end_of(context: Context) -> algebra.Matrix:
+    """o_n, the end of the arm."""
+    return origin(context.values[f"H{len(context.robot.joints)}"])
+
+
+def joints_moved(context: Context, k: int, link: int) -> list[tuple[Fraction, Joint]]:
+    """The joints up to a link that coordinate k (from 0) moves, each with its rate."""
+    return [(rate, joint) for joint in context.robot.path(link) for i, rate in joint.rates if i == k]
+
+
+def column_letters(context: Context, joint: Joint, point: Node) -> tuple[Node, Node]:
+    """(J_v, J_ω) of one joint in letters: z × (p - o) and z, or z and 0."""
+    i = joint_frame(context.robot, joint)
+    z = letters.z(i)
+    if joint.type is JointType.REVOLUTE:
+        return formula("{z} × ({p} - {o})", z=z, p=point, o=letters.o(i)), z
+    return z, ZERO
+
+
+def coordinate_column(context: Context, k: int, link: int, point: Node) -> tuple[Node, Node] | None:
+    """(J_v, J_ω) of coordinate k (from 0) in letters, None where no joint up to `link` moves with it."""
+    moved = joints_moved(context, k, link)
+    if not moved:
+        return None
+    columns = [(rate, *column_letters(context, joint, point)) for rate, joint in moved]
+    linear = _total([(rate, linear) for rate, linear, _ in columns])
+    return linear, _total([(rate, angular) for rate, _, angular in columns if angular != ZERO])
+
+
+def _total(terms: Sequence[tuple[Fraction, Node]]) -> Node:
+    """Σ rate·part"""
+    return sum_of([_rated(rate, part) for rate, part in terms]) if terms else ZERO
+
+
+def _rated(rate: Fraction, node: Node) -> Node:
+    if abs(rate) == 1:
+        return node if rate == 1 else Negative(node)
+    return Product((number(rate), node))
+
+
+# -- those that are a look: z is an axis of the base and o a fixed point, so that two coordinates of p - o
+# change places
+
+
+def _axis_and_lever(
+    context: Context, joint: Joint, point: algebra.Matrix
+) -> tuple[algebra.Matrix, algebra.Matrix]:
+    """z of a joint, and p - o, from its axis to a point."""
+    H = context.values[f"H{joint_frame(context.robot, joint)}"]
+    return axis(H), point - origin(H)
+
+
+def _is_fixed(context: Context, joint: Joint) -> bool:
+    """Whether the axis of a joint is one of those of the base, through a point that does not move."""
+    H = context.values[f"H{joint_frame(context.robot, joint)}"]
+    moves = any(map(context.robot.ring.depends_on_coordinates, origin(H).entries))
+    return sum(not entry.is_zero for entry in axis(H).entries) == 1 and not moves
+
+
+def _looks(context: Context, link: int, point: algebra.Matrix) -> Iterator[tuple[Joint, bool]]:
+    """The joints up to a link whose column is a look, p not being o, and whether z and p - o are parallel."""
+    for joint in context.robot.path(link):
+        z, lever = _axis_and_lever(context, joint, point)
+        if joint.type is JointType.REVOLUTE and _is_fixed(context, joint) and not lever.is_zero:
+            yield joint, algebra.cross(z, lever).is_zero
+
+
+def read_off(context: Context, link: int, point: algebra.Matrix) -> Joint | None:
+    """The first joint whose column is a look and not zero; None without any."""
+    return next((joint for joint, is_zero in _looks(context, link, point) if not is_zero), None)
+
+
+def how_read_off(context: Context, joint: Joint) -> Prose:
+    """z₀ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ, by which a column of this joint is a look."""
+    i = joint_frame(context.robot, joint)
+    u = [letters.any_vector(context.robot, Number(k)) for k in (1, 2, 3)]
+    turned: list[Node] = []
+    for row in algebra.skew(axis(context.values[f"H{i}"])).rows:
+        signed = [(sign.number, e) for sign, e in zip(row, u, strict=True) if not sign.is_zero]
+        turned.append(total([e if sign > 0 else Negative(e) for sign, e in signed]))
+    return (equation(Cross(letters.z(i), _in_a_row(u)), _in_a_row(turned)), " for any vector")
+
+
+def _in_a_row(entries: Sequence[Node]) -> Node:
+    """(a, b, c)ᵀ, a column within a sentence."""
+    a, b, c = entries
+    return Transpose(Parenthesized(Row((a, Words(","), b, Words(","), c))))
+
+
+def parallel(context: Context, link: int, name: Node, point: algebra.Matrix) -> Prose:
+    """Why a column z × (p - o) that is a look is zero: p is on the axis; nothing of others."""
+    for joint, is_zero in _looks(context, link, point):
+        if is_zero:
+            i = joint_frame(context.robot, joint)
+            words = " ${p} - {o}$ is parallel to {z}, so their cross product is zero."
+            return say(words, p=name, o=letters.o(i), z=letters.z(i))
+    return ()
+
+
+# -- and with the axes and levers of this robot ----------------------------------------------------
+
+
+def crosses(
+    context: Context, link: int, name: Node, point: algebra.Matrix, J: Matrix
+) -> tuple[tuple[Node, ...], Prose]:
+    """The columns z × (p - o) of a point p of a link that are more than a look, and their identities."""
+    if not context.is_short:
+        return (), ()
+    shown: list[Node] = []
+    for k in range(context.robot.n):
+        moved = joints_moved(context, k, link)
+        turning = [joint for _, joint in moved if joint.type is JointType.REVOLUTE]
+        if not all(_is_fixed(context, joint) for joint in turning):
+            in_letters = coordinate_column(context, k, link, name)
+            assert in_letters is not None
+            shown += column_shown(context, moved, point, in_letters[0], column_of(J, k))
+    turning = [joint for joint in context.robot.path(link) if joint.type is JointType.REVOLUTE]
+    used = dict.fromkeys(each for joint in turning for each in used_in_cross(context, joint, point))
+    words = "With " if shown else "The cross products, with "
+    return tuple(shown), (words, *said(list(used)), ":") if used else ()
+
+
+def used_in_cross(context: Context, joint: Joint, point: algebra.Matrix) -> list[Identity]:
+    """The identities by which z × (p - o) of a joint becomes what is printed."""
+    z, lever = _axis_and_lever(context, joint, point)
+    return used_in_product(context, algebra.skew(z), lever, algebra.cross(z, lever))
+
+
+def column_shown(
+    context: Context,
+    moved: Sequence[tuple[Fraction, Joint]],
+    point: algebra.Matrix,
+    in_letters: Node,
+    linear: Matrix,
+) -> tuple[Node, ...]:
+    """A column of J_v with this robot's axes and levers put in, where there is anything to work out.
+
+    Its value stands at the end, behind the products where terms of them add up; where an identity leads
+    to it, the product as it is multiplied out.
+    """
+    turning = [joint for _, joint in moved if joint.type is JointType.REVOLUTE]
+    if not turning:
+        return ()
+    alone = moved[0][1] if len(moved) == 1 else None
+    if alone and _axis_and_lever(context, alone, point)[1].is_zero:
+        return (equation(_difference_in(in_letters), ZERO),)
+    parts: list[tuple[Fraction, Node]] = []
+    small: list[Node] = []
+    for rate, joint in moved:
+        part: Node = frame_parts(context, joint_frame(context.robot, joint))[0]
+        small.append(part)
+        if joint.type is JointType.REVOLUTE:
+            small.append(context.show(_axis_and_lever(context, joint, point)[1]))
+            part = Cross(part, small[-1])
+        parts.append((rate, part))
+    if not is_small(*small):
+        return ()
+    values: list[Node] = [linear]
+    if any(used_in_cross(context, joint, point) for joint in turning):
+        values = [_multiplied_out(context, alone, point)] if alone else []
+    elif alone and any(map(_adds_up, _products(context, alone, point))):
+        values.insert(0, _multiplied_out(context, alone, point))
+    difference = _difference(context, alone, point, in_letters) if alone else ()
+    return (*difference, equation(in_letters, _total(parts), *values))
+
+
+def _difference_in(in_letters: Node) -> Sum:
+    """p - o in z × (p - o)."""
+    between = next(part.argument for part in walk(in_letters) if isinstance(part, Parenthesized))
+    assert isinstance(between, Sum)
+    return between
+
+
+def _difference(context: Context, joint: Joint, point: algebra.Matrix, in_letters: Node) -> tuple[Node, ...]:
+    """p - o with both put in, where it is more than leaving out the terms of o."""
+    start = frame_parts(context, joint_frame(context.robot, joint))[1]
+    end, lever = context.show(point), context.show(_axis_and_lever(context, joint, point)[1])
+    assert isinstance(end, Matrix) and isinstance(lever, Matrix)
+    rows = zip(end.rows, start.rows, lever.rows, strict=True)
+    if all(set(_terms(p)) == {*_terms(o), *_terms(rest)} for (p,), (o,), (rest,) in rows):
+        return ()
+    between = _difference_in(in_letters)
+    if (before := _same_origin(context, joint)) is not None:
+        return (equation(between, Sum((between.terms[0], Negative(letters.o(before))))),)
+    both = (Sum((end, Negative(start))),) if is_small(end, start) else ()
+    return (equation(between, *both, lever),)
+
+
+def _same_origin(context: Context, joint: Joint) -> int | None:
+    """The frame of an earlier joint whose axis meets this one's in one origin, and whose p - o is shown."""
+    own = origin(context.values[f"H{joint_frame(context.robot, joint)}"])
+    for before in context.robot.path(joint.index - 1):
+        i = joint_frame(context.robot, before)
+        turns = before.type is JointType.REVOLUTE and not _is_fixed(context, before)
+        if turns and origin(context.values[f"H{i}"]) == own:
+            return i
+    return None
+
+
+def _terms(node: Node) -> tuple[Node, ...]:
+    """The terms of a sum; of 0 none."""
+    if node == number(0):
+        return ()
+    return node.terms if isinstance(node, Sum) else (node,)
+
+
+def _products(context: Context, joint: Joint, point: algebra.Matrix) -> list[list[tuple[Expr, Expr]]]:
+    """Of each entry of z × (p - o) the products that it is the sum of, an entry of each, none 0."""
+    z, lever = _axis_and_lever(context, joint, point)
+    pairs = [zip(row, lever.entries, strict=True) for row in algebra.skew(z).rows]
+    return [[(a, b) for a, b in row if not (a.is_zero or b.is_zero)] for row in pairs]
+
+
+def _adds_up(factors: Sequence[tuple[Expr, Expr]]) -> bool:
+    """Whether terms of several products are alike, so that their numbers are added: ¼ and ¾."""
+    products = [a * b for a, b in factors]
+    return bool(products) and sum(map(len, products)) > len(sum(products[1:], start=products[0]))
+
+
+def _multiplied_out(context: Context, joint: Joint, point: algebra.Matrix) -> Matrix:
+    """z × (p - o) of a joint before s² + c² = 1 is used, and before the numbers of like terms are added."""
+    ring, collector = context.robot.ring, context.forms.compactor.collector
+    entries: list[Node] = []
+    for factors in _products(context, joint, point):
+        poly = ring.reduce_roots(sum((a.poly * b.poly for a, b in factors), start=ring.zero.poly))
+        value = Expr(ring, ring.reduce(poly))
+        if value.poly != poly:
+            entries.append(squares.factored(context.forms, poly))
+        elif _adds_up(factors):
+            products = (Product((context.show(a), context.show(b))) for a, b in factors)
+            entries.append(total([collector.product(*collector.decompose(each), ()) for each in products]))
+        else:
+            entries.append(context.show(value))
+    return column(*entries)

@@ -19,7 +19,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import friction_steps, in_recursions, rotor_moments, spring_steps
 from dynsolve.explain.context import MOST_JOINTS, Context
-from dynsolve.explain.jacobian_columns import ZERO
+from dynsolve.explain.jacobian import ZERO
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.writing import craig, is_small, listed, spong, sum_of, turns

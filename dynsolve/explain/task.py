@@ -10,7 +10,7 @@ from dynsolve.derivation.rates import squared, whole_or_task
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
+from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.rates import square_of
 from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.working.identities import said, used_in_product

@@ -25,7 +25,7 @@ from dynsolve.explain.actions import gravity_row
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
-from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
+from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.kinematics import OUTWARDS
 from dynsolve.explain.long_model.inertia_entry import kinetic_step
 from dynsolve.explain.long_model.model import Change, LongModel, halves, product

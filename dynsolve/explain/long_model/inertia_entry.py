@@ -16,7 +16,7 @@ from dynsolve.derivation.kinematics import dh_matrix, origin, rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
-from dynsolve.explain.jacobian_columns import ZERO, column_letters, coordinate_column
+from dynsolve.explain.jacobian import ZERO, column_letters, coordinate_column
 from dynsolve.explain.long_model.model import LongModel, halves
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.recurring import expanded_once
