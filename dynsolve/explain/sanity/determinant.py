@@ -8,7 +8,7 @@ entries share is gone.  Of a robot in numbers nothing is gained by it: sums of n
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
@@ -20,9 +20,10 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.monomials import Monomial
 from dynsolve.algebra.compact.terms import Rational
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator, Pair
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.inequality import Bound
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
@@ -33,8 +34,9 @@ from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import Identity, equals, identities, said
 from dynsolve.explain.working.kinetic import without_signs
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import as_row, listed, spong
 from dynsolve.notation.build import cost, factors_of, negated, total
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,
     Function,
@@ -45,11 +47,8 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Quotient,
-    Relation,
-    Row,
     Sum,
     Symbol,
-    Words,
     equation,
 )
 from dynsolve.quantities import letters
@@ -62,20 +61,21 @@ Names = frozenset[str]
 
 def masses_and_moments(robot: Robot) -> Names:
     """The masses and the moments of inertia of a problem; products of inertia may be negative."""
-    tensors = [body.inertia for body in robot.bodies if body.inertia is not None]
-    places = [(i, j) for i in range(3) for j in range(3)]
-    products = {name for t in tensors for i, j in places if i != j for name in _names(t[i, j])}
-    moments = {name for t in tensors for i, j in places if i == j for name in _names(t[i, j])}
-    masses = {name for body in robot.bodies for name in _names(body.mass)}
-    rotors = {name for motor in robot.actions.motors for name in _names(motor.inertia)}
-    return frozenset((masses | moments | rotors) - products)
+    inertias = [*(body.mass for body in robot.bodies), *(motor.inertia for motor in robot.actions.motors)]
+    names = {name for inertia in inertias for name in _names(inertia)}
+    return frozenset((names | _of_tensors(robot, moments=True)) - _of_tensors(robot, moments=False))
 
 
 def with_lengths(robot: Robot) -> Names:
     """Every parameter but the products of inertia: lengths and the size of gravity too."""
+    return frozenset(robot.ring.parameters) - _of_tensors(robot, moments=False)
+
+
+def _of_tensors(robot: Robot, *, moments: bool) -> set[str]:
+    """The parameters in the moments of inertia, or in the products of inertia."""
     tensors = [body.inertia for body in robot.bodies if body.inertia is not None]
-    products = {name for t in tensors for i in range(3) for j in range(i) for name in _names(t[i, j])}
-    return frozenset(robot.ring.parameters) - products
+    places = [(i, j) for i in range(3) for j in range(3) if (i == j) == moments]
+    return {name for tensor in tensors for place in places for name in _names(tensor[place])}
 
 
 def _names(expr: Expr) -> set[str]:
@@ -143,10 +143,10 @@ LONGEST = 60
 """The operations of the entries up to which they are put in."""
 
 
-OPERATIONS = ("the entries put in", "multiplied out", "collected")
+OPERATIONS: tuple[str, ...] = ("the entries put in", "multiplied out", "collected")
 """What may be done to a determinant, in this order."""
 
-_PUT_IN, MULTIPLIED_OUT, _COLLECTED = OPERATIONS
+_PUT_IN, MULTIPLIED_OUT, _ = OPERATIONS
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,9 +171,13 @@ def said_of(determinants: Sequence[Determinant]) -> Prose:
     *first, last = [operation for operation in OPERATIONS if operation in done]
     used = list(dict.fromkeys(identity for each in determinants for identity in each.used))
     gone = list(dict.fromkeys(node for each in determinants for node in each.cancelled))
-    cancelling: Prose = (" (the terms with ", *listed(gone), " cancel)") if gone else ()
-    words: Prose = (f"{', '.join(first)}", *cancelling, f", and {last}") if first else (last, *cancelling)
-    return (*words, " with ", *said(used)) if used else words
+    return say(
+        "{first}{cancelling}{last}{used}" if first else "{last}{cancelling}{used}",
+        first=", ".join(first),
+        cancelling=say(" (the terms with {gone} cancel)", gone=listed(gone)) if gone else "",
+        last=f", and {last}" if first else last,
+        used=say(" with {identities}", identities=said(used)) if used else "",
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,60 +190,56 @@ class _Written:
 
     def put_in(self, context: Context) -> Node:
         p, q, r = map(context.show, self.values)
-        if self.values[2].is_zero:
-            return Product((p, q))
-        return Sum((Product((p, q)), Negative(Power(without_signs(r), Number(2)))))
+        text = "{p} {q}" if self.values[2].is_zero else "{p} {q} - {r}²"
+        return formula(text, p=p, q=q, r=without_signs(r))
 
 
 def determinant_of_two(context: Context, places: tuple[int, int], value: Expr, form: Node) -> Determinant:
     """The lines from d_aa d_bb - d_ab² to its value, in the form that shows its sign."""
-    a, b = places
-    plain, *others = _ways(context, a, b)
+    plain, *others = _ways(context, *places)
     best = min((plain, *others), key=lambda way: cost(way.put_in(context)))
     before = best.put_in(context)
-    members, operations = [plain.in_letters], list[str]()
+    members = [plain.in_letters]
     if cost(before) > LONGEST or not equals(before, value):
         return Determinant(equation(*members, form), form, (MULTIPLIED_OUT,))
     if best is not plain:
         members.append(best.in_letters)
-    operations.append(_PUT_IN)
     if are_alike(before, form):
-        line = equation(*members, form)
-        return Determinant(line, form, tuple(operations), differences=best.differences)
-    lines, last = [before], MULTIPLIED_OUT
+        return Determinant(equation(*members, form), form, (_PUT_IN,), differences=best.differences)
+    lines, operations = [before], OPERATIONS[:2]
     expanded, count, gone = _multiplied_out(context, before)
     if count <= MOST_TERMS and not are_alike(expanded, form) and equals(expanded, value):
         lines.append(expanded)
-        operations.append(MULTIPLIED_OUT)
-        last, form = _COLLECTED, _in_terms(context, form, expanded)
+        operations, form = OPERATIONS, _in_terms(context, form, expanded)
     used = identities(context.robot.ring, lines[-1], form) or ()
     line = equation(*members, *lines, form)
     cancelled = gone if is_numeric(context.robot) else ()
-    return Determinant(line, form, (*operations, last), used, best.differences, cancelled)
+    return Determinant(line, form, operations, used, best.differences, cancelled)
 
 
 def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
     """d_aa d_bb - d_ab², and the same by the differences of entries, from either end."""
     D = context.values["D"]
-    d_ab = letters.entry("d", a + 1, b + 1)
-
-    def square(node: Node) -> Node:
-        return Negative(Power(node, Number(2)))
-
-    d_aa, d_bb = (letters.entry("d", k + 1, k + 1) for k in (a, b))
-    yield _Written(Sum((Product((d_aa, d_bb)), square(d_ab))), (D[a, a], D[b, b], D[a, b]))
+    d_aa, d_ab, d_bb = (letters.entry("d", i + 1, j + 1) for i, j in ((a, a), (a, b), (b, b)))
+    in_letters = formula("{aa} {bb} - {ab}²", aa=d_aa, ab=d_ab, bb=d_bb)
+    yield _Written(in_letters, (D[a, a], D[b, b], D[a, b]))
     if is_numeric(context.robot):
         return
-    whole = Sum((d_aa, Negative(Product((Number(2), d_ab))), d_bb))
-    for k, changed, kept in ((b, a, d_bb), (a, b, d_aa)):
-        difference = Sum((d_ab, Negative(kept)))
-        written = Sum((Product((Parenthesized(whole), kept)), square(Parenthesized(difference))))
+    whole = formula("{aa} - 2 {ab} + {bb}", aa=d_aa, ab=d_ab, bb=d_bb)
+    for k, changed, kept, replaced in ((b, a, d_bb, d_aa), (a, b, d_aa, d_bb)):
+        difference = formula("{ab} - {kept}", ab=d_ab, kept=kept)
+        written = formula("({whole}) {kept} - ({difference})²", whole=whole, kept=kept, difference=difference)
         values = (D[a, a] - D[a, b] * 2 + D[b, b], D[k, k], D[a, b] - D[k, k])
         shown = (equation(whole, context.show(values[0])), equation(difference, context.show(values[2])))
-        by = f"Row {k + 1} is subtracted from row {changed + 1}, and then column {k + 1} from column "
-        by += f"{changed + 1}, which does not change the determinant. This replaces "
-        entries = (letters.entry("d", changed + 1, changed + 1), " and ", d_ab, " by:")
-        yield _Written(written, values, Line((by, *entries), shown))
+        by = say(
+            "Row {k} is subtracted from row {changed}, and then column {k} from column {changed}, which does "
+            "not change the determinant. This replaces {entry} and {beside} by:",
+            k=k + 1,
+            changed=changed + 1,
+            entry=replaced,
+            beside=d_ab,
+        )
+        yield _Written(written, values, Line(by, shown))
 
 
 def _in_terms(context: Context, form: Node, before: Node) -> Node:
@@ -256,16 +256,14 @@ def _in_terms(context: Context, form: Node, before: Node) -> Node:
 
 def _without_squared_sines(term: Node) -> Node:
     """m l² s² as m l², in the place of which it stands where s² + c² = 1 was used."""
-    factors = factors_of(term)
-    return product_of(1, [(factor, 1) for factor in factors if not _is_squared_sine(factor)])
 
+    def is_squared_sine(node: Node) -> bool:
+        match node:
+            case Power(Function("sin"), Number(2, 1)):
+                return True
+        return False
 
-def _is_squared_sine(node: Node) -> bool:
-    return isinstance(node, Power) and node.exponent == Number(2) and _is_sine(node.base)
-
-
-def _is_sine(node: Node) -> bool:
-    return isinstance(node, Function) and node.name == "sin"
+    return product_of(1, [(factor, 1) for factor in factors_of(term) if not is_squared_sine(factor)])
 
 
 def _multiplied_out(context: Context, node: Node) -> tuple[Node, int, tuple[Node, ...]]:
@@ -300,6 +298,9 @@ def _terms(node: Node) -> Iterator[Node]:
 
 # -- how g = 0 is solved where a row has two factors: each is 0 in a case of its own, and leaves one angle
 
+_ZEROS = {"sin": (0, 180), "cos": (90, -90)}
+"""Where a sine and a cosine are 0, in degrees."""
+
 _WITH_KNOWN_TANGENT = (30, 45, 60, -30, -45, -60)
 """The angles in degrees, between -90 and 90, that have a tangent without cosines of further angles."""
 
@@ -321,24 +322,19 @@ def cases(context: Context, names: Sequence[str]) -> Cases | None:
         return None
     row, factors = found
     other = next(k for k in rows if k != row)
-    by_factor = [_branch(context, factor, other, names) for factor in factors]
-    if any(each is None for each in by_factor):
-        return None
-    either = [equation(_shown(context, factor), ZERO) for factor in factors]
+    signs = [context.robot.ring.generator(factor.index) for factor in factors]
+    either = [equation(context.show(sign), ZERO) for sign in signs]
     value = equation(letters.entry("g", row + 1), context.show(g[row, 0]), ZERO)
-    lines = [Line((), (Row((value, Words(", so "), either[0], Words(" or "), either[1])),))]
+    so = say("{value}, so {either}", value=value, either=listed(either, "or"))
+    lines = [Line((), (as_row(so),))]
     poses: dict[tuple[int, ...], Pose] = {}
-    for zero, branch in zip(either, by_factor, strict=True):
-        assert branch is not None
-        lines.append(Line(("Where ", zero, ":"), branch.formulas))
-        poses |= {tuple(pose[name] for name in names): pose for pose in branch.poses}
+    for zero, factor in zip(either, factors, strict=True):
+        branch = list(_branch(context, factor, other, names))
+        if len(branch) < 2:
+            return None
+        lines.append(Line(say("Where {zero}:", zero=zero), tuple(shown for shown, _ in branch)))
+        poses |= {tuple(pose[name] for name in names): pose for _, both in branch for pose in both}
     return Cases(tuple(lines), tuple({name: pose[name] for name in names} for pose in poses.values()))
-
-
-@dataclass(frozen=True, slots=True)
-class _Branch:
-    formulas: tuple[Node, ...]
-    poses: tuple[Pose, ...]
 
 
 def _factors(context: Context, row: Expr) -> tuple[Generator, Generator] | None:
@@ -354,63 +350,56 @@ def _factors(context: Context, row: Expr) -> tuple[Generator, Generator] | None:
     return (first, second) if is_whole else None
 
 
-def _branch(context: Context, factor: Generator, row: int, names: Sequence[str]) -> _Branch | None:
-    """What a row says of the other angle where a factor is 0; None where it does not say it."""
+def _branch(
+    context: Context, factor: Generator, row: int, names: Sequence[str]
+) -> Iterator[tuple[Node, list[Pose]]]:
+    """What a row says of the other angle at a zero of a factor, and the poses; nothing where it is free."""
     name = _name(factor.angle)
     left = next(each for each in names if each != name)
-    formulas: list[Node] = []
-    poses: list[Pose] = []
-    for angle in (0, 180) if factor.kind == "sin" else (90, -90):
+    for angle in _ZEROS[factor.kind]:
         here = {name: angle}
         value = at(context.robot.ring, context.values["g"][row, 0], here)
         found = solved(context, value, left)
-        if found is None:
-            return None
-        said, angles = found
-        both = Row((degrees(angles[0]), Words(" or "), degrees(angles[1])))
-        zero = equation(letters.entry("g", row + 1), context.show(value), ZERO)
-        where = (*written_pose(here), Words(": "), zero, Words(", so "), said, Words(", "))
-        formulas.append(Row((*where, equation(Symbol(left), both))))
-        poses += [{**here, left: other} for other in angles]
-    return _Branch(tuple(formulas), tuple(poses))
+        if found is not None:
+            follows, angles = found
+            shown = say(
+                "{pose}: {zero}, so {follows}, {angles}",
+                pose=tuple(written_pose(here)),
+                zero=equation(letters.entry("g", row + 1), context.show(value), ZERO),
+                follows=follows,
+                angles=equation(Symbol(left), as_row(listed([*map(degrees, angles)], "or"))),
+            )
+            yield as_row(shown), [{**here, left: other} for other in angles]
 
 
 def solved(context: Context, value: Expr, name: str) -> tuple[Node, tuple[int, int]] | None:
     """The angle where a s + b c is 0: what follows for s, c or its tangent, and the two angles."""
-    ring, q = context.robot.ring, Symbol(name)
+    ring = context.robot.ring
     pair = next((pair for pair in ring.pairs if _name(pair.angle) == name), None)
     if pair is None:
         return None
-    for index, zeros in ((pair.sine, (0, 180)), (pair.cosine, (90, -90))):
-        beside = Expr(ring, value.poly.derivative(index))
-        if value == beside * ring.generator(index) and sign_of(context, beside):
-            return equation(context.show(ring.generator(index)), ZERO), zeros
-    if not (_is_linear(value, pair) and sign_of(context, Expr(ring, value.poly.derivative(pair.sine)))):
+    rest, constants = value, list[Expr]()
+    for kind, index in (("sin", pair.sine), ("cos", pair.cosine)):
+        g, beside = ring.generator(index), Expr(ring, value.poly.derivative(index))
+        if value == beside * g and sign_of(context, beside):
+            return equation(context.show(g), ZERO), _ZEROS[kind]
+        constants.append(beside)
+        rest = rest - beside * g
+    if (
+        not rest.is_zero
+        or any(map(ring.depends_on_coordinates, constants))
+        or not sign_of(context, constants[0])
+    ):
         return None
-    for angle, tangent in _tangents(context):
-        if at(ring, value, {name: angle}).is_zero:
-            opposite = angle - 180 if angle > 0 else angle + 180
-            return equation(Function("tan", q), tangent), (angle, opposite)
-    return None
-
-
-def _tangents(context: Context) -> Iterator[tuple[int, Node]]:
-    """The angles with a known tangent in the ring of a robot, and what it is."""
-    ring = context.robot.ring
     for angle in _WITH_KNOWN_TANGENT:
         try:
             s, c = ring.sin(Angle((), Fraction(angle))), ring.cos(Angle((), Fraction(angle)))
         except AlgebraError:
             continue
-        yield angle, context.show(s * ring.inverse(c))
-
-
-def _is_linear(value: Expr, pair: Pair) -> bool:
-    """Whether a value is a s + b c with constant a and b."""
-    ring = value.ring
-    parts = [Expr(ring, value.poly.derivative(index)) for index in (pair.sine, pair.cosine)]
-    total = parts[0] * ring.generator(pair.sine) + parts[1] * ring.generator(pair.cosine)
-    return value == total and not any(map(ring.depends_on_coordinates, parts))
+        if at(ring, value, {name: angle}).is_zero:
+            tangent = formula("tan {q} = {value}", q=Symbol(name), value=context.show(s * ring.inverse(c)))
+            return tangent, (angle, angle - 180 if angle > 0 else angle + 180)
+    return None
 
 
 def _name(angle: Angle) -> str:
@@ -421,10 +410,6 @@ def _name(angle: Angle) -> str:
     return atom[0][0] if rate == 1 and len(atom) == 1 else ""
 
 
-def _shown(context: Context, factor: Generator) -> Node:
-    return context.show(context.robot.ring.generator(factor.index))
-
-
 # -- the relation between parameters that makes D diagonal: a factor of all entries beside the diagonal
 
 
@@ -432,17 +417,18 @@ def decoupled_step(context: Context) -> Step | None:
     """What makes D diagonal in every configuration; None where no relation between parameters does."""
     n, D = context.robot.n, context.values["D"]
     coupling = [D[i, j] for i, j in combinations(range(n), 2) if not D[i, j].is_zero]
-    if not coupling:
-        return None
-    factor = _of_parameters(coupling)
+    factor = _of_parameters(coupling) if coupling else None
     if factor is None:
         return None
-    shown = ConfigurationForms(context.robot, context.values).inequality(Bound(factor))
-    told: Prose = ("Where ", Relation(shown.parts, ("=",)), ", ", letters.D, " is diagonal in every ")
-    told += ("configuration: no coordinate is coupled with another by its acceleration.",)
+    sides = ConfigurationForms(context.robot, context.values).inequality(Bound(factor)).parts
     ring = context.robot.ring
-    if not any(ring.depends_on_coordinates(D[i, i]) for i in range(n)):
-        told += (" ", letters.D, " is then constant, and ", equation(letters.C, letters.bold("0")), ".")
+    is_constant = not any(ring.depends_on_coordinates(D[i, i]) for i in range(n))
+    told = say(
+        "Where {relation}, $𝐃$ is diagonal in every configuration: no coordinate is coupled with another by "
+        "its acceleration.{constant}",
+        relation=equation(*sides),
+        constant=say(" $𝐃$ is then constant, and $𝐂 = 𝟎$.") if is_constant else "",
+    )
     return Step(
         id="decoupled",
         stage=Stage.VECTORIZED,
@@ -454,9 +440,8 @@ def decoupled_step(context: Context) -> Step | None:
     )
 
 
-def _of_parameters(values: Iterable[Expr]) -> Expr | None:
+def _of_parameters(values: Sequence[Expr]) -> Expr | None:
     """A sum of parameters alone, of both signs, that divides all values: it may be 0 for positive ones."""
-    values = list(values)
     ring = values[0].ring
     own = [
         g.index for g in ring.generators if g.kind == "symbol" and not g.dots and g.name in ring.parameters
@@ -469,6 +454,5 @@ def _of_parameters(values: Iterable[Expr]) -> Expr | None:
             parts[(number, *rest)] += ring.ctx.from_dict({alone: size})
     common = reduce(lambda one, other: one.gcd(other), parts.values())
     _, found = common.factor()
-    both = (one for one, _ in found if len({sign > 0 for sign in one.to_dict().values()}) == 2)
-    factor = next(both, None)
-    return None if factor is None else Expr(ring, factor)
+    both = (Expr(ring, one) for one, _ in found if len({sign > 0 for sign in one.to_dict().values()}) == 2)
+    return next(both, None)
