@@ -67,6 +67,9 @@ class Collector:
         self._known: dict[frozenset[tuple[Monomial, Rational]], Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
         self._fractions: dict[int, Polynomial] = {}
+        self._products: dict[tuple[Rational, Monomial, tuple[Node, ...]], Node] = {}
+        self._decomposed: dict[Node, tuple[Rational, Monomial]] = {}
+        self._places: dict[Monomial, tuple[object, ...]] = {}
 
     def cost(self, node: Node) -> int:
         """The operations of a tree, counted once a tree."""
@@ -185,8 +188,15 @@ class Collector:
                 kept.append((atom, exponent))
         return tuple(kept)
 
-    def product(self, factor: Rational, mono: Monomial, more: Iterable[Node]) -> Node:
+    def product(self, factor: Rational, mono: Monomial, more: tuple[Node, ...]) -> Node:
         """factor · monomial · more as a tree, in printing order."""
+        key = factor, mono, more
+        found = self._products.get(key)
+        if found is None:
+            found = self._products[key] = self._product(factor, mono, more)
+        return found
+
+    def _product(self, factor: Rational, mono: Monomial, more: tuple[Node, ...]) -> Node:
         atoms = [*mono, *((self.atoms.number(node), 1) for node in more)]
         if not self.decimal:
             for place, (atom, exponent) in enumerate(atoms):
@@ -232,6 +242,12 @@ class Collector:
 
     def decompose(self, node: Node) -> tuple[Rational, Monomial]:
         """(factor, monomial) of a tree that is a product; a sum counts as one atom."""
+        found = self._decomposed.get(node)
+        if found is None:
+            found = self._decomposed[node] = self._decompose(node)
+        return found
+
+    def _decompose(self, node: Node) -> tuple[Rational, Monomial]:
         match node:
             case Negative(argument):
                 factor, mono = self.decompose(argument)
@@ -354,6 +370,12 @@ class Collector:
 
         The square of a distance without angles, (d - l/2)², stands before all other terms without angles.
         """
+        found = self._places.get(mono)
+        if found is None:
+            found = self._places[mono] = self._place(mono)
+        return found
+
+    def _place(self, mono: Monomial) -> tuple[object, ...]:
         ranks = sorted((self.atoms.ranks[atom], -exponent) for atom, exponent in mono)
         rates = [rank for rank in ranks if rank[0][0] >= Rank.RATE]
         trig = [rank for rank in ranks if rank[0][0] is Rank.TRIG] or self._last_angle(mono)

@@ -91,6 +91,7 @@ class Compactor:
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
         self._forms: dict[str, Node] = {}
         self._coefficients: dict[tuple[TermLayout, frozenset[tuple[Exponents, Rational]]], Node] = {}
+        self._grouped_by_angles: dict[tuple[TermLayout, frozenset[tuple[Exponents, Rational]]], Node] = {}
 
     # -- the entrance ------------------------------------------------------------------------------
 
@@ -303,7 +304,11 @@ class Compactor:
         while layout.groups:
             width = layout.groups[0][1]
             if any(any(e[:width]) for e in terms):
-                return self._by_group(layout, terms)
+                key = layout, frozenset(terms.items())
+                found = self._grouped_by_angles.get(key)
+                if found is None:
+                    found = self._grouped_by_angles[key] = self._by_group(layout, terms)
+                return found
             terms = {e[width:]: f for e, f in terms.items()}
             layout = layout.without_group()
         return self._without_angles(layout, terms)
