@@ -8,16 +8,15 @@ brackets, which become 1 or the cosine of a difference: the same lines as those 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
@@ -25,13 +24,21 @@ from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import is_trigonometric
 from dynsolve.explain.working.identities import (
     Identity,
+    Way,
     equals,
     identities,
     products_cancel,
     pythagoras,
     said,
 )
-from dynsolve.explain.working.kinetic import MOST_GROUPS, turned_name, turning_line, without_signs
+from dynsolve.explain.working.kinetic import (
+    MOST_GROUPS,
+    along_axes,
+    turn_of_frame,
+    turned_name,
+    turning_line,
+    without_signs,
+)
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, negated, number_in_front, times, total
@@ -57,18 +64,6 @@ WIDEST = 60
 
 
 @dataclass(frozen=True, slots=True)
-class Products:
-    """The lines from m J_vᵀ J_v with its matrices to the result, and the identities of the last operation.
-
-    With a `frame` they begin afresh from J_v, along the axes of that frame.
-    """
-
-    lines: tuple[Line, ...]
-    used: tuple[Identity, ...]
-    frame: int | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class _Entry:
     """An entry of J_vᵀ J_v: as a sum of products, multiplied out, and the identities that are left."""
 
@@ -78,7 +73,7 @@ class _Entry:
     used: tuple[Identity, ...]
 
 
-def of_columns(context: Context, body: Body) -> Products | None:
+def of_columns(context: Context, body: Body) -> Way | None:
     """The lines of a body's linear part; None where one identity does all, or where they are not plain.
 
     Where the base leans, along the axes of the first frame in which they are plain.
@@ -88,65 +83,53 @@ def of_columns(context: Context, body: Body) -> Products | None:
         return None
     if not any(map(squares.has_roots, velocity.entries)) or not context.robot.has_table:
         return _along(context, body, velocity)
-    for i in range(body.link + 1):
-        R = rotation(context.values[f"H{i}"])
-        found = _along(context, body, R.T @ velocity)
-        if found is not None:
-            return Products((*_begun_along(context, body, i), *found.lines), found.used, frame=i)
+    for i, along in along_axes(context, body):
+        found = _along(context, body, along)
+        if found is not None and i is not None:
+            return replace(found, lines=(*_begun_along(context, body, i), *found.lines), frame=i)
     return None
 
 
 def _begun_along(context: Context, body: Body, i: int) -> Iterator[Line]:
     """J_v along the axes of another frame, and the products of its columns there."""
     J, value, written = letters.jv(body), context.values[f"Jv{body.name}"], context.matrix(f"Jv{body.name}")
-    yield turning_line(context, i, J, value, written, ("the products of the columns",))
-    turned = context.show(rotation(context.values[f"H{i}"]).T @ value)
+    yield turning_line(context, i, J, value, written, "the products of the columns")
+    turned = context.show(turn_of_frame(context, i)[0].T @ value)
     mass, name = context.mass(body), Parenthesized(turned_name(context, i, J))
-    members = (
-        Product((mass, letters.transposed_product(J))),
-        Product((mass, letters.transposed_product(name))),
-        Product((context.show(body.mass), letters.transposed_product(turned))),
-    )
-    yield Line(("Their products:",), (equation(*dict.fromkeys(members)),))
+    products = ((mass, J), (mass, name), (context.show(body.mass), turned))
+    members = dict.fromkeys(Product((m, letters.transposed_product(columns))) for m, columns in products)
+    yield Line(("Their products:",), (equation(*members),))
 
 
-def _along(context: Context, body: Body, velocity: Matrix) -> Products | None:
+def _along(context: Context, body: Body, velocity: Matrix) -> Way | None:
     """The lines by the components of the velocity along some axes."""
-    robot = context.robot
+    robot, ring = context.robot, context.robot.ring
     components = [x for x in velocity.entries if not x.is_zero]
     if any(map(squares.has_roots, components)):
         return None
-    factor = _fraction(context, components)
-    components = [Expr(robot.ring, x.poly / factor.poly) for x in components]
-    found = squares.turned(robot.ring, components)
-    mixed: Prose = () if found is None else _mixed_products(context, found)
+    length = squares.shared(robot, components).length
+    ((_, coefficient),) = length.poly.to_dict().items()
+    factor = length if int(coefficient.q) != 1 else ring.one  # only where a fraction goes with it: ½ l₂
+    components = [Expr(ring, x.poly / factor.poly) for x in components]
+    found, first = squares.turned(ring, components), Prose()
     if found is not None:
         components = squares.exchanged(components, found)
+        known = said([pythagoras(angle_node(found.pair.angle, ring.names))])
+        first = say("With {known}{mixed}", known=known, mixed=_mixed_products(context, found))
     rows = [[squares.factor_of_rate(x, q.name) for q in robot.coordinates] for x in components]
-    entries = [_entry(context, rows, i, j) for i in range(robot.n) for j in range(i, robot.n)]
+    places = combinations_with_replacement(range(robot.n), 2)
+    entries = [_entry(context, rows, i, j) for i, j in places]
     shown = [entry for entry in entries if entry is not None]
     used = dict.fromkeys(identity for entry in shown for identity in entry.used)
     if len(shown) < len(entries) or not used or (found is None and len(used) < 2):
         return None
-    first: Prose = ()
-    if found is not None:
-        first = ("With ", *said([pythagoras(angle_node(found.pair.angle, robot.ring.names))]), *mixed)
-    return Products(tuple(_lines(context, body, shown, first, factor)), tuple(used))
-
-
-def _fraction(context: Context, components: Sequence[Expr]) -> Expr:
-    """The length that all components share, where a fraction goes with it: ½ l₂; 1 of decimals."""
-    ring = context.robot.ring
-    length = ring.one if is_numeric(context.robot) else squares.shared(ring, components).length
-    (coefficient,) = length.poly.coeffs()
-    return length if int(coefficient.q) != 1 else ring.one
+    return Way(tuple(_lines(context, body, shown, first, factor)), used=tuple(used))
 
 
 def _mixed_products(context: Context, found: squares.Turned) -> Prose:
     """That the terms with s c cancel, if there are any in (U s + V c)(X s + Y c) + (U c - V s)(X c - Y s)."""
     slopes = [
-        (squares.factor_of_rate(found.parts[0], q.name), squares.factor_of_rate(found.parts[1], q.name))
-        for q in context.robot.coordinates
+        [squares.factor_of_rate(part, q.name) for part in found.parts] for q in context.robot.coordinates
     ]
     pairs = combinations_with_replacement(slopes, 2)
     if all((u * y + v * x).is_zero for (u, v), (x, y) in pairs):
@@ -180,19 +163,15 @@ def _products(context: Context, pairs: Sequence[tuple[Expr, Expr]], is_square: b
     """Σ a b, or Σ a², each in printing order."""
     collector = context.forms.compactor.collector
     terms: list[Node] = []
-    for a, b in pairs:
-        first, second = map(context.show, (a, b))
-        bare = without_signs(first), without_signs(second)
-        found = _single_fraction(collector.product(*collector.decompose(Product(bare)), ()))
-        opposite = (first != bare[0]) != (second != bare[1])
+    for pair in pairs:
+        shown = [context.show(x) for x in pair]
+        bare = [without_signs(x) for x in shown]
+        found = collector.product(*collector.decompose(Product(tuple(bare))), ())
+        if isinstance(found, Quotient) and any(isinstance(part, Quotient) for part in walk(found.numerator)):
+            found = number_in_front(found)  # l (a + b/2)/2 as ½ l (a + b/2): no fraction in another
+        opposite = (shown[0] != bare[0]) != (shown[1] != bare[1])
         terms.append(negated(found) if opposite and not is_square else found)
     return sum_of(terms) if is_square else total(terms)
-
-
-def _single_fraction(node: Node) -> Node:
-    """l (a + b/2)/2 as ½ l (a + b/2): no fraction in another."""
-    has_two = isinstance(node, Quotient) and any(isinstance(part, Quotient) for part in walk(node.numerator))
-    return number_in_front(node) if has_two else node
 
 
 def _in_brackets(squares_shown: Node) -> Node:
@@ -200,9 +179,8 @@ def _in_brackets(squares_shown: Node) -> Node:
     terms = squares_shown.terms if isinstance(squares_shown, Sum) else (squares_shown,)
     angular: dict[tuple[Node, ...], list[Node]] = {}
     for term in terms:
-        factors = factors_of(term)
-        lengths = tuple(factor for factor in factors if not is_trigonometric(factor))
-        others = [(factor, 1) for factor in factors if is_trigonometric(factor)]
+        lengths = tuple(factor for factor in factors_of(term) if not is_trigonometric(factor))
+        others = [(factor, 1) for factor in factors_of(term) if is_trigonometric(factor)]
         angular.setdefault(lengths, []).append(times(1, others))
     if len(angular) == len(terms) or any(Number(1) in each for each in angular.values()):
         return squares_shown
@@ -225,63 +203,48 @@ def _lines(
 
     `first` is said of that identity; the factor is what is taken out of the columns.
     """
-    is_expanded = any(entry.multiplied != entry.products for entry in entries)
-    plain = _matrix(context, [(entry.place, entry.products) for entry in entries])
-    expanded = _matrix(context, [(entry.place, entry.multiplied) for entry in entries])
-    stages = [(first, plain)] * bool(first)
-    stages += [(("Multiplied out",) if first else ("The columns multiplied with each other",), expanded)] * (
-        is_expanded or not first
-    )
-    if all(matrix_width(context, matrix) <= WIDEST for _, matrix in stages):
-        mass, columns = context.mass(body), letters.transposed_product(letters.jv(body))
+    plain = {entry.place: entry.products for entry in entries}
+    expanded = {entry.place: entry.multiplied for entry in entries}
+    operation = "Multiplied out" if first else "The columns multiplied with each other"
+    stages: list[tuple[str | Prose, dict[tuple[int, int], Node]]] = [(first, plain)] if first else []
+    if expanded != plain or not first:
+        stages.append((operation, expanded))
+    n, columns = context.robot.n, letters.transposed_product(letters.jv(body))
+    matrices = [
+        tree.Matrix(tuple(tuple(found[min(i, j), max(i, j)] for j in range(n)) for i in range(n)))
+        for _, found in stages
+    ]
+    whole = Product((context.mass(body), columns))
+    if all(matrix_width(context, matrix) <= WIDEST for matrix in matrices):
         front = factors_of(_in_front(context, [body.mass, factor * factor]))
-        for by, matrix in stages:
-            whole = Product((*front, matrix))
-            yield Line((*by, ":"), (equation(Product((mass, columns)), whole),))
+        for (by, _), matrix in zip(stages, matrices, strict=True):
+            yield Line(say("{by}:", by=by), (equation(whole, Product((*front, matrix))),))
         return
-    by = first or ("The columns multiplied with each other",)
-    by += (", entry by entry",)
-    by += (", then multiplied out",) if first and is_expanded else ()
-    are_some_zero = any(entry.products == ZERO for entry in entries)
-    by += (f" (the matrix is symmetric{', all other entries are 0' * are_some_zero}):",)
-    yield Line(by, tuple(_listed(context, body, entries, factor, with_products=bool(first))))
+    by = say(
+        "{first}, entry by entry{then} (the matrix is symmetric{zero}):",
+        first=first or operation,
+        then=", then multiplied out" if first and expanded != plain else "",
+        zero=", all other entries are 0" if ZERO in plain.values() else "",
+    )
+    scalars = [body.mass] * body.mass.is_number + [factor * factor] * (factor != factor.ring.one)
+    front = factors_of(_in_front(context, scalars)) if scalars else ()
+    named = whole if body.mass.is_number else columns
+    shown = []
+    for i, j in (place for place, products in plain.items() if products != ZERO):
+        members = [found[i, j] for _, found in stages]
+        if scalars:
+            members = [_times(front, member) for member in members]
+        shown.append(equation(Entry(named, Row((Number(i + 1), Number(j + 1)))), *dict.fromkeys(members)))
+    yield Line(by, tuple(shown))
 
 
-def _is_product(member: Node) -> bool:
-    return isinstance(member, Product)
+def _times(front: tuple[Node, ...], member: Node) -> Node:
+    """What stands in front of an entry, times this."""
+    return Product(
+        (*front, *(factors_of(member) if isinstance(member, Product) else (Parenthesized(member),)))
+    )
 
 
 def _in_front(context: Context, scalars: Sequence[Expr]) -> Node:
     """The product of scalars as it stands before a matrix: ¼ m₂ l₂²."""
     return number_in_front(times(1, [(context.show(x), 1) for x in scalars if x != x.ring.one]))
-
-
-def _matrix(context: Context, entries: Sequence[tuple[tuple[int, int], Node]]) -> tree.Matrix:
-    """The symmetric matrix of some entries."""
-    n = context.robot.n
-    found = {place: node for (i, j), node in entries for place in ((i, j), (j, i))}
-    return tree.Matrix(tuple(tuple(found[i, j] for j in range(n)) for i in range(n)))
-
-
-def _listed(
-    context: Context, body: Body, entries: Sequence[_Entry], factor: Expr, *, with_products: bool
-) -> Iterator[Node]:
-    """The entries that are not zero from the start, a number as mass and the factor in front of them."""
-    scalars = [body.mass] * body.mass.is_number + [factor * factor] * (factor != factor.ring.one)
-    columns = letters.transposed_product(letters.jv(body))
-    for entry in entries:
-        if entry.products == ZERO:
-            continue
-        i, j = entry.place
-        members = [entry.products] * with_products + [entry.multiplied]
-        named: Node = columns
-        if scalars:
-            front = factors_of(_in_front(context, scalars))
-            members = [
-                Product((*front, *(factors_of(member) if _is_product(member) else (Parenthesized(member),))))
-                for member in members
-            ]
-        if body.mass.is_number:
-            named = Product((context.mass(body), columns))
-        name = Entry(named, Row((Number(i + 1), Number(j + 1))))
-        yield equation(name, *dict.fromkeys(members))

@@ -25,7 +25,7 @@ from dynsolve.explain.working.differentiation import (
     multiplied_out,
     sums_of_rates,
 )
-from dynsolve.explain.working.identities import SILENT, Identity, Way, chain, equals, identities, said
+from dynsolve.explain.working.identities import SILENT, Identity, Tactic, Way, chain, equals, identities, said
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
@@ -67,12 +67,12 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
     used = identities(value.ring, found.tree, form)
     if are_alike(found.tree, form):
         return SILENT
-    lines: list[tuple[Prose, Node]] = [((by,), found.tree)]
+    lines: list[Tactic] = [((by,), found.tree)]
     expanded = multiplied_out(found.tree, decimal=is_numeric(context.robot))
     if expanded != found.tree:
         lines.append(_expanded(context, expanded, form))
     last = _collected(used) if used else _opened_or_collected(lines[-1][1], form)
-    return chain(value, lines, lambda tree: equation(left, tree), last)
+    return chain(context, result, left, lines, last)
 
 
 def _opened_or_collected(before: Node, after: Node) -> Prose:
@@ -383,7 +383,7 @@ def summed(
         return SILENT
     by = _opened(opened) if opened else ("Collected",)
     by += (", with ", *said(used), ":") if used else (":",)
-    return chain(context.values[result], [((), before)], lambda tree: equation(name, tree), by)
+    return chain(context, result, name, [((), before)], by)
 
 
 def _opened(squares: Collection[Node]) -> Prose:

@@ -8,9 +8,11 @@ does not equal the one before it has no identities at all: `identities` gives No
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
+from functools import partial
+from itertools import islice
+from math import prod
 
 from flint import fmpq_mpoly
 
@@ -18,14 +20,16 @@ from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line
-from dynsolve.explain.writing import listed, sum_of
+from dynsolve.explain.working.differentiation import sums_of_rates
+from dynsolve.explain.writing import is_small, listed, sum_of
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Function,
     Negative,
@@ -37,9 +41,10 @@ from dynsolve.notation.tree import (
     Quotient,
     Relation,
     Sum,
-    Symbol,
+    Transpose,
     equation,
 )
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import mapped, walk
 
 
@@ -54,6 +59,13 @@ class Identity:
 def said(used: Sequence[Identity]) -> Prose:
     """s₁² + c₁² = 1 and the cosine of a difference, c₁ c₁₂ + s₁ s₁₂ = c₂"""
     return listed([(f"{each.name}, ", each.relation) if each.name else each.relation for each in used])
+
+
+def by(operation: str | Prose, used: Iterable[Identity], cancelled: Prose = ()) -> Prose:
+    """Multiplied out, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):"""
+    named = tuple(used)
+    text = "{operation}, with {used}{cancelled}:" if named else "{operation}{cancelled}:"
+    return say(text, operation=operation, used=said(named), cancelled=cancelled)
 
 
 def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | None:
@@ -72,24 +84,18 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
     >>> identities(ring, squares, Number(2)) is None
     True
     """
-    unreduced = Unreduced(ring)
     try:
         additions = tuple(_additions(ring, before, after))
         sums = {each.relation.parts[-1]: each.relation.parts[0] for each in additions}
         without_sums = mapped(after, lambda node: sums.get(node, node))
-        difference = unreduced(before) - unreduced(without_sums)
+        difference = _unreduced(ring, before) - _unreduced(ring, without_sums)
     except AlgebraError:
         return None
     if ring.reduce(difference):
         return None
-    angles = _squared(ring, before, without_sums, difference)
-    return (*(pythagoras(angle_node(angle, ring.names)) for angle in angles), *additions)
-
-
-def _squared(ring: Ring, before: Node, after: Node, difference: fmpq_mpoly) -> list[Angle]:
-    """The angles of which s² + c² = 1 is used on the way to an equal line."""
     basic = _of_basic_angles(ring, difference)
-    return _as_they_stand(ring, before, after) or basic if basic else []
+    squared = _as_they_stand(ring, before, without_sums) or basic if basic else []
+    return (*(pythagoras(angle_node(angle, ring.names)) for angle in squared), *additions)
 
 
 def _of_basic_angles(ring: Ring, difference: fmpq_mpoly) -> list[Angle]:
@@ -109,88 +115,75 @@ def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
     stand_in = dict(zip(angles, ring.pairs, strict=False))
 
     def exchanged(node: Node) -> Node:
-        if isinstance(node, Function) and node.name in ("sin", "cos"):
-            pair = stand_in.get(angle_from_tree(node.argument))
-            return node if pair is None else Function(node.name, angle_node(pair.angle, ring.names))
+        match node:
+            case Function("sin" | "cos" as name, argument) if pair := stand_in.get(angle_from_tree(argument)):
+                return Function(name, angle_node(pair.angle, ring.names))
         return node
 
-    unreduced = Unreduced(ring)
-    difference = unreduced(mapped(before, exchanged)) - unreduced(mapped(after, exchanged))
+    difference = _unreduced(ring, mapped(before, exchanged)) - _unreduced(ring, mapped(after, exchanged))
     if ring.reduce(difference):
         return []
-    squared = set(_of_basic_angles(ring, difference))
+    squared = _of_basic_angles(ring, difference)
     return [angle for angle, pair in stand_in.items() if pair.angle in squared]
-
-
-_FULL = {"sin": "sine", "cos": "cosine"}
 
 
 def doubled_angles(*nodes: Node) -> Iterator[Relation]:
     """What cos(2θ) and sin(2θ) stand for, where they do in trees: c² - s² = cos(2θ), 2 s c = sin(2θ)."""
     for part in walk(*nodes):
         match part:
-            case Function("cos", Product((Number(2, 1), angle))):
-                c, s = (Power(Function(name, angle), Number(2)) for name in ("cos", "sin"))
-                yield equation(Sum((c, Negative(s))), part)
-            case Function("sin", Product((Number(2, 1), angle))):
-                yield equation(Product((Number(2), Function("sin", angle), Function("cos", angle))), part)
+            case Function("sin" | "cos" as name, Product((Number(2, 1), angle))):
+                yield equation(formula(_TWICE[name], A=angle), part)
 
 
 def pythagoras(angle: Node) -> Identity:
     """sin² + cos² = 1 of an angle."""
-    squares = tuple(Power(Function(name, angle), Number(2)) for name in ("sin", "cos"))
-    return Identity("", equation(Sum(squares), Number(1)))
+    found = formula("sin² {angle} + cos² {angle} = 1", angle=angle)
+    assert isinstance(found, Relation)
+    return Identity("", found)
 
 
 def _angles(node: Node) -> dict[Angle, set[str]]:
     """The angles whose sines and cosines occur, and which of both."""
     found: dict[Angle, set[str]] = {}
     for part in walk(node):
-        if isinstance(part, Function) and part.name in ("sin", "cos"):
-            found.setdefault(angle_from_tree(part.argument), set()).add(part.name)
+        match part:
+            case Function("sin" | "cos" as name, argument):
+                found.setdefault(angle_from_tree(argument), set()).add(name)
     return found
 
 
 def _additions(ring: Ring, before: Node, after: Node) -> Iterator[Identity]:
-    """The addition theorems by which new angles come about."""
+    """The addition theorems by which new angles come about: each is A + B or A - B of old ones."""
     old = list(_angles(before))
     for angle, names in _angles(after).items():
         if angle in old or -angle in old:
             continue
-        parts = _parts(angle, old)
-        for name in sorted(names) if parts else ():
-            assert parts is not None
-            yield _addition(ring, name, angle, *parts)
+        found = ((a, b, sign) for sign in (-1, 1) for a in old for b in old if a + b * sign == angle)
+        for a, b, sign in islice(found, 1):
+            yield from (_addition(ring, name, angle, a, b, sign) for name in sorted(names))
 
 
-def _parts(angle: Angle, old: list[Angle]) -> tuple[Angle, Angle, int] | None:
-    """(A, B, ±1) with angle = A ± B, both of them in `old`."""
-    for sign in (-1, 1):
-        for a in old:
-            for b in old:
-                if a + b * sign == angle:
-                    return a, b, sign
-    return None
+_NAMES = {"sin": "sine", "cos": "cosine"}
+_TWICE = {"sin": "2 sin {A} cos {A}", "cos": "cos² {A} - sin² {A}"}
+_ADDED = {
+    ("sin", 1): "sin {A} cos {B} + cos {A} sin {B}",
+    ("sin", -1): "sin {A} cos {B} - cos {A} sin {B}",
+    ("cos", 1): "cos {A} cos {B} - sin {A} sin {B}",
+    ("cos", -1): "cos {A} cos {B} + sin {A} sin {B}",
+}
+"""The addition theorems: of the sine and the cosine of A + B and A - B."""
 
 
 def _addition(ring: Ring, name: str, angle: Angle, a: Angle, b: Angle, sign: int) -> Identity:
     """cos A cos B ∓ sin A sin B = cos(A ± B), sin A cos B ± cos A sin B = sin(A ± B), of these angles."""
-
-    def of(function: str, which: Angle) -> Node:
-        return Function(function, angle_node(which, ring.names))
-
-    other = {"sin": "cos", "cos": "sin"}[name]
     if name == "cos" and len(b.terms) < len(a.terms):
         a, b = b, a  # c₁ c₁₂ + s₁ s₁₂, as it stands in a line
-    first = Product((of(name, a), of("cos", b)))
-    second = Product((of(other, a), of("sin", b)))
-    plus = (sign > 0) == (name == "sin")
     words = "twice an angle" if a == b else "a sum" if sign > 0 else "a difference"
-    left: Node = Sum((first, second if plus else Negative(second)))
-    if a == b:
-        squares = Sum((Power(of("cos", a), Number(2)), Negative(Power(of("sin", a), Number(2)))))
-        left = squares if name == "cos" else Product((Number(2), of("sin", a), of("cos", a)))
-    return Identity(f"the {_FULL[name]} of {words}", equation(left, of(name, angle)))
+    text = _TWICE[name] if a == b else _ADDED[name, sign]
+    whole, A, B = (angle_node(each, ring.names) for each in (angle, a, b))
+    return Identity(
+        f"the {_NAMES[name]} of {words}", equation(formula(text, A=A, B=B), Function(name, whole))
+    )
 
 
 # -- the identities by which the entries of a product of matrices become what is printed, and what cancels
@@ -221,28 +214,39 @@ def cancelled_in_product(context: Context, left: Matrix, right: Matrix) -> Prose
             left_over |= kept
             gone |= {term for each in products for term in each.to_dict()} - kept
     for pair in ring.pairs:
-        if _have_both(gone, pair) and not _have_both(left_over, pair):
+        was, remains = (any(e[pair.sine] and e[pair.cosine] for e in terms) for terms in (gone, left_over))
+        if was and not remains:
             return products_cancel(ring, pair)
     return ()
 
 
-def _have_both(terms: Iterable[tuple[int, ...]], pair: Pair) -> bool:
-    """Whether the sine and the cosine of an angle stand in one of the terms, given by their exponents."""
-    return any(term[pair.sine] and term[pair.cosine] for term in terms)
-
-
 def products_cancel(ring: Ring, pair: Pair) -> Prose:
     """(the terms with s₁ c₁ cancel)"""
-    angle = angle_node(pair.angle, ring.names)
-    return (" (the terms with ", Product((Function("sin", angle), Function("cos", angle))), " cancel)")
+    return say(" (the terms with $sin {a} cos {a}$ cancel)", a=angle_node(pair.angle, ring.names))
 
 
 def product_named(context: Context, left: Matrix, right: Matrix, result: Matrix) -> Prose:
     """The sentence before the result of a product; nothing of longer arms, or where none is used."""
-    if not context.is_short:
-        return ()
-    used = used_in_product(context, left, right, result)
-    return ("With ", *said(used), ":") if used else ()
+    used = used_in_product(context, left, right, result) if context.is_short else ()
+    return say("With {used}:", used=said(used)) if used else ()
+
+
+def product_line(
+    context: Context,
+    operation: str | Prose,
+    names: Sequence[Node],
+    turn: tuple[Matrix, Node],
+    turned: tuple[Matrix, Node],
+    uses: tuple[str, ...] = (),
+    label: str = "",
+    tells_what_cancels: bool = True,
+) -> Line:
+    """Rᵀ x with both matrices, and what it is, by the identities that are used; each with its form."""
+    (R, R_form), (x, x_form) = turn, turned
+    cancelled = cancelled_in_product(context, R.T, x) if tells_what_cancels else ()
+    words = by(operation, used_in_product(context, R.T, x, R.T @ x), cancelled)
+    shown = [Product((Transpose(R_form), x_form))] if is_small(R_form, x_form) else []
+    return Line(words, (equation(*names, *shown, context.show(R.T @ x)),), uses, label)
 
 
 # -- the value of a tree as a polynomial before any relation is used: s² + c² is not yet 1 ---------
@@ -251,51 +255,31 @@ def product_named(context: Context, left: Matrix, right: Matrix, result: Matrix)
 # differ, an identity of sine and cosine was used; `identities` finds which.
 
 
-class Unreduced:
-    """Polynomials of scalar trees in one ring, products multiplied out and nothing else done.
+def _unreduced(ring: Ring, node: Node) -> fmpq_mpoly:
+    """The polynomial of a tree, products multiplied out and nothing else done.
 
     Raises AlgebraError for a tree without a value in the ring.
     """
-
-    def __init__(self, ring: Ring) -> None:
-        self.ring = ring
-        self._turned: dict[Node, tuple[fmpq_mpoly, fmpq_mpoly]] = {}
-
-    def __call__(self, node: Node) -> fmpq_mpoly:
-        """The polynomial of a tree."""
-        ring = self.ring
-        match node:
-            case Sum(terms):
-                return sum(map(self, terms), start=ring.zero.poly)
-            case Product(factors):
-                product = ring.one.poly
-                for factor in factors:
-                    product = product * self(factor)
-                return product
-            case Negative(argument):
-                return -self(argument)
-            case Parenthesized(argument):
-                return self(argument)
-            case Power(base, Number(p, 1)):
-                return self(base) ** p
-            case Quotient(numerator, Number(p, q)):
-                return self(numerator) * rational(Fraction(q, p))
-            case Quotient(numerator, denominator):
-                return self(numerator) * ring.inverse(value_of(ring, denominator)).poly
-            case Symbol(name, dots):
-                return ring.symbol(name, dots).poly
-            case Function("sin" | "cos" as name, argument):
-                return self._cosine_and_sine(argument)[name == "sin"]
-        return value_of(ring, node).poly
-
-    def _cosine_and_sine(self, argument: Node) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-        found = self._turned.get(argument)
-        if found is None:
-            found = self._turned[argument] = turned(self.ring, angle_from_tree(argument))
-        return found
+    of = partial(_unreduced, ring)
+    match node:
+        case Sum(terms):
+            return sum(map(of, terms), start=ring.zero.poly)
+        case Product(factors):
+            return prod(map(of, factors), start=ring.one.poly)
+        case Negative(argument):
+            return -of(argument)
+        case Parenthesized(argument):
+            return of(argument)
+        case Power(base, Number(p, 1)):
+            return of(base) ** p
+        case Quotient(numerator, denominator):
+            return of(numerator) * ring.inverse(value_of(ring, denominator)).poly
+        case Function("sin" | "cos" as name, argument):
+            return _cosine_and_sine(ring, angle_from_tree(argument))[name == "sin"]
+    return value_of(ring, node).poly
 
 
-def turned(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+def _cosine_and_sine(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     """(cos, sin) of an angle by the addition theorems alone: cos 2θ = c² - s²."""
     if angle.degrees:
         return ring.cos(angle).poly, ring.sin(angle).poly
@@ -308,14 +292,18 @@ def turned(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     return c, s
 
 
-# -- a chain of lines, each of which is proved equal to the value it claims before it is shown -----
-# `chain` is the only way by which the stages get their lines: what it cannot prove in the ring is
-# not said.
+# -- the engine of lines: each is proved equal to the value it claims before it is shown -----------
+# Every stage names its tactics, each with its words and the form it comes to; `chain` is the only way
+# by which they become lines: what it cannot prove in the ring is not said, and what a line repeats of
+# the one before it is left out.
+
+Tactic = tuple[str | Prose, Node]
+"""What is done, in words, and the form of the value that it gives."""
 
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """The lines to a result, and what is said of the last operation.
+    """The lines to a result, and what is said of the last operation, with the identities it uses.
 
     With a `frame` they begin afresh from the formula, along the axes of that frame.
     """
@@ -323,6 +311,7 @@ class Way:
     lines: tuple[Line, ...] = ()
     concluding: Prose = ()
     frame: int | None = None
+    used: tuple[Identity, ...] = ()
 
 
 SILENT = Way()
@@ -336,11 +325,27 @@ def equals(tree: Node, value: Expr) -> bool:
         return False
 
 
+def collected(before: Node, after: Node) -> str:
+    """What is done to a line that needs no identity: its sums of rates are multiplied out, if they go."""
+    opened = sums_of_rates(before) - sums_of_rates(after)
+    return "The sums of rates multiplied out, and collected:" if opened else "Collected:"
+
+
 def chain(
-    value: Expr, lines: Iterable[tuple[Prose, Node]], written: Callable[[Node], Node], concluding: Prose
+    context: Context, result: str, name: Node, tactics: Iterable[Tactic], concluding: str | Prose = ()
 ) -> Way:
-    """The lines as they are written, if each of them is the value; else nothing."""
-    lines = tuple(lines)
-    if not all(equals(tree, value) for _, tree in lines):
-        return SILENT
-    return Way(tuple(Line(by, (written(tree),)) for by, tree in lines), concluding)
+    """The lines that the tactics come to, if each of them has the value of the result; else nothing.
+
+    A line that only repeats the one before it is dropped, and one that is the result as it is printed
+    gives its words to that.
+    """
+    value, form = context.values[result], context.form(result)
+    lines: dict[Node, str | Prose] = {}
+    for words, tree in tactics:
+        if not equals(tree, value):
+            return SILENT
+        lines.setdefault(tree, words)
+    if lines and to_unicode(next(reversed(lines))) == to_unicode(form):
+        _, concluding = lines.popitem()
+    shown = [Line(say("{by}", by=words), (equation(name, tree),)) for tree, words in lines.items()]
+    return Way(tuple(shown), say("{by}", by=concluding))

@@ -9,29 +9,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations_with_replacement
 
 from dynsolve.algebra.compact.matrix_factor import matrix_factor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
-from dynsolve.explain.working.identities import (
-    SILENT,
-    Way,
-    cancelled_in_product,
-    chain,
-    identities,
-    said,
-    used_in_product,
-)
-from dynsolve.explain.working.kinetic import collected, turned_name, without_signs
-from dynsolve.explain.writing import block_of, is_small, sum_of
+from dynsolve.explain.working.identities import SILENT, Way, chain, collected, identities, product_line, said
+from dynsolve.explain.working.kinetic import turn_of_frame, turned_name, without_signs
+from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, number_in_front, times
-from dynsolve.notation.tree import ONE, ZERO, Letter, Node, Parenthesized, Product, Transpose, equation
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import ONE, ZERO, Letter, Node, Product, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Robot
 
@@ -62,38 +56,41 @@ def factor_of_identity(tensor: Matrix) -> Expr | None:
 
 def _is_shorter(context: Context, body: Body) -> bool:
     """Whether the tensor along the axes of the base takes longer than the given one, or varies."""
+    ring, n, (tensor, w) = context.robot.ring, context.robot.n, _in_axes(context, body, own=False)
+    if any(not ring.diff(entry, k).is_zero for entry in tensor.entries for k in range(n)):
+        return True
+    own_tensor, own = _in_axes(context, body, own=True)
+    return _terms_needed(w, tensor) > _terms_needed(own, own_tensor)
+
+
+def _in_axes(context: Context, body: Body, *, own: bool) -> tuple[Matrix, Matrix]:
+    """The tensor and ω along the body's own axes, or those of the base."""
     values, b = context.values, body.name
-    tensor, w = values[f"I{b}"], values[f"w{b}"]
-    own = values[f"R{b}"].T @ w
-    is_short = _terms_needed(w, tensor) <= _terms_needed(own, values[f"I_body{b}"])
-    return not (is_short and _is_constant(context, tensor))
+    if own:
+        return values[f"I_body{b}"], values[f"R{b}"].T @ values[f"w{b}"]
+    return values[f"I{b}"], values[f"w{b}"]
 
 
 def _terms_needed(w: Matrix, tensor: Matrix) -> int:
     """The terms that wᵀ I w is made of: of the tensor, the entries that meet rows of w that are not zero."""
-    turning = [k for k, row in enumerate(w.rows) if any(not entry.is_zero for entry in row)]
-    met = sum(len(tensor[i, j]) for i in turning for j in turning)
-    return met + sum(len(entry) for k in turning for entry in w.rows[k])
-
-
-def _is_constant(context: Context, tensor: Matrix) -> bool:
-    """Whether a tensor is the same in every configuration."""
-    ring, count = context.robot.ring, context.robot.n
-    return all(ring.diff(entry, k).is_zero for entry in tensor.entries for k in range(count))
+    turning = [k for k in range(3) if not w[k, 0].is_zero]
+    return sum(len(tensor[i, j]) for i in turning for j in turning) + sum(len(w[k, 0]) for k in turning)
 
 
 def multiplied_out(context: Context, body: Body) -> tuple[Node, Way]:
     """K_ω = ½ [row] [tensor] [column] along the axes that are chosen, and the lines from there."""
-    values, b = context.values, body.name
-    base = values[f"w{b}"]
-    if along_own_axes(context, body):
-        w, tensor = values[f"R{b}"].T @ base, values[f"I_body{b}"]
-    else:
-        w, tensor = base, values[f"I{b}"]
-    row, column, (front, inner) = context.show(w.T), context.show(w), _with_factor(context, tensor)
-    product = Product((letters.HALF, *front, row, *([] if inner is None else [inner]), column))
-    whole = equation(letters.energy_part("omega", body), product)
-    return whole, _lines(context, body, w, tensor) if context.is_short else SILENT
+    tensor, w = _in_axes(context, body, own=along_own_axes(context, body))
+    front, inner = _with_factor(context, tensor)
+    matrices = [context.show(w.T), *([] if inner is None else [inner]), context.show(w)]
+    name, result = letters.energy_part("omega", body), f"Kw{body.name}"
+    whole = equation(name, Product((letters.HALF, *front, *matrices)))
+    terms = tuple(_terms(context, w, inner))
+    if not context.is_short or len(terms) < 2:
+        return whole, SILENT
+    form, after = Product((letters.HALF, *front, sum_of(terms))), context.form(result)
+    used = identities(context.robot.ring, form, after)
+    concluding = say("By {used}:", used=said(used)) if used else collected(form, after)
+    return whole, chain(context, result, name, [("Multiplied out:", form)], concluding)
 
 
 def _with_factor(context: Context, tensor: Matrix) -> tuple[tuple[Node, ...], tree.Matrix | None]:
@@ -106,34 +103,15 @@ def _with_factor(context: Context, tensor: Matrix) -> tuple[tuple[Node, ...], tr
     return ((), form) if found is None else (factors_of(found[0]), found[1])
 
 
-def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
-    """½ Σ I_ij ω_i ω_j, and how it becomes the result."""
-    value, result = context.values[f"Kw{body.name}"], context.form(f"Kw{body.name}")
-    front, inner = _with_factor(context, tensor)
-    terms = tuple(_terms(context, w, inner))
-    if len(terms) < 2:
-        return SILENT
-    form = Product((letters.HALF, *front, sum_of(terms)))
-    used = identities(value.ring, form, result)
-    name = letters.energy_part("omega", body)
-    return chain(
-        value,
-        [(("Multiplied out:",), form)],
-        lambda tree: equation(name, tree),
-        ("By ", *said(used), ":") if used else collected(form, result),
-    )
-
-
 def _terms(context: Context, w: Matrix, moments: tree.Matrix | None) -> Iterator[Node]:
     """I_ij ω_i ω_j; without a tensor, the squares alone."""
-    for i in range(3):
-        for j in range(i, 3):
-            moment = (ONE if i == j else ZERO) if moments is None else moments.rows[i][j]
-            if moment != ZERO and not (w[i, 0].is_zero or w[j, 0].is_zero):
-                first, second = context.show(w[i, 0]), context.show(w[j, 0])
-                rates = [(without_signs(first), 2)] if i == j else [(first, 1), (second, 1)]
-                count = 1 if i == j else 2
-                yield times(count, [(moment, 1), *rates], decimal=is_numeric(context.robot))
+    turning = [k for k in range(3) if not w[k, 0].is_zero]
+    for i, j in combinations_with_replacement(turning, 2):
+        moment = (ONE if i == j else ZERO) if moments is None else moments.rows[i][j]
+        first, second = context.show(w[i, 0]), context.show(w[j, 0])
+        rates = [(without_signs(first), 2)] if i == j else [(first, 1), (second, 1)]
+        if moment != ZERO:
+            yield times(1 if i == j else 2, [(moment, 1), *rates], decimal=is_numeric(context.robot))
 
 
 # -- ω, or the columns of J_ω, brought to a body's own axes: Rᵀ ω, by one product of matrices a line
@@ -156,23 +134,18 @@ class Turned:
 
 def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turned:
     """Rᵀ ω or Rᵀ J_ω of a body: the quantity is `w` or `Jw`, the letter its name."""
-    R, value = context.values[f"R{body.name}"], context.values[f"{quantity}{body.name}"]
-    written, own = context.form(f"{quantity}{body.name}"), R.T @ value
-    name = letters.of_body("R", body, "bold")
-    whole, by_rotation = Product((Transpose(name), letter)), f"R{body.name}"
-    if own == value:
-        by: Prose = (name, " turns about the axis of ", letter, ", and leaves it as it is:")
+    b, R = body.name, letters.of_body("R", body, "bold")
+    rotation, value = ((context.values[key], context.form(key)) for key in (f"R{b}", f"{quantity}{b}"))
+    own, whole = rotation[0].T @ value[0], Product((Transpose(R), letter))
+    if own == value[0]:
+        text = "{R} turns about the axis of {x}, and leaves it as it is:"
         if quantity != "w":
-            by = (name, " turns about the axis of the columns of ", letter, ", and leaves them as they are:")
-        lines: tuple[Line, ...] = (Line(by, (equation(whole, letter),)),)
-    elif leans(context.robot):
-        by_rotation = "H0"
-        lines = tuple(_by_frame_0(context, body, quantity, letter, written))
-    else:
-        by = ("Along the body's own axes", *_with(context, R, value), ":")
-        product = Product((Transpose(context.form(f"R{body.name}")), written))
-        lines = (Line(by, (equation(whole, product, context.show(own)),)),)
-    return Turned(own, whole, lines, by_rotation)
+            text = "{R} turns about the axis of the columns of {x}, and leaves them as they are:"
+        return Turned(own, whole, (Line(say(text, R=R, x=letter), (equation(whole, letter),)),), f"R{b}")
+    if leans(context.robot):
+        return Turned(own, whole, tuple(_by_frame_0(context, body, quantity, letter)), "H0")
+    line = product_line(context, "Along the body's own axes", [whole], rotation, value)
+    return Turned(own, whole, (line,), f"R{b}")
 
 
 def leans(robot: Robot) -> bool:
@@ -182,88 +155,55 @@ def leans(robot: Robot) -> bool:
     return robot.has_table and any(entry not in plain for entry in robot.base_rotation.entries)
 
 
-def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter, written: Node) -> Iterator[Line]:
+def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter) -> Iterator[Line]:
     """(R_0^w)ᵀ ω, and from there along the body's axes, which are found once, with ω: a product a line."""
-    base, R = rotation(context.values["H0"]), letters.of_body("R", body, "bold")
-    value = context.values[f"{quantity}{body.name}"]
-    seen, along = base.T @ context.values[f"R{body.name}"], base.T @ value
-    own = context.show(seen.T @ along)
+    b, R, base = body.name, letters.of_body("R", body, "bold"), turn_of_frame(context, 0)
+    value = context.values[f"{quantity}{b}"], context.form(f"{quantity}{b}")
+    rotation = context.values[f"R{b}"], context.form(f"R{b}")
+    seen, along = base[0].T @ rotation[0], base[0].T @ value[0]
     axes, in_frame = (turned_name(context, 0, each) for each in (R, letter))
     whole = Product((Transpose(R), letter))
-    first = Product((Transpose(block_of(context.matrix("H0"), 3, 0, 3)), written))
-    by: Prose = ("Along the axes of frame 0", *_with(context, base, value))
-    if seen.T @ along == along:
-        given = f"v{body.name}" if quantity == "w" else f"Jv{body.name}#2"
-        yield Line((*by, ":"), (equation(in_frame, first, own),), (given, "H0"))
-        turned_back = Product((Transpose(Parenthesized(axes)), Parenthesized(in_frame)))
-        yield _kept(context, body, quantity, equation(whole, turned_back, in_frame))
+    turned_back = formula("({axes})ᵀ ({vector})", axes=axes, vector=in_frame)
+    rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
+    is_kept, is_first = seen.T @ along == along, quantity == "w"
+    given = (f"v{b}" if is_first else f"Jv{b}#2", "H0") if is_kept else ()
+    yield product_line(context, "Along the axes of frame 0", [in_frame], base, value, given)
+    made = _table_factors(context, body, seen)
+    if is_kept:
+        same = equation(whole, turned_back, in_frame)
+        by = say(
+            "{axes} {turns} about the axis of {these}, so its transpose leaves {them}. With ${R} {R}ᵀ$, the "
+            "identity, between the factors:",
+            axes=axes,
+            turns=_turns(context, body, made),
+            these="this vector" if is_first else "these columns",
+            them="it as it is" if is_first else "them as they are",
+            R=letters.R(context.robot, 0),
+        )
+        yield Line(by, (same,), (f"R{b}", *rows))
         return
-    yield Line((*by, ":"), (equation(in_frame, first, context.show(along)),))
-    if quantity == "w":
-        yield _axes_seen(context, body, axes, seen)
-    by = ("From there along the body's own axes, by ", axes, *_with(context, seen, along), ":")
-    in_letters = Product((Transpose(Parenthesized(axes)), Parenthesized(in_frame)))
-    second = Product((Transpose(context.show(seen)), context.show(along)))
-    yield Line(by, (equation(whole, in_letters, second, own),), (_axes_label(body),))
+    label = f"R{b}-from-frame-0"
+    if is_first:
+        made_of = () if made is None else say(", the rotation of {made}", made=made)
+        by = say("The body's axes seen from frame 0{made_of}", made_of=made_of)
+        yield product_line(context, by, [axes], base, rotation, ("H0", f"R{b}", *rows), label)
+    by = say("From there along the body's own axes, by {axes}", axes=axes)
+    turn, vector = ((each, context.show(each)) for each in (seen, along))
+    yield product_line(context, by, [whole, turned_back], turn, vector, (label,))
 
 
-def _kept(context: Context, body: Body, quantity: str, same: Node) -> Line:
-    """That the rotation from frame 0 to the body's axes leaves ω, or the columns of J_ω, as they are."""
-    axes = turned_name(context, 0, letters.of_body("R", body, "bold"))
-    seen = rotation(context.values["H0"]).T @ context.values[f"R{body.name}"]
-    this, what = ("this vector", "it as it is") if quantity == "w" else ("these columns", "them as they are")
-    factors = _table_factors(context, body, seen)
-    by: Prose = (axes, " turns")
-    if factors is not None:
-        H = (letters.H(context.robot, link) for link in (body.link, 0))
-        by = (axes, " is the rotation of ", factors, ", as ", equation(next(H), Product((*H, factors))))
-        by += (", and turns",)
-    by += (f" about the axis of {this}, so its transpose leaves {what}. With ", *_identity(context), ":")
-    rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
-    return Line(by, (same,), (f"R{body.name}", *rows))
-
-
-def _identity(context: Context) -> Prose:
-    """What is put between the factors, so that each is seen from frame 0."""
-    base = letters.R(context.robot, 0)
-    return (Product((base, Transpose(base))), ", the identity, between the factors")
-
-
-def _axes_label(body: Body) -> str:
-    return f"R{body.name}-from-frame-0"
-
-
-def _axes_seen(context: Context, body: Body, axes: Node, seen: Matrix) -> Line:
-    """(R_0^w)ᵀ R with both matrices, and what it is: the body's axes seen from frame 0."""
-    base, R = rotation(context.values["H0"]), context.form(f"R{body.name}")
-    block = block_of(context.matrix("H0"), 3, 0, 3)
-    members: list[Node] = [axes]
-    if is_small(block, R):
-        members.append(Product((Transpose(block), R)))
-    by: Prose = ("The body's axes seen from frame 0", *_made_of(context, body, seen))
-    by += (*_with(context, base, context.values[f"R{body.name}"]), ":")
-    rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
-    uses = ("H0", f"R{body.name}", *rows)
-    return Line(by, (equation(*members, context.show(seen)),), uses, _axes_label(body))
-
-
-def _made_of(context: Context, body: Body, seen: Matrix) -> Prose:
-    """That the body's axes, seen from frame 0, are the rotation of A_1 A_2, where that is so."""
-    factors = _table_factors(context, body, seen)
-    return () if factors is None else (", the rotation of ", factors)
+def _turns(context: Context, body: Body, made: Node | None) -> Prose:
+    """How the body's axes, seen from frame 0, turn: by the rotation of A_1 A_2, where that is so."""
+    if made is None:
+        return ("turns",)
+    H, H0 = (letters.H(context.robot, link) for link in (body.link, 0))
+    return say("is the rotation of {made}, as ${H} = {H0} {made}$, and turns", made=made, H=H, H0=H0)
 
 
 def _table_factors(context: Context, body: Body, seen: Matrix) -> Node | None:
     """A_1 A_2, where its rotation is that from frame 0 to the body's axes."""
-    base, H = rotation(context.values["H0"]), context.values[f"H{body.link}"]
     factors = tuple(letters.A(joint.index) for joint in context.robot.path(body.link))
-    if not factors or seen != base.T @ rotation(H):
+    base, end = (turn_of_frame(context, link)[0] for link in (0, body.link))
+    if not factors or seen != base.T @ end:
         return None
     return Product(factors) if len(factors) > 1 else factors[0]
-
-
-def _with(context: Context, R: Matrix, value: Matrix) -> Prose:
-    """, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel)"""
-    used = used_in_product(context, R.T, value, R.T @ value)
-    named: Prose = (", with ", *said(used)) if used else ()
-    return (*named, *cancelled_in_product(context, R.T, value))

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpq_mpoly
 
@@ -27,6 +27,7 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Function, Node, Symbol
+from dynsolve.robot.model import Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,8 +72,14 @@ class Shared:
         return self.length * self.rate
 
 
-def shared(ring: Ring, components: Sequence[Expr]) -> Shared:
-    """The powers of lengths, with the number before them, and of rates that all components share."""
+def shared(robot: Robot, components: Sequence[Expr]) -> Shared:
+    """The powers of lengths, with the number before them, and of rates that all components share.
+
+    Of decimals they share nothing.
+    """
+    ring = robot.ring
+    if is_numeric(robot):
+        return Shared(ring.one, ring.one)
     terms = [term for x in components for term in x.poly.to_dict().items()]
 
     def common(generators: Iterable[Generator]) -> Expr:
@@ -119,8 +126,7 @@ def products_of_rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
     return {tuple(e[i] for i in places) for e in poly.to_dict()}
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(NamedTuple):
     """Terms with the same lengths and angles: as they stand, and with the brackets worked out."""
 
     multiplied: Node
