@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
+from math import lcm, prod
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.algebra.compact.compactor import Compactor
@@ -35,6 +35,7 @@ from dynsolve.derivation.inverse.subproblems import (
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.forms import Forms, is_numeric, leading_names, parallel_coordinates
 from dynsolve.explain.writing import as_row, listed, side_by_side
 from dynsolve.notation.build import cost, negated, power, split_sign, times, total
@@ -281,14 +282,16 @@ class ConfigurationForms:
     @cached_property
     def singular(self) -> tuple[tuple[Node, ...], ...]:
         """The alternatives: expressions that are 0 together."""
-        if self.singular_set is None:
-            return ()
-        return tuple(tuple(map(self.condition, one)) for one in self.singular_set.alternatives)
+        return self.alternatives("singular")
 
     @cached_property
     def equilibria(self) -> tuple[tuple[Node, ...], ...]:
         """The equilibria: alternatives of expressions that are 0 together; none where they are too long."""
-        found = self.values["equilibria"]
+        return self.alternatives("equilibria")
+
+    def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
+        """The alternatives of a set of equations, by its name; none where they are too long."""
+        found = self.values[name]
         if isinstance(found, Skipped):
             return ()
         return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
@@ -307,8 +310,11 @@ class ConfigurationForms:
         """For which parameters the alternatives of a set are there that are not for all."""
         for case, bounds in zip(self.alternatives(name), exist, strict=True):
             if bounds:
-                together = side_by_side([equation(value, Number(0)) for value in case])
-                yield (together, " has solutions where ", side_by_side([*map(self.inequality, bounds)]), ".")
+                yield say(
+                    "{these} has solutions where {conditions}.",
+                    these=side_by_side([equation(value, Number(0)) for value in case]),
+                    conditions=side_by_side([*map(self.inequality, bounds)]),
+                )
 
     @cached_property
     def balance(self) -> tuple[Node, ...]:
@@ -316,9 +322,7 @@ class ConfigurationForms:
         found = self.values["balance"]
         if isinstance(found, Skipped):
             return ()
-        ring = self.robot.ring
-        form = Compactor(ring, leading_names(self.robot), decimal=is_numeric(self.robot)).form
-        return tuple(map(form, found))
+        return tuple(map(self.compactor(self.robot.ring).form, found))
 
     @cached_property
     def reduced(self) -> tuple[tuple[Node, Node], ...]:
@@ -330,10 +334,6 @@ class ConfigurationForms:
     def conditions(self, name: str) -> tuple[tuple[Node, Node], ...]:
         """Both sides of equations that all hold, by the name of these."""
         return self.reduced if name == "reduced" else tuple((node, Number(0)) for node in self.balance)
-
-    def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
-        """The alternatives of a set of equations, by its name."""
-        return self.equilibria if name == "equilibria" else self.singular
 
     @cached_property
     def lost(self) -> tuple[tuple[Matrix, ...], ...]:
@@ -350,19 +350,12 @@ class ConfigurationForms:
     def condition(self, condition: Condition) -> Node:
         """What is 0 where a condition holds, with whole coefficients but where the file has decimals."""
         whole = 1 if is_numeric(self.robot) else lcm(*(int(c.q) for c in condition.expr.poly.coeffs()))
-        return self.zero(condition.expr * whole)
-
-    def zero(self, expr: Expr) -> Node:
-        """What is 0, with the sign that leaves fewer minus signs."""
-        return self._signed(expr)[0]
+        return self._signed(condition.expr * whole)[0]
 
     def vanishing(self, value: Expr) -> Node:
         """What is 0 where an expression is, without the factors that never are."""
-        product = value.ring.one
-        for factor, _ in trig_factors(value):
-            if not is_positive(factor):
-                product = product * factor
-        return self.zero(product)
+        factors = (factor for factor, _ in trig_factors(value) if not is_positive(factor))
+        return self._signed(prod(factors, start=value.ring.one))[0]
 
     def product(self, value: Expr) -> Node:
         """An expression as the product of its factors in sines and cosines."""
@@ -394,21 +387,24 @@ class ConfigurationForms:
     @property
     def without_number(self) -> str:
         """The first parameter that has no number, where `reach` has them; nothing where all have."""
+        return without_number(self.robot, self.values[self._task])
+
+    @property
+    def _task(self) -> str:
         (task,) = self.values.rules["inverse"].inputs
-        return without_number(self.robot, self.values[task])
+        return task
 
     @cached_property
     def target(self) -> TargetForms | None:
         """What reaches the numbers of `reach`; None where it has none."""
-        if self.robot.questions.target is None or isinstance(self.values["inverse"], Skipped):
-            return None
-        if self.without_number:
+        is_given = self.robot.questions.target is not None
+        if not is_given or isinstance(self.values["inverse"], Skipped) or self.without_number:
             return None
         from dynsolve.explain.target import TargetForms
 
         branches = None if self.solved is None else list(zip(self.inverse, self.when, strict=True))
-        (task,) = self.values.rules["inverse"].inputs
-        return TargetForms(self.robot, self.values[task], Forms(self.robot, self.values)(task), branches)
+        task, form = self.values[self._task], Forms(self.robot, self.values)(self._task)
+        return TargetForms(self.robot, task, form, branches)
 
     @cached_property
     def inverse(self) -> tuple[dict[str, Node], ...]:
