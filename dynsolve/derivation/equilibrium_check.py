@@ -128,12 +128,12 @@ def verify_equilibria(robot: Robot, balanced: Node, cases: Sequence[Case]) -> No
             _verify_stability(robot, whole, program, point)
 
 
-def _told(robot: Robot, point: Point, at: Mapping[str, float]) -> Stability:
-    """The stability that is told for these parameters; where a condition fails, nothing is a minimum."""
+def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
+    """Whether a minimum of the energy is told for these parameters; None where nothing is."""
     if not point.conditions:
-        return point.stability
-    held = all(evaluate(bound.value, at) > 0 for bound in point.conditions)
-    return Stability.STABLE if held else Stability.UNSTABLE
+        return {Stability.STABLE: True, Stability.UNSTABLE: False}.get(point.stability)
+    least = min(evaluate(bound.value, at) for bound in point.conditions)
+    return None if least == 0 else least > 0
 
 
 def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Point) -> None:
@@ -142,9 +142,8 @@ def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Poin
         at = zero_near(robot, zeros, {**start, **turned})
         if at is None or any(abs(at[name] - angle) > _NEAR for name, angle in turned.items()):
             continue
-        rising = _rises(robot, forces, at, point)
-        told = _told(robot, point, at)
-        if told is not Stability.UNDECIDED and rising is not (told is Stability.STABLE):
+        told = _is_minimum(point, at)
+        if told is not None and _rises(robot, forces, at, point) is not told:
             raise VerificationError("the stability told is another; this is a fault of dynsolve")
 
 

@@ -2,8 +2,10 @@
 
 An equilibrium is stable where the potential energy has a strict minimum, the matrix of its second
 derivatives being positive definite (Lagrange and Dirichlet): where all its leading minors are
-positive (Sylvester).  It is unstable where the matrix has a negative direction.  Parameters count
-as positive; a minor whose sign they leave open is a condition for stability.
+positive (Sylvester).  It is unstable where the matrix has a negative direction, which it has where
+any principal minor is negative.  Parameters count as positive; a leading minor whose sign they leave
+open is a condition for stability: where it is negative the equilibrium is unstable, and only where
+it is 0 the second derivatives do not decide.
 
 Where rates are held constant the energy is that of `steady`, and forces across the motion, which
 do no work, may hold what would fall: then nothing is called unstable.
@@ -52,13 +54,16 @@ class Point:
     """Quarter turns of angles in a case, and how stable the arm is there.
 
     `neutral` are the coordinates, from 0, along which nothing changes.  Where the stability is
-    undecided, and there are `conditions` on the parameters, it is stable where these hold.
+    undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
+    them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
+    sides are equal nothing is said.
     """
 
     values: Values
     stability: Stability
     neutral: tuple[int, ...] = ()
     conditions: tuple[Bound, ...] = ()
+    falls: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,18 +83,26 @@ class Curvature:
             return
         turns = [found for one in alternative if (found := quarter_turns(one))]
         others = [one for one in alternative if not quarter_turns(one)]
-        signs = self.signs.beside(*(Bound(bound.value) for bound in exists))
+        known = [turn for one in others if (turn := turn_of(one.expr)) is not None and turn.is_one_sided]
+        nonzero = [f for turn in known for f in self.signs.open_factors(turn.cosine + turn.sine)]
+        signs = self.signs.beside(*(Bound(bound.value) for bound in exists), nonzero=nonzero)
+        ring = self.second.ring
+        free = [
+            k
+            for k in range(len(ring.names))
+            if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
+        ]
         for values in product(*turns):
             at = _put(self.second, values)
             for other in others:
                 (left,) = _put(Matrix.column(at.ring, [other.expr]), values).entries
                 at = _where_zero(at, left)
-            yield self._point(values, at, signs)
+            yield self._point(values, at, signs, free)
 
-    def _point(self, values: Values, second: Matrix, signs: ParameterSigns) -> Point:
-        size = len(second.rows)
-        neutral = tuple(k for k in range(size) if all(entry.is_zero for entry in second.rows[k]))
-        rest = tuple(k for k in range(size) if k not in neutral)
+    def _point(self, values: Values, second: Matrix, signs: ParameterSigns, free: Sequence[int]) -> Point:
+        """The stability at quarter turns where `free` coordinates may have any value."""
+        neutral = tuple(k for k in free if all(entry.is_zero for entry in second.rows[k]))
+        rest = tuple(k for k in range(len(second.rows)) if k not in neutral)
         if not rest or work(part(second, rest, rest)) > MOST_PRODUCTS:
             return Point(values, Stability.UNDECIDED, neutral)
         if not self.may_be_held and _falls(second, rest, signs):
@@ -103,14 +116,14 @@ class Curvature:
         if any(minor.is_number or minor.ring.depends_on_coordinates(minor) for minor in left):
             return Point(values, Stability.UNDECIDED, neutral)
         conditions = independent([Bound(minor) for minor in left], signs.assumed)
-        return Point(values, Stability.UNDECIDED, neutral, conditions)
+        return Point(values, Stability.UNDECIDED, neutral, conditions, not self.may_be_held)
 
 
 def _falls(second: Matrix, rest: Sequence[int], signs: ParameterSigns) -> bool:
-    """Whether the energy surely falls along a coordinate, or along some direction of two."""
+    """Whether the energy surely falls in some direction: a principal minor is negative."""
     return any(
         signs.is_positive(-determinant(part(second, chosen, chosen)))
-        for size in (1, 2)
+        for size in range(1, len(rest) + 1)
         for chosen in combinations(rest, size)
     )
 

@@ -8,11 +8,12 @@ from dataclasses import replace
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant
 from dynsolve.derivation import linearization
-from dynsolve.derivation.equilibria import Equilibria
+from dynsolve.derivation.equilibria import Equilibria, SpecialCase
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.stability import Point, Stability
 from dynsolve.derivation.steady import may_be_held, steady_energy, steady_forces
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
@@ -74,20 +75,28 @@ def _equilibria(context: Context) -> Iterator[Step]:
     rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
     said = {part for one in result for part in walk(one) if isinstance(part, Relation)}
     is_new = not said >= set(rows)  # not what the result says again
-    general = " in general" if _has_angle_of_parameters(robot) else ""
-    factors = "factors of the parameters" if general else "factors that are never 0"
-    lines = (Line((f"Combined, without {factors}:",), rows),) if is_new else ()
+    of_free: list[Prose] = []
+    special = [shown.comparison(one.factor, "≠") for one in found.special]
+    where = say(" where {special}", special=listed(special)) if special else ""
+    factors = say("that are not 0{where}" if special else "that are never 0", where=where)
+    heading = say(
+        "Combined, without factors {which}:", which="of the parameters" if found.may_be_others else factors
+    )
+    lines = (Line(heading, rows),) if is_new else ()
     if not cases:
-        told_none = f"{general}: there is no equilibrium" + (" but for special parameters" if general else "")
-        notes: tuple[Prose, ...] = ((f"No configuration makes all of them 0{told_none}.",),)
+        notes = [say("No configuration makes all of them 0{where}: there is no equilibrium.", where=where)]
     elif not cases[0]:
-        notes = (("Nothing is left to be 0: every configuration is an equilibrium.",),)
+        notes = [say("Nothing is left to be 0{where}: every configuration is an equilibrium.", where=where)]
     else:
         names = [q.name for q in robot.coordinates if q.name not in dict(robot.questions.model.steady)]
         free = [Symbol(name) for name in names if any(name not in names_in(*one) for one in cases)]
-        where = " where it does not occur" if len(cases) > 1 else ""
-        told: tuple[Prose, ...] = ((*listed(free), f" may have any value{where}."),) if free else ()
-        notes = (*told, *shown.existence("equilibria", found.exist))
+        some = " where it does not occur" if len(cases) > 1 else ""
+        of_free = [say("{free} may have any value{some}.", free=listed(free), some=some)] if free else []
+        notes = [*shown.existence("equilibria", found.exist)]
+        notes += [say("These are the equilibria{where}.", where=where)] if special else []
+    notes += [_special(shown, one) for one in found.special]
+    if found.may_be_others:
+        notes.append(("For special values of the parameters there may be others.",))
     steady = bool(robot.questions.model.steady)
     forces: Node = FORCES if steady else letters.G
     task = equation(forces, Number(0))
@@ -107,7 +116,8 @@ def _equilibria(context: Context) -> Iterator[Step]:
         lines=lines,
         result=result,
         listed=len(result) > 1,
-        notes=notes,
+        notes=(*of_free, *notes),
+        outcome=tuple(part for k, note in enumerate(notes) for part in ([" "] * (k > 0) + [*note])),
         detail=Detail.BRIEF,
     )
     if any(points for points in found.points):
@@ -121,10 +131,15 @@ def _nothing_moves(robot: Robot) -> Prose:
     return (told, letters.G, " is left. ")
 
 
-def _has_angle_of_parameters(robot: Robot) -> bool:
-    """Whether a factor such as cos β may be 0, being a function of parameters alone."""
-    ring = robot.ring
-    return any(not ring.depends_on_coordinates(ring.generator(pair.cosine)) for pair in ring.pairs)
+def _special(shown: ConfigurationForms, case: SpecialCase) -> Prose:
+    """What is an equilibrium for parameters of which a factor is 0."""
+    forces = shown.special_forces(case)
+    where = shown.comparison(case.factor, "=")
+    if forces is None:
+        return say("Where {where}, there is no equilibrium.", where=where)
+    if not forces:
+        return say("Where {where}, every configuration is an equilibrium.", where=where)
+    return say("Where {where}, the equilibria are where {zero}.", where=where, zero=vanishing(forces))
 
 
 def _at_rest(context: Context) -> tuple[Node, ...]:
@@ -197,7 +212,10 @@ def _point(context: Context, shown: ConfigurationForms, point: Point, case: tupl
         Stability.UNDECIDED: "second derivatives alone do not decide",
     }[point.stability],)  # fmt: skip
     if point.conditions:
-        said = ("stable where ", side_by_side([shown.inequality(bound) for bound in point.conditions]))
+        said = say("stable where {all}", all=listed([*map(shown.inequality, point.conditions)]))
+    if point.falls:
+        fails = [shown.comparison(bound.value, "<") for bound in point.conditions]
+        said = say("{stable}, not stable where {fails}", stable=said, fails=listed(fails, "or"))
     steady = dict(context.robot.questions.model.steady)
     names = [context.robot.coordinates[k].name for k in point.neutral]
     free = [Symbol(name) for name in names if name not in steady]

@@ -22,6 +22,7 @@ from dynsolve.algebra.trig_factor import ratio, trig_factors
 from dynsolve.derivation.configuration_check import Condition as Equality
 from dynsolve.derivation.configuration_check import Conditions
 from dynsolve.derivation.configurations import Inverse, without_number
+from dynsolve.derivation.equilibria import SpecialCase
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.inverse.equations import Squared
 from dynsolve.derivation.inverse.subproblems import (
@@ -296,15 +297,25 @@ class ConfigurationForms:
             return ()
         return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
 
+    def special_forces(self, case: SpecialCase) -> tuple[Node, ...] | None:
+        """What must be 0 for special parameters, without what never is; None where it cannot be."""
+        if any(is_positive(force) or is_positive(-force) for force in case.forces):
+            return None
+        return tuple(dict.fromkeys(map(self.vanishing, case.forces)))
+
     def inequality(self, bound: Bound) -> Relation:
-        """l W² > g: what is positive of it on one side, what is negative on the other."""
-        ring = bound.value.ring
+        """l W² > g, with either side positive."""
+        return self.comparison(bound.value, ">" if bound.is_strict else "≥")
+
+    def comparison(self, value: Expr, sign: str) -> Relation:
+        """A value compared with 0: what is positive of it on one side, what is negative on the other."""
+        ring = value.ring
         sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
-        for exponents, factor in bound.value.poly.to_dict().items():
+        for exponents, factor in value.poly.to_dict().items():
             sides[factor < 0][exponents] = abs(factor)
         form = self.compactor(ring).form
         left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
-        return Relation((left, right), (">" if bound.is_strict else "≥",))
+        return Relation((left, right), (sign,))
 
     def existence(self, name: str, exist: Sequence[Sequence[Bound]]) -> Iterator[Prose]:
         """For which parameters the alternatives of a set are there that are not for all."""

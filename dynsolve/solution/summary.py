@@ -147,6 +147,7 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
         yield Table(step.table.header, step.table.rows)
     elif step.result:
         yield Equations(step.result)
+        yield from (Text(step.outcome),) if step.outcome and name == "equilibria" else ()
     else:
         told = tuple(one.outcome for one in steps if one.stage is step.stage and one.outcome)
         yield List(told or step.notes or (step.why,))

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.sampling import WIDEST
 from dynsolve.answers.judging.branches import BranchKey
@@ -33,6 +34,7 @@ from dynsolve.derivation.configuration_check import (
 )
 from dynsolve.derivation.equilibrium_check import balanced_forces, in_balance
 from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.derivation.reached import CLOSE
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.tree import Node
@@ -122,7 +124,15 @@ class ConfigurationKey:
     @cached_property
     def _equilibria(self) -> EquilibriumKey:
         forces = in_balance(self.robot, self.forms(balanced_forces(self.robot)))
-        return EquilibriumKey(self.robot, forces, self.shown.equilibria, self.numbers)
+        alternatives = self.shown.equilibria
+        if any(self._is_special(one.factor) for one in self.values["equilibria"].special):
+            alternatives = (tuple(forces),)
+        return EquilibriumKey(self.robot, forces, alternatives, self.numbers)
+
+    def _is_special(self, factor: Expr) -> bool:
+        """Whether a factor is 0 for the numbers of the problem, for which the equilibria are others."""
+        held = names_in(self.shown.comparison(factor, "="))
+        return held <= self.numbers.keys() and abs(evaluate(factor, self.numbers)) < CLOSE
 
     def _balance(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
         """Conditions that all hold: whether gravity is balanced where they do, and they do where it is."""

@@ -39,6 +39,13 @@ class Condition:
             return tuple(_at_length(other, index, factor, rest, even) for other in others)
         return tuple(other.ring.zero if self._divides(other) else self._remainder(other) for other in others)
 
+    def multiplier(self, others: Sequence[Expr]) -> Expr:
+        """What `reduced_together` multiplies by: the factor of a length that stands in one of the others."""
+        for index, factor, _ in self._length:
+            if any(other.poly.degrees()[index] > 0 for other in others if not other.is_zero):
+                return factor
+        return self.expr.ring.one
+
     def _remainder(self, other: Expr) -> Expr:
         """Another expression less a multiple of this one, where that is shorter."""
         rest = Expr(other.ring, other.ring.reduce(divmod(other.poly, self.expr.poly)[1]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -17,7 +17,7 @@ from dynsolve.derivation.parameter_signs import ParameterSigns
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.core import core
 from dynsolve.derivation.singular.losses import Loss, loss
-from dynsolve.derivation.singular.zeros import can_hold, follows
+from dynsolve.derivation.singular.zeros import can_hold, exceptions, follows, obstacles
 
 Alternative = tuple[Condition, ...]
 """Conditions that hold together."""
@@ -40,6 +40,31 @@ MOST_CORE_WORK = 30_000
 
 class TooLong(Exception):
     """There are more cases than are looked at."""
+
+
+@dataclass
+class Special:
+    """Polynomials in parameters that are divided out, or multiplied by: where one is 0 nothing is said.
+
+    `factors` are the irreducible ones that may be 0, by `signs`; `is_open` where there may be others.
+    """
+
+    signs: ParameterSigns
+    factors: dict[Expr, None] = field(default_factory=dict)
+    is_open: bool = False
+
+    def add(self, value: Expr) -> None:
+        """What must not be 0."""
+        self.factors |= dict.fromkeys(self.signs.open_factors(value))
+
+    def add_one_of(self, values: Sequence[Expr]) -> None:
+        """Values of which one must not be 0: that with the fewest terms in factors that may be."""
+        found = [[*self.signs.open_factors(value)] for value in values]
+        if not found:
+            self.is_open = True
+            return
+        for factor in min(found, key=lambda factors: sum(map(len, factors))):
+            self.add(factor)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,16 +134,17 @@ def existence(alternative: Alternative) -> tuple[Bound, ...] | None:
     return conditions([condition.expr for condition in alternative], ParameterSigns())
 
 
-def common_zeros(values: Sequence[Expr]) -> tuple[Alternative, ...]:
+def common_zeros(values: Sequence[Expr], special: Special | None = None) -> tuple[Alternative, ...]:
     """Where expressions are all 0: alternatives of as few conditions as say it, none within another.
 
-    Raises TooLong.
+    Where the parameters are `special` it may be elsewhere.  Raises TooLong.
     """
-    found = list(dict.fromkeys(map(_without_repeated, _Cases().of(tuple(values), ()))))
+    cases = _Cases(special)
+    found = list(dict.fromkeys(map(cases.without_repeated, cases.of(tuple(values), ()))))
     if any(sum(len(condition.expr) for condition in one) > MOST_CONDITION_TERMS for one in found):
         raise TooLong
     for one in list(found):
-        if any(other is not one and _implies(one, other) for other in found):
+        if any(other is not one and cases.implies(one, other) for other in found):
             found.remove(one)
     return tuple(_merged(found))
 
@@ -127,6 +153,7 @@ def common_zeros(values: Sequence[Expr]) -> tuple[Alternative, ...]:
 class _Cases:
     """The choices of a factor of each expression, and the terms that were looked at."""
 
+    special: Special | None = None
     terms: int = 0
 
     def of(self, values: tuple[Expr, ...], held: Alternative) -> Iterator[Alternative]:
@@ -135,38 +162,71 @@ class _Cases:
         if self.terms > MOST_CASE_TERMS:
             raise TooLong
         known = [condition.expr for condition in held]
-        left = [value for value in dict.fromkeys(values) if not follows(value, known)]
+        left = [value for value in dict.fromkeys(values) if not self._follows(value, known)]
         if not left:
             yield from self._settled(held)
             return
         choices = [[factor for factor, _ in trig_factors(value) if _may_vanish(factor)] for value in left]
-        for factor in min(choices, key=_effort):
+        chosen = min(choices, key=_effort)
+        self._divided(left[choices.index(chosen)])
+        for factor in chosen:
             condition, parts = Condition(factor), squares(factor)
             if len(parts) > 1:
                 yield from self.of((*parts, *left), held)
-            elif not held or can_hold([*known, factor]):
-                rest = tuple(condition.reduced(value) for value in left)
+            elif not held or self._can_hold([*known, factor]):
+                rest = tuple(self._reduced(value, condition) for value in left)
                 yield from self.of(rest, tuple(dict.fromkeys((*held, condition))))
 
     def _settled(self, held: Alternative) -> Iterator[Alternative]:
         """Conditions of which none makes another shorter, or gives it a value of a coordinate."""
         for known in sorted(held, key=lambda one: (not one.fixes_coordinate, one.fixes_length)):
-            others = {one: known.reduced(one.expr) for one in held if one is not known}
+            others = {one: self._reduced(one.expr, known) for one in held if one is not known}
             moved = {one: value for one, value in others.items() if value != one.expr}
             if moved:
                 yield from self.of(tuple(moved.values()), tuple(one for one in held if one not in moved))
                 return
         yield held
 
+    def without_repeated(self, alternative: Alternative) -> Alternative:
+        """An alternative without the conditions that follow from its others, the longest left out first."""
+        kept = list(alternative)
+        for condition in sorted(alternative, key=lambda one: -len(one.expr)):
+            others = [other.expr for other in kept if other is not condition]
+            if self._follows(condition.expr, others):
+                kept.remove(condition)
+        return tuple(kept)
 
-def _without_repeated(alternative: Alternative) -> Alternative:
-    """An alternative without the conditions that follow from its others, the longest left out first."""
-    kept = list(alternative)
-    for condition in sorted(alternative, key=lambda one: -len(one.expr)):
-        others = [other.expr for other in kept if other is not condition]
-        if follows(condition.expr, others):
-            kept.remove(condition)
-    return tuple(kept)
+    def implies(self, one: Alternative, other: Alternative) -> bool:
+        """Whether `other` holds wherever `one` does."""
+        known = [condition.expr for condition in one]
+        return all(condition in one or self._follows(condition.expr, known) for condition in other)
+
+    # -- what holds for general parameters alone ---------------------------------------------------
+
+    def _divided(self, value: Expr) -> None:
+        """The factors of parameters that are left out of an expression."""
+        if self.special is None:
+            return
+        for factor, _ in trig_factors(value):
+            if not factor.ring.depends_on_coordinates(factor):
+                self.special.add(factor)
+
+    def _reduced(self, value: Expr, condition: Condition) -> Expr:
+        if self.special is not None:
+            self.special.add(condition.multiplier([value]))
+        return condition.reduced(value)
+
+    def _follows(self, value: Expr, others: Sequence[Expr]) -> bool:
+        found = follows(value, others)
+        if found and self.special is not None:
+            self.special.add_one_of(exceptions(value, others))
+        return found
+
+    def _can_hold(self, values: Sequence[Expr]) -> bool:
+        found = can_hold(values)
+        if not found and self.special is not None:
+            self.special.add_one_of(obstacles(values))
+        return found
 
 
 def minors_work(matrix: Matrix, size: int) -> int:
@@ -182,12 +242,6 @@ def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
 def _may_vanish(factor: Expr) -> bool:
     """Whether a factor is 0 at some configuration, as far as its form shows."""
     return factor.ring.depends_on_coordinates(factor) and not is_positive(factor) and not is_positive(-factor)
-
-
-def _implies(one: Alternative, other: Alternative) -> bool:
-    """Whether `other` holds wherever `one` does."""
-    known = [condition.expr for condition in one]
-    return all(condition in one or follows(condition.expr, known) for condition in other)
 
 
 def _merged(alternatives: list[Alternative]) -> Iterator[Alternative]:

@@ -7,7 +7,7 @@ An expression f is 0 wherever others are, if these and t f = 1 have no solution 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from math import lcm
 from random import Random
@@ -35,23 +35,74 @@ def follows(value: Expr, others: Sequence[Expr]) -> bool:
     """Whether an expression is found to be 0 wherever the others are."""
     if value.is_zero or not others:
         return value.is_zero
-    inverted = {(*key, 1): number for key, number in _specialized(value).items()}
-    inverted[(0,) * (len(value.ring.generators) + 1)] = fmpq(-1)
+    inverted = _inverted(_specialized(value), value.ring)
     return _has_number([*map(_specialized, others), inverted], value.ring)
+
+
+def _inverted(terms: Terms, ring: Ring) -> Terms:
+    """t f - 1, with t behind the generators."""
+    inverted = {(*key, 1): number for key, number in terms.items()}
+    inverted[(0,) * (len(ring.generators) + 1)] = fmpq(-1)
+    return inverted
+
+
+def obstacles(values: Sequence[Expr]) -> list[Expr]:
+    """Polynomials in parameters alone that are found to be 0 wherever expressions are 0 together.
+
+    Where one of them is not 0 the expressions cannot hold together, whatever numbers the parameters are.
+    """
+    return _still([_exact_terms(value.ring, value.poly) for value in values], values[0].ring)
+
+
+def exceptions(value: Expr, others: Sequence[Expr]) -> list[Expr]:
+    """Polynomials in parameters alone: where one is not 0, `value` is 0 wherever the others are."""
+    ring = value.ring
+    if value.is_zero:
+        return [ring.one]
+    polys = [_exact_terms(ring, other.poly) for other in others]
+    return _still([*polys, _inverted(_exact_terms(ring, value.poly), ring)], ring)
+
+
+def _still(polys: Sequence[Terms], ring: Ring) -> list[Expr]:
+    """What a basis has that holds no coordinate, in one of two orders."""
+    still = [g.index for g in ring.generators if not ring.depends_on_coordinates(ring.generator(g.index))]
+    found: list[Expr] = []
+    for ordering in (Ordering.degrevlex, Ordering.lex):
+        used, basis = _basis(polys, ring, _exact_terms, ordering, still)
+        for poly in basis:
+            terms = [(dict(zip(used, key, strict=False)), number) for key, number in poly.to_dict().items()]
+            if all(i in still for powers, _ in terms for i, e in powers.items() if e):
+                plain = {tuple(powers.get(g.index, 0) for g in ring.generators): n for powers, n in terms}
+                found.append(Expr(ring, ring.reduce(ring.ctx.from_dict(plain))))
+        found = [value for value in found if not value.is_zero]
+        if found:
+            break
+    return found
 
 
 def _has_number(polys: Sequence[Terms], ring: Ring) -> bool:
     """Whether the Gröbner basis of polynomials and of the ring's relations is 1."""
+    _, basis = _basis(polys, ring, _with_numbers, Ordering.degrevlex, ())
+    return any(poly.is_constant() and poly for poly in basis)
+
+
+def _basis(
+    polys: Sequence[Terms],
+    ring: Ring,
+    terms_of: Callable[[Ring, fmpq_mpoly], Terms],
+    ordering: Ordering,
+    last: Sequence[int],
+) -> tuple[list[int], Any]:
+    """The generators that occur, those of `last` behind the others, and a basis in them."""
     places = {i for terms in polys for key in terms for i, e in enumerate(key) if e}
     for poly in ring.relations(places):
-        terms = _with_numbers(ring, poly)
+        terms = terms_of(ring, poly)
         places |= {i for key in terms for i, e in enumerate(key) if e}
         polys = [*polys, terms]
-    used = sorted(places)
-    ctx = fmpz_mpoly_ctx.get(("z", max(len(used), 1)), Ordering.degrevlex)
+    used = sorted(places, key=lambda i: (i in last, i))
+    ctx = fmpz_mpoly_ctx.get(("z", max(len(used), 1)), ordering)
     basis = fmpz_mpoly_vec([_whole(ctx, used, terms) for terms in polys if terms], ctx)
-    found: Any = basis.buchberger_naive(limits=LIMITS)[0]
-    return any(poly.is_constant() and poly for poly in found)
+    return used, basis.buchberger_naive(limits=LIMITS)[0]
 
 
 def _whole(ctx: Any, used: Sequence[int], terms: Terms) -> Any:
@@ -64,6 +115,11 @@ def _whole(ctx: Any, used: Sequence[int], terms: Terms) -> Any:
 
 def _specialized(value: Expr) -> Terms:
     return _with_numbers(value.ring, value.poly)
+
+
+def _exact_terms(_: Ring, poly: fmpq_mpoly) -> Terms:
+    """A polynomial as it is."""
+    return {tuple(int(e) for e in exponents): number for exponents, number in poly.to_dict().items()}
 
 
 def _with_numbers(ring: Ring, poly: fmpq_mpoly) -> Terms:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -71,3 +72,70 @@ def test_the_check_finds_what_is_wrong() -> None:
     with pytest.raises(VerificationError, match="stability"):
         verify_equilibria(robot, g, [Case(shown[0], turned)])
     assert Symbol("q1") not in shown[0]
+
+
+SEESAW = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  bodies:
+    - {mass: m1, at: [l1*cos(q1), l1*sin(q1), 0]}
+    - {mass: m2, at: [l3*cos(q2) - l2*cos(q1), l3*sin(q2) - l2*sin(q1), 0]}
+find: [equilibria]
+"""
+
+
+def of_energy(energy: str, names: str = "xyz") -> dict[str, Any]:
+    """What is told of unit masses on lines in this potential energy."""
+    kinds = ", ".join(f"{name}: prismatic" for name in names)
+    D = [[int(i == j) for j in names] for i in names]
+    model = f"model: {{coordinates: {{{kinds}}}, D: {D}, P: '{energy}'}}"
+    return dynsolve.solve(f"gravity: none\n{model}\nfind: [equilibria]\n").to_json()["results"]
+
+
+def test_a_factor_that_may_be_0_is_told_with_the_equilibria_there() -> None:
+    solution = dynsolve.solve(SEESAW)
+    results = solution.to_json()["results"]
+    assert results["equilibria"] == [["cos(q1) = 0", "cos(q2) = 0"]]
+    assert results["equilibria_special"] == [{"where": "m1*l1 = m2*l2", "equilibria": [["cos(q2) = 0"]]}]
+    (step,) = (step for step in solution.steps if step.id == "equilibria")
+    assert [str(note[0]) for note in step.notes] == ["These are the equilibria where ", "Where "]
+    assert "≠" in str(step.notes[0]) and "equilibria_special" not in dynsolve.solve(ARM).to_json()["results"]
+
+
+def test_an_answer_for_parameters_that_are_special_is_judged_by_the_forces() -> None:
+    values = "values: {m1: 2, l1: 1, m2: 1, l2: 2}\n"
+    for written, verdict in (("cos(q2) = 0", "correct"), ("cos(q1) = 0 and cos(q2) = 0", "wrong")):
+        report = dynsolve.check(SEESAW + values, f"answers:\n  equilibria: ['{written}']\n")
+        assert str(report.answers[0].verdict) == verdict
+
+
+@pytest.mark.parametrize(
+    ("energy", "special"),
+    [
+        ("a*x*y + b*x^2/2 + c*y^2/2 - d*x - e*y",
+         [{"where": "a**2 = b*c", "equilibria": [["a*y + b*x - d = 0", "a*x + c*y - e = 0"]]}]),
+        ("(a - b)*x^2 + (a - b)*y^2", [{"where": "a = b", "equilibria": [[]]}]),
+        ("(a - b)*x^2*y^2/2 + (a - b)*x*y", [{"where": "a = b", "equilibria": [[]]}]),
+        ("(a - b)*x^2 + c*y^2 + d*x", [{"where": "a = b", "equilibria": []}]),
+    ],
+)  # fmt: skip
+def test_what_is_multiplied_by_counts_too(energy: str, special: list[dict[str, Any]]) -> None:
+    assert of_energy(energy, "xy").get("equilibria_special", []) == special
+
+
+def test_a_negative_minor_of_any_size_decides() -> None:
+    """The minors of sizes 1 and 2 are positive, and x + y + z falls (by hand: 1 - 2·3/4 < 0)."""
+    energy = "x^2 + y^2 + z^2 - 3*(x*y + y*z + x*z)/2"
+    assert of_energy(energy)["equilibria_stability"] == [[{"stability": "unstable"}]]
+
+
+def test_only_where_both_sides_are_equal_nothing_is_decided() -> None:
+    (points,) = of_energy("a*x^2/2 - b*x^2/2 + (c - d)*y^2/2", "xy")["equilibria_stability"]
+    (point,) = points
+    assert point["stability"] == "undecided" and len(point["stable_if"]) == len(point["unstable_if"]) == 2
+
+
+def test_a_row_that_is_0_at_a_point_alone_leaves_nothing_neutral() -> None:
+    """P = y²/2 - x⁴ falls along x, where its second derivatives are 0."""
+    assert of_energy("c*y^2/2 - b*x^4", "xy")["equilibria_stability"] == [[{"stability": "undecided"}]]

@@ -52,7 +52,8 @@ def test_an_arm_that_is_turned_about_its_waist() -> None:
     assert found["_stability"] == [
         [{"stability": "stable"}],
         [{"q2": "pi/2", "stability": "unstable"},
-         {"q2": "-pi/2", "stability": "undecided", "stable_if": ["g > l*W**2"]}],
+         {"q2": "-pi/2", "stability": "undecided", "stable_if": ["g > l*W**2"],
+          "unstable_if": ["l*W**2 > g"]}],
     ]  # fmt: skip
 
 
@@ -69,7 +70,8 @@ def test_a_slider_leaves_the_spring_where_it_turns_too_fast() -> None:
     """k (q2 - r) = m 2² q2, stable where k > 4m (by hand)."""
     found = equilibria(SLIDER)
     assert found[""] == [["4*m*q2 - k*(q2 - r) = 0"]]
-    assert found["_stability"] == [[{"stability": "undecided", "stable_if": ["k > 4*m"]}]]
+    point = {"stability": "undecided", "stable_if": ["k > 4*m"], "unstable_if": ["4*m > k"]}
+    assert found["_stability"] == [[point]]
 
 
 def test_what_forces_across_the_motion_may_hold_is_not_called_unstable() -> None:
@@ -78,6 +80,9 @@ def test_what_forces_across_the_motion_may_hold_is_not_called_unstable() -> None
     assert point == {"stability": "undecided"}
     (point,) = equilibria(f"{PLATE}assume: [k > m*W^2]\n")["_stability"][0]
     assert point == {"stability": "stable"}
+    found = equilibria(PLATE)
+    assert found["_stability"] == [[{"stability": "undecided", "stable_if": ["k > m*W**2"]}]]
+    assert found["_special"] == [{"where": "m*W**2 = k", "equilibria": [[]]}]
 
 
 def test_angles_that_no_parameters_allow_are_left_out() -> None:
