@@ -1,24 +1,24 @@
-"""Steps of the forward kinematics: the table, A_i row by row, H_i as products."""
+"""Steps of the forward kinematics: the table, A_i row by row, H_i as products, the base in the world."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import inertia
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose, Reference, Table
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step
 from dynsolve.explain.working.identities import product_named
 from dynsolve.explain.writing import craig, is_small, listed, name_of, side_by_side, spong, turns
-from dynsolve.notation import tree
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,
-    Function,
     Letter,
-    Negative,
     Node,
     Number,
     Product,
@@ -32,13 +32,13 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import lowered
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body, Joint, JointType, Robot
+from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
 
 STAGE = Stage.KINEMATICS
 
 ROWS = Group("A", "The matrices of the rows")
 
-_ZERO, _ONE, _I = Number(0), Number(1), Symbol("i")
+_I = letters.COUNT
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -49,34 +49,48 @@ def steps(context: Context) -> Iterator[Step]:
     yield _general(context)
     for joint in context.robot.joints:
         yield _row(context, joint)
-    frames = Group("H", f"The frames seen from the {context.ground}", (*OUTWARDS, *_ORIGINS))
+    why = say(
+        "{outwards} The fourth column is the origin of the frame, the first three are its axes.",
+        outwards=OUTWARDS,
+    )
+    group = Group("H", f"The frames seen from the {context.ground}", why)
     for joint in context.robot.joints:
-        yield _frame(context, joint.index, frames)
+        yield replace(_frame(context, joint.index), group=group)
+
+
+# -- the table -------------------------------------------------------------------------------------
 
 
 def table_of(context: Context) -> Table:
     """The rows of the table as they are written."""
-    header: Prose = (_I, *letters.columns(context.robot, _I))
-    if context.robot.is_tree:
-        rows = ((str(joint.index), str(joint.parent), *joint.written) for joint in context.robot.joints)
-        return Table((header[0], "from", *header[1:]), tuple(rows))
-    return Table(header, tuple((str(joint.index), *joint.written) for joint in context.robot.joints))
+    robot = context.robot
+    rows: list[Prose] = [
+        (str(joint.index), *([str(joint.parent)] if robot.is_tree else []), *joint.written)
+        for joint in robot.joints
+    ]
+    return Table((_I, *(["from"] if robot.is_tree else []), *letters.columns(robot, _I)), tuple(rows))
 
 
 def _table(context: Context) -> Step:
-    robot, why = context.robot, _four_motions(context)
+    robot = context.robot
+    stars: Prose = ()
     if any(joint.type for joint in robot.joints):
-        why += ("The star only marks a joint variable, and may be left out. Here ", *_kinds(context))
-    if is_numeric(context.robot):
-        why += (" Lengths are in m.",)
+        stars = say(
+            "The star only marks a joint variable, and may be left out. Here {kinds}.", kinds=_kinds(robot)
+        )
     return Step(
         id="dh",
         stage=STAGE,
         title="Denavit-Hartenberg table",
-        why=why,
-        source=spong("3.2") if context.standard else craig("3.4"),
+        why=say(
+            "{motions} {stars}{numbers}",
+            motions=_four_motions(context),
+            stars=stars,
+            numbers=" Lengths are in m." if is_numeric(robot) else "",
+        ),
+        source=_of_conventions(context, "3.2", "3.4"),
         result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
-        notes=tuple(_table_notes(context)),
+        notes=tuple(_table_notes(robot)),
         table=table_of(context),
         detail=Detail.FULL if context.normals else Detail.BRIEF,
         normal=Part.WHY | Part.NOTES,
@@ -84,40 +98,49 @@ def _table(context: Context) -> Step:
     )
 
 
+def _of_conventions(context: Context, standard: str, modified: str) -> str:
+    """A section of the book whose convention the table is in."""
+    return spong(standard) if context.standard else craig(modified)
+
+
 def _four_motions(context: Context) -> Prose:
     """How a row leads from a frame to the next, in the order of its convention."""
     theta, d, a, alpha = letters.columns(context.robot, _I)
     is_tree = context.robot.is_tree
-    start = "the frame in the column `from`" if is_tree else "frame i-1"
-    of = " of the former" if is_tree else ""
     x, z = (letters.bold(name, None if is_tree else letters.BEFORE) for name in "xz")
-    if context.standard:
-        return (f"In the standard convention (Spong) row i leads from {start} to frame i by a rotation by ",
-                theta, " about ", z, f"{of}, a translation by ", d, " along it, a translation by ", a,
-                " along ", letters.bold("x", _I), " and a rotation by ", alpha, " about that. ")  # fmt: skip
-    return (f"In the modified convention (Craig) row i leads from {start} to frame i by a rotation by ",
-            alpha, " about ", x, f"{of}, a translation by ", a, " along it, a rotation by ", theta, " about ",
-            letters.bold("z", _I), " and a translation by ", d, " along that. Craig numbers ", a, " and ",
-            alpha, " of row i by ", letters.BEFORE, ". ")  # fmt: skip
+    return say(
+        "In the standard convention (Spong) row i leads from {start} to frame i by a rotation by {theta} "
+        "about {z}{of}, a translation by {d} along it, a translation by {a} along $𝐱_i$ and a rotation by "
+        "{alpha} about that."
+        if context.standard
+        else "In the modified convention (Craig) row i leads from {start} to frame i by a rotation by "
+        "{alpha} about {x}{of}, a translation by {a} along it, a rotation by {theta} about $𝐳_i$ and a "
+        "translation by {d} along that. Craig numbers {a} and {alpha} of row i by $i - 1$.",
+        start="the frame in the column `from`" if is_tree else "frame i-1",
+        of=" of the former" if is_tree else "",
+        theta=theta,
+        d=d,
+        a=a,
+        alpha=alpha,
+        x=x,
+        z=z,
+    )
 
 
-def _kinds(context: Context) -> Prose:
+def _kinds(robot: Robot) -> Prose:
     """Which coordinates are angles, which lengths."""
-    robot = context.robot
-    turning = [Symbol(q.name) for q in robot.coordinates if turns(q)]
-    sliding = [Symbol(q.name) for q in robot.coordinates if not turns(q)]
-    prose: Prose = ()
-    if turning:
-        what = "is an angle (revolute joint)" if len(turning) == 1 else "are angles (revolute joints)"
-        prose += (*listed(turning), f" {what}")
-    if sliding:
-        what = "is a length (prismatic joint)" if len(sliding) == 1 else "are lengths (prismatic joints)"
-        prose += (*(("; ",) if turning else ()), *listed(sliding), f" {what}")
-    return (*prose, ".")
+    told: list[Prose] = []
+    for turning, one, many in (
+        (True, "is an angle (revolute joint)", "are angles (revolute joints)"),
+        (False, "is a length (prismatic joint)", "are lengths (prismatic joints)"),
+    ):
+        names = [Symbol(q.name) for q in robot.coordinates if turns(q) is turning]
+        if names:
+            told.append(say("{names} {are}", names=listed(names), are=one if len(names) == 1 else many))
+    return say("{one}; {other}", one=told[0], other=told[1]) if len(told) == 2 else told[0]
 
 
-def _table_notes(context: Context) -> Iterator[Prose]:
-    robot = context.robot
+def _table_notes(robot: Robot) -> Iterator[Prose]:
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
     if len(fixed) == 1:
         yield (f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the frame before it.",)
@@ -125,68 +148,60 @@ def _table_notes(context: Context) -> Iterator[Prose]:
         yield ("Rows ", *listed(fixed), " have no star: frames that are each fixed in the one before it.")
     shared = [str(joint.index) for joint in robot.joints if len(joint.rates) > 1]
     if len(shared) == 1:
-        yield (f"The joint variable of row {shared[0]} is not a coordinate itself but a combination of "
-               "coordinates: its column of the Jacobian is shared out among them.",)  # fmt: skip
+        yield say(
+            "The joint variable of row {row} is not a coordinate itself but a combination of coordinates: "
+            "its column of the Jacobian is shared out among them.",
+            row=shared[0],
+        )
     elif shared:
-        yield ("The joint variables of rows ", *listed(shared), " are not coordinates themselves but "
-               "combinations of coordinates: their columns of the Jacobian are shared out among "
-               "these.")  # fmt: skip
+        yield say(
+            "The joint variables of rows {rows} are not coordinates themselves but combinations of "
+            "coordinates: their columns of the Jacobian are shared out among these.",
+            rows=listed(shared),
+        )
     for joint in robot.joints:
         if len(joint.rates) == 1 and joint.rates[0][1] != 1:
             ((k, rate),) = joint.rates
-            name = Symbol(robot.coordinates[k].name)
-            yield (
-                f"The joint of row {joint.index} moves at ",
-                number(rate),
-                " times the rate of ",
-                name,
-                ".",
-            )
+            words = "The joint of row {row} moves at {rate} times the rate of {q}."
+            yield say(words, row=joint.index, rate=number(rate), q=Symbol(robot.coordinates[k].name))
 
 
-def _cos(angle: Node) -> Node:
-    return Function("cos", angle)
+# -- the matrices of the rows ----------------------------------------------------------------------
 
+_MATRIX = {
+    Convention.STANDARD: "[cos {theta}, -sin {theta} cos {alpha}, sin {theta} sin {alpha}, {a} cos {theta};"
+    "sin {theta}, cos {theta} cos {alpha}, -cos {theta} sin {alpha}, {a} sin {theta};"
+    "0, sin {alpha}, cos {alpha}, {d}; 0, 0, 0, 1]",
+    Convention.MODIFIED: "[cos {theta}, -sin {theta}, 0, {a};"
+    "sin {theta} cos {alpha}, cos {theta} cos {alpha}, -sin {alpha}, -{d} sin {alpha};"
+    "sin {theta} sin {alpha}, cos {theta} sin {alpha}, cos {alpha}, {d} cos {alpha}; 0, 0, 0, 1]",
+}
+"""The product of the four motions of a row."""
 
-def _sin(angle: Node) -> Node:
-    return Function("sin", angle)
-
-
-def _times(*factors: Node) -> Node:
-    return Product(factors)
+_MOTION = {
+    ("x", True): "[1, 0, 0, 0; 0, cos {x}, -sin {x}, 0; 0, sin {x}, cos {x}, 0; 0, 0, 0, 1]",
+    ("z", True): "[cos {x}, -sin {x}, 0, 0; sin {x}, cos {x}, 0, 0; 0, 0, 1, 0; 0, 0, 0, 1]",
+    ("x", False): "[1, 0, 0, {x}; 0, 1, 0, 0; 0, 0, 1, 0; 0, 0, 0, 1]",
+    ("z", False): "[1, 0, 0, 0; 0, 1, 0, 0; 0, 0, 1, {x}; 0, 0, 0, 1]",
+}
+"""The rotation about an axis, or the translation along it."""
 
 
 def _general(context: Context) -> Step:
     theta, d, a, alpha = letters.columns(context.robot, _I)
-    if context.standard:
-        rows: tuple[tuple[Node, ...], ...] = (
-            (_cos(theta), Negative(_times(_sin(theta), _cos(alpha))), _times(_sin(theta), _sin(alpha)),
-             _times(a, _cos(theta))),
-            (_sin(theta), _times(_cos(theta), _cos(alpha)), Negative(_times(_cos(theta), _sin(alpha))),
-             _times(a, _sin(theta))),
-            (_ZERO, _sin(alpha), _cos(alpha), d),
-        )  # fmt: skip
-        motions = (("z", theta), ("z", d), ("x", a), ("x", alpha))
-    else:
-        rows = (
-            (_cos(theta), Negative(_sin(theta)), _ZERO, a),
-            (_times(_sin(theta), _cos(alpha)), _times(_cos(theta), _cos(alpha)), Negative(_sin(alpha)),
-             Negative(_times(d, _sin(alpha)))),
-            (_times(_sin(theta), _sin(alpha)), _times(_cos(theta), _sin(alpha)), _cos(alpha),
-             _times(d, _cos(alpha))),
-        )  # fmt: skip
-        motions = (("x", alpha), ("x", a), ("z", theta), ("z", d))
-    product = Product(tuple(motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
-    in_full = Product(tuple(_motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
-    matrix = tree.Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
-    name = Letter("A", _I, style="bold")
+    z, x = (("z", theta, True), ("z", d, False)), (("x", a, False), ("x", alpha, True))
+    motions = (*z, *x) if context.standard else (*reversed(x), *z)
+    product = Product(tuple(motion(*each) for each in motions))
+    in_full = Product(tuple(formula(_MOTION[axis, turns], x=amount) for axis, amount, turns in motions))
+    matrix = formula(_MATRIX[context.robot.convention], theta=theta, d=d, a=a, alpha=alpha)
+    name = formula("𝐀_i")
     return Step(
         id="A",
         stage=STAGE,
         title="The matrix of a row",
         why=("The product of the four motions, into which the entries of each row are put.",),
         formula=equation(name, product),
-        source=spong("3.2") if context.standard else craig("3.5"),
+        source=_of_conventions(context, "3.2", "3.5"),
         working=(equation(name, in_full),) if context.is_short else (),
         normal=STATED | Part.WHY,
         task=equation(name, product, matrix),
@@ -194,36 +209,21 @@ def _general(context: Context) -> Step:
     )
 
 
-def _motion(axis: str, amount: Node, turns: bool) -> tree.Matrix:
-    """The 4×4 matrix of a rotation about an axis, x or z, or of a translation along it."""
-    rows: list[list[Node]] = [[_ONE if i == j else _ZERO for j in range(4)] for i in range(4)]
-    first, second, along = (1, 2, 0) if axis == "x" else (0, 1, 2)
-    if turns:
-        rows[first][first] = rows[second][second] = _cos(amount)
-        rows[first][second], rows[second][first] = Negative(_sin(amount)), _sin(amount)
-    else:
-        rows[along][3] = amount
-    return tree.Matrix(tuple(map(tuple, rows)))
-
-
 def _row(context: Context, joint: Joint) -> Step:
     i = joint.index
     columns = letters.columns(context.robot, Number(i))
     given = side_by_side([equation(*pair) for pair in zip(columns, joint.written, strict=True)])
-    general = Reference(("A",), " in ")
-    match joint.type:
-        case JointType.REVOLUTE:
-            why: Prose = ("Only ", columns[0], " varies", general, ": a revolute joint.")
-        case JointType.PRISMATIC:
-            why = ("Only ", columns[1], " varies", general, ": a prismatic joint.")
-        case None:
-            why = ("Nothing varies", general, ": a fixed frame.")
+    what, kind = {
+        JointType.REVOLUTE: (say("Only {theta} varies", theta=columns[0]), "a revolute joint"),
+        JointType.PRISMATIC: (say("Only {d} varies", d=columns[1]), "a prismatic joint"),
+        None: (("Nothing varies",), "a fixed frame"),
+    }[joint.type]
     return Step(
         id=f"A{i}",
         stage=STAGE,
         title=f"Row {i} of the table: A{lowered(str(i))}",
-        why=why,
-        source=spong("3.2") if context.standard else craig("3.4"),
+        why=(*what, Reference(("A",), " in "), f": {kind}."),
+        source=_of_conventions(context, "3.2", "3.4"),
         working=(given, *_folded(context, joint)),
         task=given,
         result=(equation(letters.A(i), context.form(f"A{i}")),),
@@ -240,88 +240,75 @@ def _folded(context: Context, joint: Joint) -> Iterator[Node]:
         if isinstance(node, Symbol) or not (angle.degrees or angle.terms):
             continue
         if isinstance(node, Number | Degrees) or angle.degrees:
-            shown.append(equation(_cos(node), context.show(ring.cos(angle))))
-            shown.append(equation(_sin(node), context.show(ring.sin(angle))))
+            shown.append(formula("cos {x} = {c}", x=node, c=context.show(ring.cos(angle))))
+            shown.append(formula("sin {x} = {s}", x=node, s=context.show(ring.sin(angle))))
     if shown:
         yield side_by_side(shown)
 
 
-def _frame(context: Context, i: int, frames: Group) -> Step:
-    robot = context.robot
-    last = i == len(robot.joints)
-    start = robot.joints[i - 1].parent
-    A, before, H = context.form(f"A{i}"), context.form(f"H{start}"), context.form(f"H{i}")
-    name = letters.H(robot, i)
-    detail = Detail.BRIEF if last else Detail.NORMAL
-    if start == 0 and not letters.has_base(robot):
-        which = "The first frame" if i == 1 else f"Frame {i}"
-        return Step(
-            id=f"H{i}",
-            stage=STAGE,
-            title=f"Frame {i} seen from the base",
-            why=(f"{which} is seen from frame 0 itself, so no product is needed.",),
-            source=_products(context),
-            result=(equation(name, letters.A(i), H),),
-            detail=Detail.BRIEF if last else Detail.FULL,
-            group=frames,
-        )
-    chain = [letters.A(joint.index) for joint in robot.path(i)]
-    if letters.has_base(robot):
-        chain = [letters.H(robot, 0), *chain]
-    is_row = len(robot.path(start)) == 1 and not letters.has_base(robot)  # of which H is A itself
-    working = Product((letters.A(start) if is_row else letters.H(robot, start), letters.A(i)))
-    members: list[Node] = [name, working]
-    if is_small(A, before):
-        members.append(Product((before, A)))
-    return Step(
-        id=f"H{i}",
-        stage=STAGE,
-        title=f"Frame {i} seen from the {context.ground}",
-        why=_frame_why(context, tells=not _multiplied_before(context, i)) if last else OUTWARDS,
-        formula=equation(name, Product(tuple(chain))) if last or len(chain) > 2 else None,
-        source=_products(context),
-        working=(equation(*members),),
-        concluding=product_named(context, *(context.values[key] for key in (f"H{start}", f"A{i}", f"H{i}"))),
-        result=(equation(name, H),),
-        uses=(f"A{start}", f"A{i}") if is_row else None,
-        task=equation(name, working) if i > 1 else None,
-        detail=detail,
-        normal=WORKED,
-        group=frames,
-    )
+# -- the frames seen from the base -----------------------------------------------------------------
 
-
-def _products(context: Context) -> str:
-    """Where the textbook of the convention multiplies the rows' matrices."""
-    return spong("3.1") if context.standard else craig("3.5")
-
-
-def _multiplied_before(context: Context, i: int) -> bool:
-    """Whether a frame before frame i is a product too."""
-    return letters.has_base(context.robot) or any(joint.parent for joint in context.robot.joints[: i - 1])
-
-
-OUTWARDS: Prose = (
-    "Each ",
-    Letter("A", style="bold"),
-    " leads one frame further along the arm, so it multiplies from the right.",
-)
+OUTWARDS = say("Each $𝐀$ leads one frame further along the arm, so it multiplies from the right.")
 """Why the matrices of the rows stand in this order."""
 
 
-_ORIGINS: Prose = (" The fourth column is the origin of the frame, the first three are its axes.",)
+def _frame(context: Context, i: int) -> Step:
+    robot, has_base = context.robot, letters.has_base(context.robot)
+    last, start = i == len(robot.joints), robot.joints[i - 1].parent
+    name, H = letters.H(robot, i), context.form(f"H{i}")
+    step = Step(
+        id=f"H{i}",
+        stage=STAGE,
+        title=f"Frame {i} seen from the {context.ground}",
+        source=_of_conventions(context, "3.1", "3.5"),
+        result=(equation(name, H),),
+        detail=Detail.BRIEF if last else Detail.NORMAL,
+    )
+    if start == 0 and not has_base:
+        return replace(
+            step,
+            why=(
+                f"{'The first frame' if i == 1 else f'Frame {i}'} is seen from frame 0 itself, so no product "
+                "is needed.",
+            ),
+            result=(equation(name, letters.A(i), H),),
+            detail=Detail.BRIEF if last else Detail.FULL,
+        )
+    chain: list[Node] = [letters.A(joint.index) for joint in robot.path(i)]
+    if has_base:
+        chain.insert(0, letters.H(robot, 0))
+    is_row = len(robot.path(start)) == 1 and not has_base  # of which H is A itself
+    product = Product((letters.A(start) if is_row else letters.H(robot, start), letters.A(i)))
+    A, before = context.form(f"A{i}"), context.form(f"H{start}")
+    values = (Product((before, A)),) if is_small(A, before) else ()
+    return replace(
+        step,
+        why=_last_why(context) if last else OUTWARDS,
+        formula=equation(name, Product(tuple(chain))) if last or len(chain) > 2 else None,
+        working=(equation(name, product, *values),),
+        concluding=product_named(context, *(context.values[key] for key in (f"H{start}", f"A{i}", f"H{i}"))),
+        uses=(f"A{start}", f"A{i}") if is_row else None,
+        task=equation(name, product) if i > 1 else None,
+        normal=WORKED,
+    )
 
 
-def _frame_why(context: Context, tells: bool) -> Prose:
-    """What the last frame tells, and of which point; with `tells` why the matrices stand in this order."""
-    why: Prose = (f"The fourth column is where {context.end} is, the first three ",)
-    why = (*OUTWARDS, " ", *why) if tells else why
-    if not context.robot.ends_in_a_joint:
-        return (*why, "how that frame is turned." if context.robot.is_tree else "how it is turned.")
-    return (
-        *why,
-        "how that frame is turned. In the modified convention it lies in the last joint: the end of the arm "
-        "would need a row of its own, without a star.",
+_ENDS_IN_A_JOINT = (
+    " In the modified convention it lies in the last joint: the end of the arm would need a row of its own, "
+    "without a star."
+)
+
+
+def _last_why(context: Context) -> Prose:
+    """What the last frame tells, and of which point; if no frame before it is a product, why this order."""
+    robot = context.robot
+    is_told = letters.has_base(robot) or any(joint.parent for joint in robot.joints[:-1])
+    return say(
+        "{outwards}The fourth column is where {end} is, the first three how {what} is turned.{ends}",
+        outwards=() if is_told else (*OUTWARDS, " "),
+        end=context.end,
+        what="that frame" if robot.is_tree or robot.ends_in_a_joint else "it",
+        ends=_ENDS_IN_A_JOINT if robot.ends_in_a_joint else "",
     )
 
 
@@ -333,15 +320,13 @@ def motion(axis: str, amount: Node, turns: bool) -> Node:
     return Letter("Rot" if turns else "Trans", _along(axis, amount), style="upright")
 
 
-def elementary_rotation(axis: str, angle: Node) -> Node:
-    """R_{z,θ}: the 3×3 part of Rot_{z,θ}."""
-    return Letter("R", _along(axis, angle), style="bold")
-
-
 def turned(turns: Sequence[tuple[str, Node]]) -> Node:
-    """R_{z,θ} R_{x,α}: elementary rotations one after the other."""
-    factors = tuple(elementary_rotation(axis, angle) for axis, angle in turns)
-    return Product(factors) if len(factors) > 1 else factors[0]
+    """R_{z,θ} R_{x,α}: elementary rotations, 3×3 parts of Rot_{z,θ}, one after the other."""
+    return _product([letters.bold("R", _along(axis, angle)) for axis, angle in turns])
+
+
+def _product(factors: Sequence[Node]) -> Node:
+    return Product(tuple(factors)) if len(factors) > 1 else factors[0]
 
 
 def _along(axis: str, amount: Node) -> Row:
@@ -350,29 +335,28 @@ def _along(axis: str, amount: Node) -> Row:
 
 def base_step(context: Context) -> Step:
     """H_0, the product of how frame 0 is moved and turned, as the problem writes it."""
-    robot = context.robot
-    H, turned = letters.H(robot, 0), robot.base_rotation
-    moved = tuple(
-        motion(axis, context.show(entry), False)
-        for axis, entry in zip("xyz", robot.base_position.entries, strict=True)
-        if not entry.is_zero
-    )
-    is_turned = turned != turned.identity(robot.ring, 3)
-    how = " and ".join([*["turned"] * is_turned, *["moved"] * bool(moved)])
-    why: Prose = (f"Gravity is given in the world w, in which frame 0 is {how}. ",)
-    factors = (*moved, *(motion(axis, angle, True) for axis, angle in robot.base_turns))
+    robot, H = context.robot, letters.H(context.robot, 0)
+    along = zip("xyz", robot.base_position.entries, strict=True)
+    moved = [motion(axis, context.show(entry), False) for axis, entry in along if not entry.is_zero]
+    is_turned = robot.base_rotation != Matrix.identity(robot.ring, 3)
+    factors = [*moved, *(motion(axis, angle, True) for axis, angle in robot.base_turns)]
     is_whole = bool(robot.base_turns) or not is_turned
+    way = ""
     if not is_whole:
-        why += ("Its axes are the columns of the rotation that the problem gives. ",)
+        way = " Its axes are the columns of the rotation that the problem gives."
     elif len(factors) > 1:
-        why += ("Each motion is along or about an axis of the frame that those before it have led to. ",)
-    why += ("The heights, and the vectors below where nothing else is said, are in world coordinates.",)
+        way = " Each motion is along or about an axis of the frame that those before it have led to."
     return Step(
         id="H0",
         stage=Stage.KINEMATICS,
         title="The base frame in the world",
-        why=why,
-        formula=equation(H, Product(factors) if len(factors) > 1 else factors[0]) if is_whole else None,
+        why=say(
+            "Gravity is given in the world w, in which frame 0 is {how}.{way} The heights, and the vectors "
+            "below where nothing else is said, are in world coordinates.",
+            how=" and ".join([*["turned"] * is_turned, *["moved"] * bool(moved)]),
+            way=way,
+        ),
+        formula=equation(H, _product(factors)) if is_whole else None,
         source=spong("2.7"),
         result=(equation(H, context.form("H0")),),
         notes=tuple(_matters_to(robot)),
@@ -394,39 +378,37 @@ def _matters_to(robot: Robot) -> Iterator[Prose]:
 
 def product_of_axes(context: Context, body: Body) -> Node | None:
     """The rotation as the problem writes it, behind that of the base where there is one; None of a matrix."""
-    robot = context.robot
-    base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
-    turns = tuple(elementary_rotation(axis, angle) for axis, angle in body.axes.turns)
-    turns = turns or ((context.show(body.axes.rotation),) if base else ())
-    factors = (*base, *turns)
-    return None if not factors else Product(factors) if len(factors) > 1 else factors[0]
+    base = [letters.R(context.robot, 0)] if letters.has_base(context.robot) else []
+    own = [turned([turn]) for turn in body.axes.turns]
+    if base and not own:
+        own = [context.show(body.axes.rotation)]
+    return _product([*base, *own]) if own else None
 
 
 def why_axes(context: Context, body: Body) -> Prose:
     """That the problem gives the axes, and how they lie in the frame of the link."""
     given = f"The problem gives the axes of {name_of(body)} from the base. "
-    frame = f"frame {body.link}"
-    H = context.values[f"H{body.link}"]
+    H, frame = context.values[f"H{body.link}"], f"frame {body.link}"
     if not inertia.turns_with_link(context.robot, body, H):
         return (given, f"They do not turn with link {body.link}.")
     relative = rotation(H).T @ inertia.body_rotation(context.robot, body, H)
     if relative == Matrix.identity(relative.ring, 3):
         return (given, f"They are those of {frame}.")
-    not_equal: Prose = (letters.of_body("R", body, "bold"), " is not ", letters.R(context.robot, body.link))
     told = list(_parallel(relative, body.link))
-    if len(told) < 3:
-        return (given, f"They are turned in {frame}, and fixed in the same link: ", *not_equal, ".")
-    return (given, f"They are not those of {frame}: ", *listed(told), ", so ", *not_equal, ".")
+    words = "They are turned in {frame}, and fixed in the same link: {R} is not {of_link}."
+    if len(told) == 3:
+        words = "They are not those of {frame}: {told}, so {R} is not {of_link}."
+    R, of_link = letters.of_body("R", body, "bold"), letters.R(context.robot, body.link)
+    return (given, *say(words, frame=frame, told=listed(told), R=R, of_link=of_link))
 
 
 def _parallel(relative: Matrix, link: int) -> Iterator[Prose]:
     """Of each axis of the frame, the axis of the body that it lies along; none where one is oblique."""
-    one = relative.ring.one
     for i, axis in enumerate("xyz"):
         along = [(j, entry) for j, entry in enumerate(relative.rows[i]) if not entry.is_zero]
         if len(along) != 1:
             return
         ((j, entry),) = along
         lies, whose = ("lies along", "the body's") if i == 0 else ("along", "its")
-        name = Letter(axis, letters.index_of(str(link)), style="bold")
-        yield (name, f" {lies} {whose} {'' if entry == one else '-'}{'xyz'[j]}")
+        minus = "" if entry == relative.ring.one else "-"
+        yield (letters.bold(axis, Number(link)), f" {lies} {whose} {minus}{'xyz'[j]}")
