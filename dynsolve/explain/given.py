@@ -7,6 +7,7 @@ alone: the table or the bodies, what acts on them, what is asked, and what the s
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -115,6 +116,7 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
         yield from _axes(problem.normals)
     elif robot.has_table:
         yield (*_table(forms), ".")
+        yield _angles(robot)
     else:
         yield from _model(forms)
     if robot.has_table and 0 < len(robot.bodies) <= MOST_BODIES:
@@ -158,6 +160,23 @@ def _table(forms: Forms) -> Prose:
         return (f"{what}, and mass, mass centre and inertia tensor of {count} rigid bodies",)
     told = tuple(part for body in robot.bodies for part in ("; ", *_body(forms, body)))
     return (f"{what} and {_COUNTS[count]}: ", *told[1:])
+
+
+def _angles(robot: Robot) -> Prose:
+    """In the table θ of row 2 is θ₂ + 30°; nothing of right angles."""
+    told: list[Prose] = []
+    for joint in robot.joints:
+        theta, _, _, alpha = letters.columns(robot, Number(joint.index))
+        for letter, angle, written in (
+            (theta, joint.theta, joint.written[0]),
+            (alpha, joint.alpha, joint.written[3]),
+        ):
+            if angle.degrees % 90:
+                plain = mapped(
+                    written, lambda node: replace(node, star=False) if isinstance(node, Symbol) else node
+                )
+                told.append((letter, f" of row {joint.index} is ", plain))
+    return ("In the table ", *listed(told), ".") if told else ()
 
 
 def _joints(robot: Robot) -> str:
@@ -399,7 +418,7 @@ def _base(forms: Forms) -> Prose:
     told += [("turned ", angle, axis) for axis, angle in robot.base_turns]
     is_turned = robot.base_rotation != robot.base_rotation.identity(robot.ring, 3)
     if len(told) > 2 or (is_turned and not robot.base_turns):
-        return ("How frame 0 is placed in the world is given (1.2). ",)
+        return ("Frame 0, seen from the world w, is ", equation(letters.H(robot, 0), forms("H0")), ". ")
     how: Prose = ("Frame 0 is ",)
     for place, (verb, size, axis) in enumerate(told):
         by = verb if not place or verb != told[place - 1][0] else ""
@@ -425,7 +444,12 @@ def _weight(forms: Forms) -> Prose:
         return ("There is no gravity",)
     if len(along) > 1:
         ground = "the world" if in_world else "frame 0"
-        return say("$𝐠_0$, the acceleration of gravity, is along no axis of {ground}", ground=ground)
+        entries = robot.gravity.entries
+        vector = _flat(map(forms.of, entries))
+        if all(entry.is_number for entry in entries):
+            vector = Row((vector, Words(" "), units.node("m/s^2")))
+        text = "The acceleration of gravity is {gravity} along the axes of {ground}"
+        return say(text, gravity=equation(letters.GRAVITY, vector), ground=ground)
     ((axis, entry),) = along
     opposite = leads_with_minus(entry)
     size = -entry if opposite else entry

@@ -23,7 +23,7 @@ from dynsolve.notation.tree import Node, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import kinematic_families, letters
 from dynsolve.quantities.index import quantities
-from dynsolve.quantities.robot_stages import stages_of
+from dynsolve.quantities.robot_stages import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
 
@@ -46,9 +46,10 @@ def hint_document(title: str, context: Context, stage: str) -> Document:
     asked = Stage(stage)
     if asked not in stages_of(context.robot):
         raise UsageError(_why_absent(context, asked))
+    heading = heading_of(asked, context.robot)
     return Document((
         Heading(title, 1),
-        Heading(f"Hint: {asked.heading[0].lower()}{asked.heading[1:]}"),
+        Heading(f"Hint: {heading[0].lower()}{heading[1:]}"),
         *_given(context, asked),
         *_tasks(context, asked),
         *_look_out(context, asked),

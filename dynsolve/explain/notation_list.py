@@ -18,7 +18,7 @@ from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line,
 from dynsolve.explain.writing import agreeing, listed, side_by_side
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.tree import Function, Letter, Node, Relation, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
@@ -104,15 +104,38 @@ class Notation:
         )
         return Table(("Symbol", "Meaning", "Unit"), rows)
 
-    @property
-    def sentence(self) -> Prose:
-        """The lines as a sentence, and what is said of all signs."""
-        prose: list[Inline] = ["Notation: "]
-        for place, line in enumerate(self.lines):
-            unit: Prose = (" (", unit_node(line.unit), ")") if line.unit else ()
-            what = (line.sign, f" {words}") if isinstance(words := line.words, str) else (words,)
-            prose += (*(("; ",) if place else ()), *what, *unit)
-        return (*prose, ". ", *self.remarks)
+
+def in_a_sentence(lines: Iterable[Line]) -> Prose:
+    """Notation: ℛ Rayleigh's dissipation function (W); 𝛕_f column of the friction."""
+    told: Prose = ()
+    for line in lines:
+        unit: Prose = (" (", unit_node(line.unit), ")") if line.unit else ()
+        told += ("; ", line.sign, f" {line.words}", *unit)
+    return ("Notation: ", *told[1:], ".")
+
+
+def letters_beside(
+    robot: Robot, style: Style, shown: Sequence[Block], stated: Iterable[Block]
+) -> tuple[Line, ...]:
+    """The textbook's letters in blocks that go beyond the course, and that no equation there defines."""
+    occurring = kinds_in(formulas_in(shown), style)
+    told = set(_defined(formulas_in(shown), style)) | kinds_in(formulas_in(stated), style)
+    own = {("", "name", name) for name in (*robot.parameters, *(q.name for q in robot.coordinates))}
+    lines = [(line, (line.kinds & occurring) - told - own) for line in textbook(robot, style, beside=True)]
+    found = [
+        line.of(kinds if not line.each else kinds | {kind_of(line.signs[0], style)}, style)
+        for line, kinds in lines
+        if kinds  # with the first sign, as the words of others go on from its: their entries
+    ]
+    return _merged(found)
+
+
+def _defined(nodes: Iterable[Node], style: Style) -> Iterator[Kind]:
+    """What stands alone on the left of an equation."""
+    for node in nodes:
+        for part in node.parts if isinstance(node, Row) else (node,):
+            if isinstance(part, Relation):
+                yield from (kind for left in part.parts[:-1] if (kind := kind_of(left, style)))
 
 
 def notation(

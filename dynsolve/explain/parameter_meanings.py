@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from fractions import Fraction
 from string import ascii_letters, digits
 
 from dynsolve.algebra.angles import names_of
@@ -146,6 +147,9 @@ def _dimensions(robot: Robot) -> dict[str, str]:
 
 def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
     """What a parameter is that may stand in several places: in two rows, of two bodies, about two axes."""
+    if role is Role.SHAPE:  # r is the inner radius, if it is half the outer one as well
+        derived = ("half ", "twice ", "in ")
+        places = [place for place in places if not place.words.startswith(derived)] or places
     first, *others = places
     if not others:
         return first
@@ -155,6 +159,8 @@ def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
     if role is Role.LENGTH:
         rows = sorted({place.link for place in places})
         return Meaning(f"length in rows {and_joined([str(row) for row in rows])} of the table")
+    if role is Role.SHAPE and len({place.body for place in places}) == 1:
+        return Meaning(and_joined([place.text() for place in places]))
     alike = all(place.words == first.words and place.axes == first.axes for place in others)
     if alike and not first.link:
         bodies = and_joined([place.body for place in places])
@@ -272,13 +278,19 @@ def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[Role, str, Meaning
     """The dimensions of a shape."""
     for key, value in shape.dimensions if shape is not None else ():
         for name in names_in(value):
-            yield Role.SHAPE, name, _dimension(body, key) if _is(value, name) else _UNTOLD
+            yield Role.SHAPE, name, _dimension(body, key, value, name)
 
 
-def _dimension(body: Body, key: str) -> Meaning:
-    if key in AXES:
-        return Meaning("side of body {body} along its {axes}", body=body.name, axes=(key,))
-    return Meaning(f"{DIMENSIONS[key]} of body {{body}}", body=body.name)
+_SHARES = {Fraction(1): "", Fraction(2): "half the ", Fraction(1, 2): "twice the "}
+"""What a parameter is of a dimension that is so many times it."""
+
+
+def _dimension(body: Body, key: str, value: Expr, name: str) -> Meaning:
+    """A dimension of a shape, or its half: l is half the length of a rod that is 2 l long."""
+    axes = (key,) if key in AXES else ()
+    what = "side of body {body} along its {axes}" if axes else f"{DIMENSIONS[key]} of body {{body}}"
+    share = next((words for factor, words in _SHARES.items() if _is(value, name, factor)), "in the ")
+    return Meaning(share + what, body=body.name, axes=axes)
 
 
 def _inertia(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
@@ -336,9 +348,9 @@ def _is_distance(place: Matrix, name: str) -> bool:
     return len(far) == 1 and _is(far[0], name)
 
 
-def _is(value: Expr, name: str) -> bool:
-    """Whether a value is the parameter itself, or its negative."""
-    symbol = value.ring.symbol(name)
+def _is(value: Expr, name: str, factor: Fraction = Fraction(1)) -> bool:
+    """Whether a value is the parameter itself, or its negative; or such a multiple of it."""
+    symbol = value.ring.symbol(name) * factor
     return value in (symbol, -symbol)
 
 

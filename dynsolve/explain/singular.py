@@ -11,7 +11,8 @@ from dynsolve.document.figures import ArmArrow, ArmFigure
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
-from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
+from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Line, Part, Step
+from dynsolve.explain.task import determinant_lines
 from dynsolve.explain.writing import agreeing, listed, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, equation
@@ -60,6 +61,7 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
     minors = [forms.product(minor) for minor in found.minors]
     results = tuple(formula("minor {k} = {minor}", k=k, minor=minor) for k, minor in enumerate(minors, 1))
     working: tuple[Node, ...] = ()
+    lines: tuple[Line, ...] = ()
     text = "${J}$ is {rows}×{columns}, and its rank is {rank} almost everywhere. "
     if found.core is not None:
         text += (
@@ -75,6 +77,8 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
     elif rows == columns == found.rank:
         text = "${J}$ is square: it has an inverse unless its determinant is 0."
         results = (formula("det {J} = {minor}", J=J, minor=minors[0]),)
+        if "det" not in context.wanted:
+            lines = determinant_lines(context, formula("det {J}", J=J), context.values[name])
     else:
         text += "It is less where {of_all}"
     return Step(
@@ -93,6 +97,7 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
         ),
         source=spong("4.9"),
         working=working,
+        lines=lines,
         result=results,
         listed=len(results) > 1,
         normal=TOLD & ~Part.RESULT if len(results) == 1 and "det" in context.wanted else TOLD,

@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from dynsolve.algebra import matrix as algebra
+from dynsolve.algebra.minors import determinant
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rates import squared, whole_or_task
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.rates import square_of
-from dynsolve.explain.step import Detail, Group, Step
+from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.working.identities import said, used_in_product
 from dynsolve.explain.writing import agreeing, is_small, listed, spong, sum_over_coordinates
+from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Derivative,
@@ -27,6 +31,7 @@ from dynsolve.notation.tree import (
     column,
     equation,
 )
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -145,10 +150,34 @@ def _determinant(context: Context) -> Step:
         why=why,
         formula=equation(letter, formula("det {matrix}", matrix=shown)) if is_small(shown) else None,
         source=spong("4.9"),
+        lines=determinant_lines(context, letter, context.values[name]) if rows == columns else (),
         result=(equation(letter, context.form("det")),),
         detail=Detail.BRIEF,
         task=letter,
     )
+
+
+def determinant_lines(context: Context, letter: Node, matrix: algebra.Matrix) -> tuple[Line, ...]:
+    """A determinant along the row or the column that has most zeros; none of large matrices."""
+    size = len(matrix.rows)
+    if size == 1 or not is_small(context.show(matrix)):
+        return ()
+    both = (matrix.rows, matrix.T.rows)
+    ways = [(lines, place) for lines in both for place in range(size)]
+    lines, place = max(ways, key=lambda way: sum(entry.is_zero for entry in way[0][way[1]]))
+    others = [line for k, line in enumerate(lines) if k != place]
+    terms = []
+    forms = ConfigurationForms(context.robot, context.values)
+    for k, entry in enumerate(lines[place]):
+        minor = determinant(algebra.Matrix.of(matrix.ring, ([*line[:k], *line[k + 1 :]] for line in others)))
+        if not (entry.is_zero or minor.is_zero):
+            factors = [(context.show(entry), 1), (forms.product(minor), 1)]
+            terms.append(times((-1) ** (place + k), factors))
+    which = f"{'row' if lines == matrix.rows else 'column'} {place + 1}"
+    by = (f"Along {which}, each entry times the determinant that is left, signs in turn:",)
+    expanded = equation(letter, total(terms))
+    is_new = to_unicode(expanded) != to_unicode(equation(letter, context.show(determinant(matrix))))
+    return (Line(by if size > 2 else (), (expanded,)),) if is_new and is_small(expanded) else ()
 
 
 # -- how a Jacobian changes ------------------------------------------------------------------------

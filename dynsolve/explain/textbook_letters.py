@@ -7,7 +7,7 @@ A line of a table is
     sign: words; sign: words | ...    𝐃: inertia matrix; d_ij: its entries | | kg m^2
 
 where each sign has words of its own, and the meaning follows these.  Names in braces are values; a line with
-a value that a robot does not have is left out.
+a value that a robot does not have is left out.  A star marks what goes beyond the derivation of the course.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class Line:
         """What the signs mean."""
         return f"{', '.join(self.each)}{self.meaning}" if self.each else self.meaning
 
-    def of(self, kinds: Collection[Kind], style: Style) -> Line:
+    def of(self, kinds: Collection[Kind | None], style: Style) -> Line:
         """The line with its signs of these kinds alone."""
         kept = [k for k, sign in enumerate(self.signs) if kind_of(sign, style) in kinds]
         if not kept:  # it explains names that are written otherwise
@@ -109,28 +109,28 @@ U, V | any two quantities, in an identity
 𝐉: Jacobian of the last frame; {JV}: its linear part; {JW}: its angular part; 𝐉_i: its column i | | {jacobian}
 𝐯: velocity; 𝛚: angular velocity | of the last frame | m/s, rad/s
 {reached} | values of the task that are to be reached
-{of_points} | coordinates of a point, given where they stand | m
-{of_turns} | entries of a rotation, given where they stand
-{U} | rotation that is left for some joints
-x_('tip'), y_('tip'), z_('tip') | coordinates of the origin of the last frame | m
-{of_P} | coordinates of a named point | m
-𝐫 | task
-𝐝 | from the point of a given tensor to its mass centre | m
-{J_TASK} | Jacobian of the task; with + its pseudoinverse
-𝐖 | weights of the joint rates
-{N_SPACE} | null space of a matrix
-{R_SPACE} | range space of a matrix
-𝐩_i: position of a point; 𝐩_i^i: the same in its link's frame | | m
-𝐰, 𝐰_i | direction that is lost where the arm is singular
-{constants} | constants of a solution, given where they stand
-ψ | angle that is sought | rad
-𝐅_i | force from outside | N
-𝐌_i, M_i | moment from outside, its size | N m
-𝐐, Q_i | generalized forces of these, their entries | {force}
-𝐡: what the constraints keep at 0; {A_C}: constraint matrix; 𝛌: multipliers
-{Z}: rates that the constraints leave free; 𝛎: their sizes
-Δ_k | leading minor k of a matrix: the determinant of its first k rows
-{TAU_STATIC} | forces and torques that hold the arm at rest | {force}
+* {of_points} | coordinates of a point, given where they stand | m
+* {of_turns} | entries of a rotation, given where they stand
+* {U} | rotation that is left for some joints
+* x_('tip'), y_('tip'), z_('tip') | coordinates of the origin of the last frame | m
+* {of_P} | coordinates of a named point | m
+* 𝐫 | task
+* 𝐝 | from the point of a given tensor to its mass centre | m
+* {J_TASK} | Jacobian of the task; with + its pseudoinverse
+* 𝐖 | weights of the joint rates
+* {N_SPACE} | null space of a matrix
+* {R_SPACE} | range space of a matrix
+* 𝐩_i: position of a point; 𝐩_i^i: the same in its link's frame | | m
+* 𝐰, 𝐰_i | direction that is lost where the arm is singular
+* {constants} | constants of a solution, given where they stand
+* ψ | angle that is sought | rad
+* 𝐅_i | force from outside | N
+* 𝐌_i, M_i | moment from outside, its size | N m
+* 𝐐: generalized forces of what acts from outside; Q_i: their entries | | {force}
+* 𝐡: what the constraints keep at 0; {A_C}: constraint matrix; 𝛌: multipliers
+* {Z}: rates that the constraints leave free; 𝛎: their sizes
+* Δ_k | leading minor k of a matrix: the determinant of its first k rows
+* {TAU_STATIC} | forces and torques that hold the arm at rest | {force}
 m_i | mass of body i | kg
 𝐫_ci | mass centre of body i | m
 𝐫_ci^{frame} | mass centre of body i, {its} | m
@@ -138,15 +138,15 @@ m_i | mass of body i | kg
 {tensors} | inertia tensor of body i about its mass centre, along the body's axes{raised} | kg m^2
 𝓘_i | inertia tensor of body i, along the axes of {ground} | kg m^2
 𝐑_i | axes of body i, seen from {ground}
-𝐑_(i,j) | turn j of body i
-{principal} | principal moments of body i, a uniform shape | kg m^2
-x | place along a body, from its near end | m
-{RHO} | density of a body at the place x
-x_ci | place of the mass centre along body i | m
-{about_near} | moment of inertia across body i about its near end | kg m^2
-{about_c} | moment of inertia across body i about its mass centre | kg m^2
-{about_axis} | moment of inertia of body i about its axis | kg m^2
-𝐄 | identity matrix
+* 𝐑_(i,j) | turn j of body i
+* {principal} | principal moments of body i, a uniform shape | kg m^2
+* x | place along a body, from its near end | m
+* {RHO} | density of a body at the place x
+* x_ci | place of the mass centre along body i | m
+* {about_near} | moment of inertia across body i about its near end | kg m^2
+* {about_c} | moment of inertia across body i about its mass centre | kg m^2
+* {about_axis} | moment of inertia of body i about its axis | kg m^2
+* 𝐄 | identity matrix
 g | acceleration of gravity | m/s^2
 𝐠_0 | acceleration of gravity, a vector that points down | m/s^2
 η_i | height of the mass centre of body i | m
@@ -154,19 +154,19 @@ g | acceleration of gravity | m/s^2
 """The lines before the dynamics: what is seen, asked for, and given of the bodies."""
 
 RECURSIONS = """
-𝐳_{turning}^i | axis of joint i, in frame i
-𝐫_(i-1,i)^i: origin of frame i; {LEVER}: mass centre of body i | , from the origin of frame i-1 | m
-𝐠_0^i | acceleration of gravity, in frame i | m/s^2
-𝛚_i^i: angular velocity; 𝛚̇_i^i: angular acceleration | of link i, in frame i
-𝐚_i^i: origin of frame i; 𝐚_ci^i: mass centre of body i | : its acceleration, in frame i | m/s^2
-𝐈_ci^i | inertia tensor of body i about its mass centre, in frame i | kg m^2
-𝐟_i^i: force; 𝐧_i^i: moment | with which link i-1 holds link i, in frame i
+* 𝐳_{turning}^i | axis of joint i, in frame i
+* 𝐫_(i-1,i)^i: origin of frame i; {LEVER}: mass centre of body i | , from the origin of frame i-1 | m
+* 𝐠_0^i | acceleration of gravity, in frame i | m/s^2
+* 𝛚_i^i: angular velocity; 𝛚̇_i^i: angular acceleration | of link i, in frame i
+* 𝐚_i^i: origin of frame i; 𝐚_ci^i: mass centre of body i | : its acceleration, in frame i | m/s^2
+* 𝐈_ci^i | inertia tensor of body i about its mass centre, in frame i | kg m^2
+* 𝐟_i^i: force; 𝐧_i^i: moment | with which link i-1 holds link i, in frame i
 """
 """What the Newton-Euler recursions carry from link to link."""
 
 DYNAMICS = """
 𝐉_v_i: linear part; 𝐉_ω_i: angular part | of the Jacobian of {moving} | {jacobian}
-{of_point} | of a point: the same along the axes of frame k
+* {of_point} | of a point: the same along the axes of frame k
 {body_v}: velocity of the mass centre; 𝛚_i: angular velocity | of body i{or_point} | m/s, rad/s
 {point_v} | velocity of a point | m/s
 K_i: kinetic energy; K_v_i: its part of translation; K_ω_i: its part of rotation; \
@@ -174,29 +174,29 @@ P_i: potential energy | of body i | J
 𝒦: kinetic energy; 𝒫: potential energy; ℒ: Lagrangian | of the {machine} | J
 {forces} | generalized force i{what_force} | {force}
 𝛕 | column of the generalized forces | {force}
-𝒦_('given'), 𝒫_('given') | energies that the problem gives | J
-{PS} | potential energy of the springs | J
-{KM} | kinetic energy of the rotors | J
-I_m_i: moment of inertia; k_r_i: ratio of the gear | of the rotor of motor i
-𝛚_('link'), {w_link} | angular velocity of the link that carries a motor
-{DM} | what the rotors add to the inertia matrix
-𝐧_mi | moment that the rotor of motor i takes from its link | N m
-{DISSIPATION} | Rayleigh's dissipation function | W
-f_ck | coefficient of Coulomb friction of coordinate k
-{FRICTION}: column of the friction; τ_fk: its entries
+* 𝒦_('given'), 𝒫_('given') | energies that the problem gives | J
+* {PS} | potential energy of the springs | J
+* {KM} | kinetic energy of the rotors | J
+* I_m_i: moment of inertia; k_r_i: ratio of the gear | of the rotor of motor i
+* 𝛚_('link'), {w_link} | angular velocity of the link that carries a motor
+* {DM} | what the rotors add to the inertia matrix
+* 𝐧_mi | moment that the rotor of motor i takes from its link | N m
+* {DISSIPATION} | Rayleigh's dissipation function | W
+* f_ck | coefficient of Coulomb friction of coordinate k
+* {FRICTION}: column of the friction; τ_fk: its entries
 𝐃: inertia matrix; d_ij: its entries | | {inertia}
 {D_POINTS} | inertia matrix of the masses alone, as points | {inertia}
 c_ijk | Christoffel symbol: always with three indices | {inertia}
 𝐂: matrix of the Coriolis and centrifugal terms; c_kj: its entries | | {rate}
 𝐠: column of the gravity terms; g_k: its entries | | {force}
-{references} | reference of the coordinates, of which there are rates
-{regressors} | regressor: the factor of the parameters in the forces, in a part of them
-{LINEAR_A}: matrix of the state; {LINEAR_B}: matrix of the inputs | of the motion near the equilibrium
-𝐪_('e') | the equilibrium
-{STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
-𝐅: factors of the rates in the friction; 𝐒: selects the inputs
-𝚲 | inertia matrix of the task
-{parameters} | column of the parameters in these
+* {references} | reference of the coordinates, of which there are rates
+* {regressors} | regressor: the factor of the parameters in the forces, in a part of them
+* {LINEAR_A}: matrix of the state; {LINEAR_B}: matrix of the inputs | of the motion near the equilibrium
+* 𝐪_('e') | the equilibrium
+* {STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
+* 𝐅: factors of the rates in the friction; 𝐒: selects the inputs
+* 𝚲 | inertia matrix of the task
+* {parameters} | column of the parameters in these
 𝐍: skew-symmetric matrix; n_ij: its entries | | {rate}
 """
 """The lines of the energies, the forces and the equations of motion."""
@@ -207,15 +207,19 @@ _ALSO: dict[Node, Kind] = {letters.J_TASK: ("J", "bold", "r^"), letters.Q_FORCES
 Value = str | Node | tuple[Node, ...] | None
 
 
-def textbook(robot: Robot, style: Style) -> Iterator[Line]:
-    """The lines of the textbook's letters, in the order of the derivation."""
+def textbook(robot: Robot, style: Style, *, beside: bool = False) -> Iterator[Line]:
+    """The lines of the textbook's letters, in the order of the derivation; or those `beside` the course."""
     values = {**_OF_ANY_ROBOT, **_asked(robot), **_of_robot(robot), **_of_forces(robot, style)}
     tables = [TEXTBOOK, DYNAMICS]
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
         tables.insert(1, RECURSIONS)
     for row in "".join(tables).split("\n"):
-        if row and all(values[name] is not None for name in re.findall(r"\{(\w+)\}", row)):
-            yield _line(row, values)
+        if (
+            row.startswith("* ") >= beside
+            and row
+            and all(values[name] is not None for name in re.findall(r"\{(\w+)\}", row))
+        ):
+            yield _line(row.removeprefix("* "), values)
 
 
 def _line(row: str, values: Mapping[str, Value]) -> Line:

@@ -14,6 +14,23 @@ _OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE, Stage.RATES, Stage.TASK_INERTIA}
 """The stages that go on from the task."""
 
 
+_PARTS = {
+    "equilibria": "equilibria",
+    "balance": "balance",
+    "linear_A": "linearization",
+    "linear_B": "linearization",
+}
+"""What the stage of equilibria finds, by what is asked for."""
+
+
+def heading_of(stage: Stage, robot: Robot) -> str:
+    """The heading of a stage in the solution of a robot: of equilibria what is asked of them."""
+    asked = [part for name, part in _PARTS.items() if name in robot.questions.asked]
+    if stage is not Stage.EQUILIBRIA or not asked:
+        return stage.heading
+    return " and ".join(dict.fromkeys(asked)).capitalize()
+
+
 def given_rates(questions: Questions) -> frozenset[str]:
     """Which rates of the task an exercise gives."""
     given = {"velocity": questions.velocity, "acceleration": questions.acceleration}

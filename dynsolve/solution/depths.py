@@ -6,8 +6,8 @@
               outcome
     full      every step with all that it has
 
-A number stands for the same step in every depth: 3.1 is a group or a step of its own, 3.1.2 what is shown
-in full alone.
+A number stands for the same step in normal and in full: 3.1 is a group or a step of its own, 3.1.2 what is
+shown in full alone.  Brief has no numbers of steps, and counts the sections that it has.
 """
 
 from __future__ import annotations

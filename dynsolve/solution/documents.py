@@ -13,13 +13,13 @@ from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
 from dynsolve.explain.given import statement
-from dynsolve.explain.notation_list import notation, shorthands_in
+from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
 from dynsolve.explain.writing import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, listed, machine
 from dynsolve.notation.tree import Number, Power, Row, Words, equation
 from dynsolve.notation.walk import walk
-from dynsolve.quantities.robot_stages import stages_of
+from dynsolve.quantities.robot_stages import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
@@ -78,13 +78,20 @@ def _document(
     short: Abbreviated | None,
 ) -> Document:
     robot = solution.robot
+    sections: dict[Stage, int] = {}
     derivation = (
-        *_stages(solution, detail, steps, short, drawn),
+        *_stages(solution, detail, steps, short, drawn, sections if stages is None else None),
         *_part("the numbers", lambda: _numbers(solution, detail, stages)),
         *_part(
             "the summary",
             lambda: summary_blocks(
-                robot, steps, detail, short, asked=solution.problem.find, is_short=solution.is_short
+                robot,
+                steps,
+                detail,
+                short,
+                asked=solution.problem.find,
+                is_short=solution.is_short,
+                sections=sections,
             ),
         ),
     )
@@ -92,6 +99,7 @@ def _document(
     return Document((
         *_opening(solution),
         *stated,
+        *_part("the letters", lambda: _letters(solution, stated, derivation, detail)),
         *derivation,
         *_closing(solution, detail, _sources(steps, detail, short)),
         *_part("the notation", lambda: _notation(solution, (*stated, *derivation), detail, short)),
@@ -110,6 +118,16 @@ def _statement(
     if stages is None:
         sines = shorthands_in(derivation, solution.robot, solution.style)
         yield from statement(solution.forms, solution.problem, sines)
+
+
+def _letters(
+    solution: Dynamics, stated: tuple[Block, ...], shown: tuple[Block, ...], detail: Detail
+) -> Iterator[Block]:
+    """In brief the letters that go beyond the course and are not defined where they occur."""
+    if detail is Detail.BRIEF:
+        lines = letters_beside(solution.robot, solution.style, shown, stated)
+        if lines:
+            yield Text(in_a_sentence(lines))
 
 
 def _notation(
@@ -162,9 +180,10 @@ def _stages(
     steps: Sequence[Step],
     short: Abbreviated | None,
     drawn: Drawn | None,
+    sections: dict[Stage, int] | None,
 ) -> Iterator[Block]:
-    """Stages and their steps, numbered as in the whole derivation."""
-    numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
+    """Stages and their steps: of a whole derivation what is shown is counted in `sections`."""
+    places = {stage: place for place, stage in enumerate(stages_of(solution.robot), 1)}
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     named_from = _first_in_names(steps, short)
     shown = Shown(
@@ -178,9 +197,12 @@ def _stages(
     for stage, of_stage in groupby(own, attrgetter("stage")):
         if short is not None and stage is named_from and not short.at_symbols and detail > Detail.RESULTS:
             yield from definition_blocks(short, machine(solution.robot))
-        folds = tuple(shown.of_stage(numbers[stage], of_stage))
+        number = places[stage] if sections is None else len(sections) + 1
+        folds = tuple(shown.of_stage(number, of_stage))
         if folds:  # no heading over a stage of which nothing is shown
-            yield Heading(f"{numbers[stage]}. {stage.heading}", 2)
+            if sections is not None:
+                sections[stage] = number
+            yield Heading(f"{number}. {heading_of(stage, solution.robot)}", 2)
         yield from folds
 
 

@@ -6,6 +6,7 @@ Everything in it is the result of a step, taken from there, so that it cannot di
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 from dynsolve.document import Block, Equations, Formula, Heading, List, Prose, Reference, Table, Text
 from dynsolve.document.sentences import say
@@ -18,7 +19,7 @@ from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import ZERO, Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
-from dynsolve.quantities.robot_stages import stages_of
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 
 TITLE = "Summary"
@@ -40,8 +41,12 @@ def summary_blocks(
     *,
     asked: Sequence[str] = (),
     is_short: bool = True,
+    sections: Mapping[Stage, int] = MappingProxyType({}),
 ) -> Iterator[Block]:
-    """D q̈ + C q̇ + g = τ with D, C and g, then every force, and whatever else the exercise asks for."""
+    """D q̈ + C q̇ + g = τ with D, C and g, then every force, and whatever else the exercise asks for.
+
+    `sections` are the numbers of the stages that are shown.
+    """
     by_id = {step.id: step for step in steps}
     model = by_id.get(ID)
     of_model = in_model(robot) if model else frozenset()
@@ -52,7 +57,7 @@ def summary_blocks(
     if model is not None and is_short:
         yield from _model(robot, model, by_id, detail, short)
     elif model is not None:
-        yield from _long_model(robot, model, by_id, detail)
+        yield from _long_model(model, by_id, detail, sections)
     yield from others
 
 
@@ -102,7 +107,9 @@ def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
         yield Equations(meanings)
 
 
-def _long_model(robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail) -> Iterator[Block]:
+def _long_model(
+    model: Step, by_id: Mapping[str, Step], detail: Detail, sections: Mapping[Stage, int]
+) -> Iterator[Block]:
     """Of a long model where D, C and g are; these themselves where no stage shows them."""
     if detail is Detail.RESULTS:
         assert model.formula is not None
@@ -114,7 +121,8 @@ def _long_model(robot: Robot, model: Step, by_id: Mapping[str, Step], detail: De
     yield Text(model.why)
     assert model.formula is not None
     yield Formula(model.formula, source=model.source)
-    place = f" are those of section {list(stages_of(robot)).index(model.stage) + 1}"
+    number = sections.get(model.stage)
+    place = " are those of the matrix form" if number is None else f" are those of section {number}"
     D, g = (letters.D, Reference(("D",))), (letters.G, Reference(("g",)))
     if by_id["christoffel"].detail > detail:
         yield Text((*listed([D, g]), *say("{place}; $𝐂$ follows from $𝐃$ as it is told there.", place=place)))

@@ -11,6 +11,7 @@ from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equati
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
+from dynsolve.quantities.robot_stages import heading_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.model import Robot
@@ -94,7 +95,7 @@ def _results(
             formulas = [
                 block for name, letter in results for block in _shown(robot, name, letter, tree(name))
             ]
-            yield Fold(stage.heading, (*_remark(robot, stage), *formulas))
+            yield Fold(heading_of(stage, robot), (*_remark(robot, stage), *formulas))
 
 
 def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:

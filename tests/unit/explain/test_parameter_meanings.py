@@ -54,6 +54,13 @@ def test_where_the_base_is() -> None:
 
 # the one body, and what is told of its parameters
 BODIES = [
+    ("{mass: m, link: 1, center: tip, shape: {cylinder: {radius: r, length: 2*h}}}", "h",
+     "half the length of body 1"),
+    ("{mass: m, link: 1, center: tip, shape: {cylinder: {radius: r/2, length: h}}}", "r",
+     "twice the radius of body 1"),
+    ("{mass: m, link: 1, center: tip, shape: {rod: {length: a + b}}}", "a b", "in the length of body 1"),
+    ("{mass: m, link: 1, center: tip, shape: {hollow_cylinder: {outer: 2*r, inner: r, length: h}}}", "r",
+     "inner radius of body 1"),
     ("{mass: m, link: 1, center: {near: [c, 0, 0]}}", "c", "distance from 𝐨₀ to the mass centre of body 1"),
     ("{mass: m, link: 1, center: [c, 0, 0]}", "c", "distance from 𝐨₁ to the mass centre of body 1"),
     ("{mass: m, link: 1, center: [x1, y1, 0]}", "x1 y1",

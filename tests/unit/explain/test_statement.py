@@ -98,13 +98,18 @@ def test_the_statement_says_where_a_mass_centre_is(center: str, told: str) -> No
     assert told in given
 
 
+def test_the_statement_says_which_angles_of_the_table_are_not_right() -> None:
+    (given, *_) = stated(solved("dh:\n- {theta: q1* + 30deg, alpha: 90deg}\n- {theta: q2*, alpha: 45deg}"))
+    assert "In the table θ of row 1 is q₁ + 30° and α of row 2 is 45°." in given
+
+
 PLACED = [
     (
         "base: {rotate: Rx(30deg), move: [0, 0, h0]}",
         "Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w in the world w. ",
     ),
     ("base: Rz(90deg) Rx(30deg)", "Frame 0 is turned by 90° about 𝐳_w and by 30° about 𝐱_w in the world w."),
-    ("base: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]", "How frame 0 is placed in the world is given (1.2)."),
+    ("base: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]", "Frame 0, seen from the world w, is "),
 ]
 
 
@@ -156,7 +161,7 @@ ACTING = [
     ),
     (
         "gravity: [g1, 0, -g2]",
-        "𝐠₀, the acceleration of gravity, is along no axis of frame 0; there is no friction.",
+        "The acceleration of gravity is 𝐠₀ = (g₁, 0, -g₂) along the axes of frame 0; there is no friction.",
     ),
     (
         "friction: {q1: {viscous: b1}}",

@@ -97,3 +97,12 @@ def test_latex_is_set_in_letters_that_latex_knows() -> None:
     steps = dynsolve.solve(ARM + TASK + everything + "state: {q1: 0, q2: 0}\n" + asked).to_json()["steps"]
     assert {"qdd", "lost", "tau_static"} <= {step["id"] for step in steps}
     assert all(step["latex"].isascii() for step in steps)
+
+
+def test_a_determinant_is_expanded_before_it_is_simplified() -> None:
+    arm = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\ntask: [tip.x, tip.y]\n"
+    (line,) = steps(f"{arm}find: [det]")["det"].lines
+    assert to_unicode(line.formulas[0], PLAIN).startswith("det J_r = ")
+    arm = "dh: [{theta: q1*, d: l1, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
+    (line,) = steps(f"{arm}task: [tip.x, tip.y, tip.z]\nfind: [det]")["det"].lines
+    assert line.by == ("Along row 3, each entry times the determinant that is left, signs in turn:",)

@@ -201,3 +201,34 @@ def test_a_chain_of_matrices_under_others_stays_one_and_can_be_broken() -> None:
     )
     (shown,) = condensed([Equations(chains)], Style())
     assert isinstance(shown, Equations) and shown.nodes == chains
+
+
+# -- headings and letters ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("problem", ["articulated-6r", "spatial-3r-acceleration", "planar-2r"])
+@pytest.mark.parametrize("detail", [Detail.BRIEF, Detail.NORMAL, Detail.FULL])
+def test_no_number_of_a_section_is_passed_over(problem: str, detail: Detail) -> None:
+    headings = [block.text for block in blocks_of(problem, detail) if isinstance(block, Heading)]
+    numbers = [int(text.split(". ")[0]) for text in headings if re.match(r"\d+\. ", text)]
+    assert numbers == list(range(1, len(numbers) + 1))
+
+
+def test_brief_tells_what_goes_beyond_the_course() -> None:
+    arm = "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\nfriction: {q1: {viscous: b}}"
+    assert any(isinstance(b, Text) and b.parts[0] == "Notation: " for b in blocks_of(arm, Detail.BRIEF))
+    assert not any(
+        isinstance(b, Text) and b.parts[0] == "Notation: " for b in blocks_of("planar-2r", Detail.BRIEF)
+    )
+
+
+def test_a_heading_names_what_is_asked_for() -> None:
+    body = "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\n"
+    for asked, heading in (
+        ("equilibria", "Equilibria"),
+        ("equilibria, linear_A", "Equilibria and linearization"),
+    ):
+        text = f"{body}linearize: {{q1: 0}}\nfind: [{asked}]"
+        assert any(
+            isinstance(b, Heading) and b.text.endswith(f". {heading}") for b in blocks_of(text, Detail.NORMAL)
+        )
