@@ -24,8 +24,8 @@ from dynsolve.explain.jacobian import (
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
 from dynsolve.explain.working.derivatives import summed
-from dynsolve.explain.working.kinetic import linear, squared, written_velocity
 from dynsolve.explain.working.rotational import along_own_axes, multiplied_out, turned
+from dynsolve.explain.working.squares import linear, squared, written_velocity
 from dynsolve.explain.writing import (
     are_counted,
     counted_sum,

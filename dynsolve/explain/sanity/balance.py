@@ -20,7 +20,7 @@ from dynsolve.explain.sanity.determinant import sign_of
 from dynsolve.explain.sanity.poses import Pose, at
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import driving_side
-from dynsolve.explain.working.kinetic import without_signs
+from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import listed, spong, turns
 from dynsolve.notation.build import times
 from dynsolve.notation.tree import (

@@ -33,7 +33,7 @@ from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import Identity, equals, identities, said
-from dynsolve.explain.working.kinetic import without_signs
+from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import as_row, listed, spong
 from dynsolve.notation.build import cost, factors_of, negated, total
 from dynsolve.notation.template import formula

@@ -39,7 +39,7 @@ from dynsolve.explain.sanity.determinant import cases, is_positive, sign_of, sol
 from dynsolve.explain.sanity.poses import Pose, at, degrees, poses, turning_in, written_pose
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
-from dynsolve.explain.working.kinetic import without_signs
+from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import as_row, listed, side_by_side, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (

@@ -31,8 +31,7 @@ from dynsolve.explain.working.identities import (
     pythagoras,
     said,
 )
-from dynsolve.explain.working.kinetic import (
-    MOST_GROUPS,
+from dynsolve.explain.working.squares import (
     along_axes,
     turn_of_frame,
     turned_name,
@@ -111,7 +110,7 @@ def _along(context: Context, body: Body, velocity: Matrix) -> Way | None:
     ((_, coefficient),) = length.poly.to_dict().items()
     factor = length if int(coefficient.q) != 1 else ring.one  # only where a fraction goes with it: ½ l₂
     components = [Expr(ring, x.poly / factor.poly) for x in components]
-    found, first = squares.turned(ring, components), Prose()
+    found, first = squares.turned_pair(ring, components), Prose()
     if found is not None:
         components = squares.exchanged(components, found)
         known = said([pythagoras(angle_node(found.pair.angle, ring.names))])
@@ -151,7 +150,7 @@ def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> 
         shown = _in_brackets(products) if i == j else products
         return _Entry((i, j), shown, shown, used)
     groups = squares.groups(context.forms, sum((a.poly * b.poly for a, b in pairs), start=ring.zero.poly))
-    if groups is None or len(groups) > MOST_GROUPS:
+    if groups is None:
         return None
     multiplied = sum_of([group.multiplied for group in groups])
     if are_alike(multiplied, products):

@@ -20,7 +20,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import SILENT, Way, chain, collected, identities, product_line, said
-from dynsolve.explain.working.kinetic import turn_of_frame, turned_name, without_signs
+from dynsolve.explain.working.squares import turn_of_frame, turned_name, without_signs
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, number_in_front, times

@@ -1,4 +1,4 @@
-"""vᵀ v on paper: how the squares of the components of a velocity become the square of the speed.
+"""The lines from ½ m vᵀ v to the kinetic energy of translation: how squares become the square of the speed.
 
 1. Two components that are one vector, turned by an angle, are exchanged for that vector:
    (U s + V c)² + (U c - V s)² = U² + V².
@@ -10,10 +10,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, combinations_with_replacement
 from math import gcd, lcm
 from typing import Any, NamedTuple
 
@@ -22,12 +22,317 @@ from flint import fmpq_mpoly
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator, Pair
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
+from dynsolve.derivation.kinematics import rotation
+from dynsolve.document import Prose
+from dynsolve.document.sentences import say
+from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms, is_numeric
-from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import Function, Node, Symbol
-from dynsolve.robot.model import Robot
+from dynsolve.explain.step import Line
+from dynsolve.explain.working.differentiation import brackets
+from dynsolve.explain.working.identities import (
+    SILENT,
+    Tactic,
+    Way,
+    chain,
+    collected,
+    identities,
+    product_line,
+    said,
+)
+from dynsolve.explain.writing import block_of, listed, sum_of
+from dynsolve.notation import tree
+from dynsolve.notation.build import factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.tree import (
+    ONE,
+    ZERO,
+    Function,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    Transpose,
+)
+from dynsolve.notation.walk import walk
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body, Robot
+
+
+def written_velocity(context: Context, body: Body) -> tree.Matrix:
+    """v of a mass centre, as U s + V c where two components are a vector turned by an angle."""
+    return _written(context, context.values[f"v{body.name}"], context.matrix(f"v{body.name}"))
+
+
+def squared(context: Context, body: Body) -> Node:
+    """½ m vᵀ v with the entries of v put in; what these share stands before the squares, squared."""
+    factor, value = _with_factor(context, body)
+    form = context.show(value)
+    assert isinstance(form, tree.Matrix)
+    entries = [entry for (entry,) in _written(context, value, form).rows if entry != ZERO]
+    return _energy(context, body, sum_of([_square(entry) for entry in entries]), factor)
+
+
+def _with_factor(context: Context, body: Body) -> tuple[Shared, Matrix]:
+    """What the entries of v share, and what it is multiplied by."""
+    ring, value = context.robot.ring, context.values[f"v{body.name}"]
+    factor = shared(context.robot, value.entries)
+    whole = factor.length * factor.rate
+    return factor, value.map(lambda entry: Expr(ring, entry.poly / whole.poly))
+
+
+def _energy(context: Context, body: Body, added: Node, factor: Shared | None = None) -> Node:
+    """½ m a² q̇² (...), a and q̇ being what is taken out of the"""
+    mass, parts = context.show(body.mass), (factor.length, factor.rate) if factor else ()
+    taken = [(context.show(part), 2) for part in parts if part != context.robot.ring.one]
+    if not taken:
+        return Product((letters.HALF, mass, added))
+    front = number_in_front(times(Fraction(1, 2), [(mass, 1), *taken]))
+    return front if added == ONE else Product((*factors_of(front), added))
+
+
+def _written(context: Context, value: Matrix, form: tree.Matrix) -> tree.Matrix:
+    """A velocity as U s + V c where two components are a vector turned by an angle.
+
+    Other forms stay where they hold that sine and that cosine once, and so show U and V too.
+    """
+    ring, places = context.robot.ring, [k for k, x in enumerate(value.entries) if not x.is_zero]
+    found = turned_pair(ring, [value[k, 0] for k in places])
+    if found is None or not context.is_short or any(part.is_zero for part in found.parts):
+        return form
+    angle = angle_node(found.pair.angle, ring.names)
+    angular = [ring.generator(k) for k in (found.pair.sine, found.pair.cosine)]
+    rows = list(form.rows)
+    for is_second, place in enumerate(found.places):
+        k = places[place]
+        if sum(part in (Function("sin", angle), Function("cos", angle)) for part in walk(rows[k][0])) > 2:
+            beside = _coefficients(value[k, 0], found.pair)
+            assert beside is not None
+            terms = [_product(context, *pair) for pair in zip(angular, beside, strict=True)]
+            rows[k] = (Sum(tuple(reversed(terms) if is_second else terms)),)
+    return tree.Matrix(tuple(rows))
+
+
+def _product(context: Context, angular: Expr, factor: Expr) -> Node:
+    """A sine or cosine times its factor, which stays in one bracket."""
+    shown = context.show(angular * factor)
+    return times(1, [(context.show(x), 1) for x in (angular, factor)]) if isinstance(shown, Sum) else shown
+
+
+def linear(context: Context, body: Body, squares_shown: bool) -> Way:
+    """From the sum of the squares of v to K_v, along the axes of the first frame in which they come apart.
+
+    Those along the base's axes are of use where they are shown before.
+    """
+    velocity = context.values[f"v{body.name}"]
+    if not context.is_short or velocity.is_zero or body.mass.is_zero:
+        return SILENT
+    factor, rest = _with_factor(context, body)
+    if squares_shown and (way := _from_components(context, body, rest, factor)):
+        return way
+    for i, along in along_axes(context, body):
+        way = _from_components(context, body, along)
+        if way is not None:
+            return _begun_along(context, body, i, way)
+    return _begun_along(context, body, i, _squared(context, body, along))
+
+
+def _begun_along(context: Context, body: Body, i: int | None, way: Way) -> Way:
+    """The lines from v along the axes of another frame, and before them v brought there."""
+    if i is None:
+        return way
+    v, value = letters.of_body("v", body, "bold"), context.values[f"v{body.name}"]
+    kept, written = say("the length of {v}", v=v), written_velocity(context, body)
+    line = turning_line(context, i, v, value, written, kept)
+    return replace(way, lines=(line, *way.lines), frame=i)
+
+
+def along_axes(context: Context, body: Body) -> Iterator[tuple[int | None, Matrix]]:
+    """The velocity of a body along the axes of each frame up to its link; as it is where there are none."""
+    velocity = context.values[f"v{body.name}"]
+    if not context.robot.has_table:
+        yield None, velocity
+        return
+    for i in range(body.link + 1):
+        yield i, rotation(context.values[f"H{i}"]).T @ velocity
+
+
+def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
+    """The squares of some components, and these by the products of the rates, which become the result."""
+    ring, components = context.robot.ring, [x for x in velocity.entries if not x.is_zero]
+    brackets = list(_by_rates(context, components))
+    found = [identities(ring, bracket, context.show(value)) or () for bracket, value, _ in brackets]
+    used = dict.fromkeys(identity for each in found for identity in each)
+    by_name = sorted(used, key=lambda identity: bool(identity.name))
+    sorted_out = total([product for _, _, product in brackets])
+    tactics: list[Tactic] = [
+        ("The squares of its entries:", _sum_of_squares(context, components)),
+        ("Multiplied out, and sorted by the products of the rates:", sorted_out),
+    ]
+    if used:
+        return _chain(context, body, tactics, say("With {used}, and collected:", used=said(by_name)))
+    return _chain(context, body, tactics, collected(sorted_out, context.form(f"Kv{body.name}")))
+
+
+def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[Node, Expr, Node]]:
+    """Σ (a_k q̇_k)² as Σ a_k² q̇_k² and 2 Σ a_j a_k q̇_j q̇_k, the factors a as they stand.
+
+    What stands beside each product of rates, its value, and both together.
+    """
+    for first, second in combinations_with_replacement(context.robot.coordinates, 2):
+        slopes = [[factor_of_rate(x, q.name) for q in (first, second)] for x in components]
+        pairs = [(a, b) for a, b in slopes if not (a.is_zero or b.is_zero)]
+        if not pairs:
+            continue
+        value = sum((a * b for a, b in pairs), start=context.robot.ring.zero)
+        rates = [(letters.velocity(q), 1) for q in (first, second)]
+        if first == second:
+            bracket = sum_of([_square(context.show(a)) for a, _ in pairs])
+            yield bracket, value, times(1, [(bracket, 1), (letters.velocity(first), 2)])
+        else:
+            bracket = total([times(1, [(context.show(x), 1) for x in pair]) for pair in pairs])
+            yield bracket, value, times(2, [(bracket, 1), *rates])
+
+
+def _from_components(
+    context: Context, body: Body, velocity: Matrix, factor: Shared | None = None
+) -> Way | None:
+    """The lines from the squares of some components on; None where these do not come apart plainly.
+
+    With a `factor` that the components share the squares are shown already.
+    """
+    ring, form = context.robot.ring, context.form(f"Kv{body.name}")
+    components = [x for x in velocity.entries if not x.is_zero]
+    tactics: list[Tactic] = []
+    if factor is None and velocity != context.values[f"v{body.name}"]:
+        tactics.append(("The squares of its entries:", _sum_of_squares(context, components)))
+    turned = False  # where one pair of squares is exchanged the next is too, plain as it may be
+    while (found := turned_pair(ring, components)) is not None and (turned or not _is_plain(found)):
+        components, turned = exchanged(components, found), True
+        tactics.append((_turn(context, found), _sum_of_squares(context, components)))
+    if any(has_roots(x) for x in components):
+        return None
+    if any(len(x) > 1 for x in components):
+        multiplied = _multiplied(context, components)
+        if multiplied is None:
+            return None
+        tactics += multiplied
+        before = tactics[-1][1] if tactics else _sum_of_squares(context, components)
+        return _chain(context, body, tactics, collected(before, form), factor)
+    concluding: str | Prose = ()
+    if tactics:
+        words, last = tactics[-1]
+        if len(brackets(form)) > len(brackets(_energy(context, body, last, factor))):  # d₃² of two squares
+            concluding = "Collected:"
+        else:
+            concluding = words
+            tactics.pop()
+    return _chain(context, body, tactics, concluding, factor)
+
+
+def _chain(
+    context: Context,
+    body: Body,
+    tactics: Sequence[Tactic],
+    concluding: str | Prose,
+    factor: Shared | None = None,
+) -> Way:
+    """The lines, each of them squares, as energies."""
+    if concluding and body.mass.is_number:
+        *words, last = say("{words}", words=concluding)
+        concluding = (*words, f"{str(last).removesuffix(':')}; the numbers multiplied:")
+    lines = [(words, _energy(context, body, added, factor)) for words, added in tactics]
+    return chain(context, f"Kv{body.name}", letters.energy_part("v", body), lines, concluding)
+
+
+def _is_plain(found: Turned) -> bool:
+    """Whether a turned vector is of two products without angles: (V c - U s)² is soon multiplied out."""
+    angular = [g.index for g in found.parts[0].ring.generators if g.kind in ("sin", "cos")]
+    return all(len(part) == 1 and not any(part.poly.degrees()[i] for i in angular) for part in found.parts)
+
+
+def _turn(context: Context, found: Turned) -> Prose:
+    """The identity by which a turned vector has the square of the vector, and what goes in for U and V.
+
+    They are any two quantities, so that they mean the same wherever the identity is used.
+    """
+    angle = angle_node(found.pair.angle, context.robot.ring.names)
+    if any(part.is_zero for part in found.parts):
+        return say("By $sin² {A} + cos² {A} = 1$:", A=angle)
+    shown = [context.show(part) for part in found.parts]
+    first, second = map(without_signs, shown)
+    left = "(U sin {A} + V cos {A})² + (U cos {A} - V sin {A})²"
+    if (first == shown[0]) != (second == shown[1]):  # one of them without its minus
+        left = "(V cos {A} - U sin {A})² + (U cos {A} + V sin {A})²"
+    text = "By $" + left + " = U² + V²$ with {first} and {second} for $U$ and $V$:"
+    return say(text, A=angle, first=first, second=second)
+
+
+def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:
+    """(...)² + (...)², without the signs inside that do not count."""
+    return sum_of([_square(context.show(x)) for x in components])
+
+
+def _square(entry: Node) -> Node:
+    """The square of an entry as it stands, without a sign that does not count."""
+    base = without_signs(entry)
+    return base if base == ONE else Power(base, Number(2))
+
+
+def without_signs(node: Node) -> Node:
+    """A base of a square with a plus in front where it has none but minus signs."""
+    inner = split_sign(node)[1]
+    if isinstance(inner, Sum) and all(isinstance(term, Negative) for term in inner.terms):
+        return total([negated(term) for term in inner.terms])
+    return inner
+
+
+def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | None:
+    """The squares multiplied out, and the brackets worked out.
+
+    None where a bracket holds rates too, or there are many.
+    """
+    ring = context.robot.ring
+    alone, together = _separate(ring, components)
+    if not together:
+        return []
+    poly = sum((x.poly * x.poly for x in together), start=ring.zero.poly)
+    found = groups(context.forms, poly)
+    if found is None:
+        return None
+    first = [_sum_of_squares(context, alone)] if alone else []
+    multiplied, reduced = (sum_of([*first, *forms]) for forms in zip(*found, strict=True))
+    which = ""
+    if alone:  # of one alone, none would be
+        which = " last" if alone == list(components[: len(alone)]) else " other"
+        which += {2: " two", 3: " three"}.get(len(together), "")
+    by = say(
+        "The{which} squares multiplied out, and sorted{cancelled}:",
+        which=which,
+        cancelled=_cancelled(context, together, poly),
+    )
+    used = identities(ring, multiplied, reduced)
+    named = [(say("By {used}:", used=said(used)), reduced)] if used else []
+    return [(by, multiplied), *named]
+
+
+def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) -> Prose:
+    """Which products of two rates stand in single squares, and no longer in their sum."""
+    ring = context.robot.ring
+    gone = {one for x in components for one in _products_of_rates(ring, x.poly * x.poly)}
+    found = [
+        Product(tuple(Symbol(name, 1) for name, power in zip(ring.names, one, strict=True) if power))
+        for one in sorted(gone - _products_of_rates(ring, total), reverse=True)
+    ]
+    return say("; the terms with {found} cancel", found=listed(found)) if found else ()
+
+
+# -- the components of a velocity ------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,17 +344,17 @@ class Turned:
     parts: tuple[Expr, Expr]
 
 
-def turned(ring: Ring, components: Sequence[Expr]) -> Turned | None:
+def turned_pair(ring: Ring, components: Sequence[Expr]) -> Turned | None:
     """The first two components that are a vector turned by a basic angle: a s + b c and ±(a c - b s)."""
     for pair in ring.pairs:
-        linear = [(k, found) for k, x in enumerate(components) if (found := parts(x, pair)) is not None]
+        linear = [(k, found) for k, x in enumerate(components) if (found := _coefficients(x, pair))]
         for (i, (a, b)), (j, (x, y)) in combinations(linear, 2):
             if (x == b and y == -a) or (x == -b and y == a):
                 return Turned(pair, (i, j), (a, b))
     return None
 
 
-def parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
+def _coefficients(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
     """(a, b) of a s + b c, the coefficients free of both; None for anything else, and for 0."""
     poly = x.poly
     a, b = poly.derivative(pair.sine), poly.derivative(pair.cosine)
@@ -59,17 +364,18 @@ def parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
     return (Expr(x.ring, a), Expr(x.ring, b)) if poly == a * s + b * c else None
 
 
+def exchanged(components: Sequence[Expr], found: Turned) -> list[Expr]:
+    """The components with a turned vector in place of two of them."""
+    rest = [x for k, x in enumerate(components) if k not in found.places]
+    return [x for x in found.parts if not x.is_zero] + rest
+
+
 @dataclass(frozen=True, slots=True)
 class Shared:
     """What all components of a velocity share: ½ l₂ and q̇₁ of l₂ s₁ q̇₁/2 and l₂ c₁ q̇₁/2; 1 for nothing."""
 
     length: Expr
     rate: Expr
-
-    @property
-    def whole(self) -> Expr:
-        """The length times the rate."""
-        return self.length * self.rate
 
 
 def shared(robot: Robot, components: Sequence[Expr]) -> Shared:
@@ -92,16 +398,10 @@ def shared(robot: Robot, components: Sequence[Expr]) -> Shared:
     symbols = [g for g in ring.generators if g.kind == "symbol"]
     length = common(g for g in symbols if g.name in ring.parameters)
     if length != ring.one:
-        numbers = [Fraction(int(c.p), int(c.q)) for _, c in terms]
-        above, below = zip(*((n.numerator, n.denominator) for n in numbers), strict=True)
-        length = length * Fraction(gcd(*above), lcm(*below))
+        numbers = [fraction(number) for _, number in terms]
+        above, below = gcd(*(n.numerator for n in numbers)), lcm(*(n.denominator for n in numbers))
+        length = length * Fraction(above, below)
     return Shared(length, common(g for g in symbols if g.dots == 1))
-
-
-def exchanged(components: Sequence[Expr], found: Turned) -> list[Expr]:
-    """The components with a turned vector in place of two of them."""
-    rest = [x for k, x in enumerate(components) if k not in found.places]
-    return [x for x in found.parts if not x.is_zero] + rest
 
 
 def factor_of_rate(x: Expr, coordinate: str) -> Expr:
@@ -109,9 +409,9 @@ def factor_of_rate(x: Expr, coordinate: str) -> Expr:
     return Expr(x.ring, x.poly.derivative(x.ring.symbol_indices[(coordinate, 1)]))
 
 
-def separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[Expr]]:
+def _separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[Expr]]:
     """(components whose squares share no product of rates with the others, all others)"""
-    rates = [products_of_rates(ring, x.poly * x.poly) for x in components]
+    rates = [_products_of_rates(ring, x.poly * x.poly) for x in components]
     alone: list[Expr] = []
     together: list[Expr] = []
     for k, x in enumerate(components):
@@ -120,10 +420,20 @@ def separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[E
     return alone, together
 
 
-def products_of_rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
+def _products_of_rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
     """The products of rates that occur, as exponents."""
     places = [ring.symbol_indices[(name, 1)] for name in ring.names]
     return {tuple(e[i] for i in places) for e in poly.to_dict()}
+
+
+def has_roots(x: Expr) -> bool:
+    """Whether a square root or the cosine of a constant angle stands in an expression."""
+    degrees = x.poly.degrees()
+    return any(g.kind in ("root", "constant") and degrees[g.index] > 0 for g in x.ring.generators)
+
+
+MOST_GROUPS = 8
+"""Up to this number of groups of terms squares are multiplied out term by term."""
 
 
 class Group(NamedTuple):
@@ -133,16 +443,10 @@ class Group(NamedTuple):
     reduced: Node
 
 
-def has_roots(x: Expr) -> bool:
-    """Whether a square root or the cosine of a constant angle stands in an expression."""
-    degrees = x.poly.degrees()
-    return any(g.kind in ("root", "constant") and degrees[g.index] > 0 for g in x.ring.generators)
-
-
 def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group] | None:
     """A polynomial before s² + c² = 1 is used, by lengths and by the angles of its sines and cosines.
 
-    None where sines and cosines do not come apart from rates.
+    None where sines and cosines do not come apart from rates, or there are many groups.
     """
     ring = forms.robot.ring
     trig = [(pair.sine, pair.cosine) for pair in ring.pairs]
@@ -153,9 +457,41 @@ def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group] | None:
         angles = tuple(int(e[s] + e[c]) for s, c in trig)
         lengths = tuple(int(x) for i, x in enumerate(e) if i not in angular and i not in rates)
         split.setdefault((angles, lengths), {})[e] = factor
+    if len(split) > MOST_GROUPS:
+        return None
     in_order = sorted(split, key=lambda key: (sum(map(bool, key[0])) > 1, [-a for a in key[0]]))
     made = [_group(forms, ring.ctx.from_dict(split[key]), angular, rates) for key in in_order]
     return None if None in made else [group for group in made if group is not None]
+
+
+def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group | None:
+    """The product of the factors: lengths, what is in brackets, rates; None for a bracket with rates."""
+    ring, decimal = forms.robot.ring, is_numeric(forms.robot)
+    content, factors = poly.factor()
+    lengths = Expr(ring, ring.one.poly)
+    bracketed: list[tuple[fmpq_mpoly, int]] = []
+    velocities: list[tuple[fmpq_mpoly, int]] = []
+    for factor, exponent in factors:
+        held = {i for i, degree in enumerate(factor.degrees()) if degree > 0}
+        if held & angular and held & rates:
+            return None
+        if held & angular:
+            bracketed.append((factor, int(exponent)))
+        elif held & rates:
+            velocities.append((factor, int(exponent)))
+        else:
+            lengths = lengths * Expr(ring, factor) ** int(exponent)
+    velocities.sort(key=lambda velocity: len(velocity[0]))
+    rest = [(forms.of(Expr(ring, factor)), exponent) for factor, exponent in velocities]
+
+    def written(bracket: Callable[[fmpq_mpoly], Node]) -> Node:
+        inner = [(bracket(factor), exponent) for factor, exponent in bracketed]
+        return times(fraction(content), [(forms.of(lengths), 1), *inner, *rest], decimal=decimal)
+
+    return Group(
+        written(lambda factor: _terms(ring, factor)),
+        written(lambda factor: forms.of(Expr(ring, ring.reduce(factor)))),
+    )
 
 
 def factored(forms: Forms, poly: fmpq_mpoly) -> Node:
@@ -174,56 +510,44 @@ def factored(forms: Forms, poly: fmpq_mpoly) -> Node:
     return times(front, [(forms.of(kept), 1), *changed], decimal=is_numeric(forms.robot))
 
 
-def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group | None:
-    """The product of the factors: lengths, what is in brackets, rates; None for a bracket with rates."""
-    ring, decimal = forms.robot.ring, is_numeric(forms.robot)
-    content, factors = poly.factor()
-    lengths = Expr(ring, ring.one.poly)
-    brackets: list[tuple[fmpq_mpoly, int]] = []
-    velocities: list[tuple[fmpq_mpoly, int]] = []
-    for factor, exponent in factors:
-        held = {i for i, degree in enumerate(factor.degrees()) if degree > 0}
-        if held & angular and held & rates:
-            return None
-        if held & angular:
-            brackets.append((factor, int(exponent)))
-        elif held & rates:
-            velocities.append((factor, int(exponent)))
-        else:
-            lengths = lengths * Expr(ring, factor) ** int(exponent)
-
-    def written(bracket: Callable[[fmpq_mpoly], Node]) -> Node:
-        inner = [(bracket(factor), exponent) for factor, exponent in brackets]
-        outer = [
-            (forms.of(Expr(ring, factor)), exponent) for factor, exponent in sorted(velocities, key=_length)
-        ]
-        return times(fraction(content), [(forms.of(lengths), 1), *inner, *outer], decimal=decimal)
-
-    return Group(
-        written(lambda factor: _terms(ring, factor)),
-        written(lambda factor: forms.of(Expr(ring, ring.reduce(factor)))),
-    )
-
-
-def _length(velocity: tuple[fmpq_mpoly, int]) -> int:
-    return len(velocity[0])
-
-
 def _terms(ring: Ring, poly: fmpq_mpoly) -> Node:
     """A polynomial term by term, as it stands."""
-
-    def factors(powers: Sequence[int]) -> list[tuple[Node, int]]:
+    terms: list[Node] = []
+    for powers, number in poly.to_dict().items():
         found = [(ring.generators[i], int(e)) for i, e in enumerate(powers) if e]
         found.sort(key=lambda power: power[0].kind != "root")  # √3 s c
-        return [(_written(ring, g), e) for g, e in found]
+        terms.append(times(fraction(number), [(_generator(ring, g), e) for g, e in found]))
+    return total(terms)
 
-    return total([times(fraction(factor), factors(powers)) for powers, factor in poly.to_dict().items()])
 
-
-def _written(ring: Ring, g: Generator) -> Node:
+def _generator(ring: Ring, g: Generator) -> Node:
     """A generator as a formula."""
     if g.kind in ("sin", "cos"):
         return Function(g.kind, angle_node(g.angle, ring.names))
     if g.node is None:
         return Symbol(g.name, g.dots)
     return Function("sqrt", g.node) if g.kind == "root" else g.node
+
+
+# -- a velocity, or the columns of a Jacobian, brought to the axes of frame i by (R_i^w)ᵀ ----------
+# A rotation leaves lengths and products of vectors unchanged: where the entries are long in the world, their
+# squares and products are worked out along the axes of a frame in which they come apart.
+
+
+def turned_name(context: Context, i: int, letter: Letter) -> Product:
+    """(R_i^w)ᵀ v, in letters."""
+    return Product((Transpose(letters.R(context.robot, i)), letter))
+
+
+def turning_line(
+    context: Context, i: int, letter: Letter, value: Matrix, written: tree.Matrix, kept: str | Prose
+) -> Line:
+    """(R_i^w)ᵀ v with both matrices, and what it is; `kept` says what the rotation leaves unchanged."""
+    by = say("A rotation leaves {kept} unchanged; along the axes of frame {i}", kept=kept, i=i)
+    name, turn = turned_name(context, i, letter), turn_of_frame(context, i)
+    return product_line(context, by, [name], turn, (value, written), tells_what_cancels=False)
+
+
+def turn_of_frame(context: Context, i: int) -> tuple[Matrix, tree.Matrix]:
+    """R_i^w, and its form."""
+    return rotation(context.values[f"H{i}"]), block_of(context.matrix(f"H{i}"), 3, 0, 3)
