@@ -9,7 +9,6 @@ yield a `Step` in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
-        stage=STAGE,
         title="Total kinetic energy",
         why=("The sum over the bodies.",),             # words, and formulas between them
         formula=equation(letters.K, Sum((...))),       # the textbook's, in its letters
@@ -69,6 +68,7 @@ And hints (`--hint`), made of the same steps:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from importlib import import_module
 
 from dynsolve.errors import attempted
@@ -110,7 +110,8 @@ def _of_stage(stage: Stage, context: Context) -> Iterator[Step]:
     def explained() -> None:
         steps = _steps(stage)(context)
         for step in with_factors_in_front(steps, context) if stage in _OF_BODIES else steps:
-            shown.append(step)  # noqa: PERF402 - what comes before a failure stays
+            stays = replace(step, stage=step.stage or stage)
+            shown.append(stays)  # noqa: PERF401 - what comes before a failure stays
 
     def bare() -> None:
         told = {name for step in shown for name in (step.id, *step.also)}

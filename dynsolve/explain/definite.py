@@ -18,10 +18,7 @@ from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.candidates import Candidate
-
-STAGE = Stage.DEFINITE
 
 _CONCLUSIONS = {
     Answer.YES: "it can be an inertia matrix.",
@@ -46,7 +43,6 @@ def steps(context: Context) -> Iterator[Step]:
     candidates = context.robot.questions.candidates
     yield Step(
         id="definite",
-        stage=STAGE,
         title="What an inertia matrix is",
         why=say(
             "An inertia matrix is symmetric. It is made of sines and cosines of angles, and at most "
@@ -68,7 +64,6 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
     matrix = equation(name, context.show(candidate.matrix))
     step = Step(
         id=f"definite_{candidate.name}",
-        stage=STAGE,
         title=f"The matrix {candidate.name}",
         result=(matrix,),
         detail=Detail.BRIEF,

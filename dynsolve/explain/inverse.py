@@ -47,10 +47,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import names_in, with_formulas
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
-
-STAGE = Stage.INVERSE
 
 SHORT = 4
 """Formulas with more operations are not repeated in the table of the branches."""
@@ -65,7 +62,6 @@ def steps(context: Context) -> Iterator[Step]:
     if forms.solved is None:
         yield Step(
             id=_id_of_branches(forms),
-            stage=STAGE,
             title="No closed form",
             why=(
                 "No equation with one unknown in a known form was found: turned into the frames of the "
@@ -89,7 +85,6 @@ def _task(context: Context, forms: ConfigurationForms) -> Step:
     asked, frame = column(*names), len(context.robot.joints)
     step = Step(
         id="inverse_task",
-        stage=STAGE,
         title="What is to be solved",
         why=("The values of the task are given, and the joint variables that give them are looked for.",),
         formula=equation(letters.TASK, asked),
@@ -179,7 +174,6 @@ def _unknown(forms: ConfigurationForms, step: Solved, before: Sequence[Solved], 
         why = (*_origin([e.origin for e in step.equations]), *say(_form(step), q=Symbol(step.coordinate)))
     return Step(
         id=f"inverse_{step.coordinate}",
-        stage=STAGE,
         title=f"Solving for {step.coordinate}",
         why=why,
         working=working,
@@ -382,7 +376,6 @@ def _starting(forms: InverseFormulas, part: Part, number: int, before: Sequence[
         joints = and_joined([str(k) for k in part.parallel])
         yield Step(
             id=f"inverse_parallel_{number}",
-            stage=STAGE,
             title="Parallel axes",
             why=(
                 f"The axes of joints {joints} are parallel. In that direction these joints move nothing, and "
@@ -399,7 +392,6 @@ def _starting(forms: InverseFormulas, part: Part, number: int, before: Sequence[
         defined = (equation(known, with_formulas(known, meant)),) if meant else ()
         yield Step(
             id=f"inverse_point_{number}",
-            stage=STAGE,
             title=title,
             why=(why,),
             result=(*defined, equation(known, forms.matrix(part.point.made))),
@@ -448,7 +440,6 @@ def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[S
     values = tuple(equation(Symbol(d.name), formulas.form(d.value)) for d in turn.definitions)
     return Step(
         id=f"inverse_turn_{number}",
-        stage=STAGE,
         title="The rotation of the wrist" if turn.is_wrist else f"What is left for {joints}",
         why=say(
             "The other joints are known now. Taken off the given pose, they leave to {joints} the rotation "
@@ -490,7 +481,6 @@ def _branches(forms: ConfigurationForms, solving: Solving) -> Step:
     task = letters.FRAME_OF_Q if _is_pose(forms.robot) else letters.TASK_OF_Q
     return Step(
         id=_id_of_branches(forms),
-        stage=STAGE,
         title="The solution" if count == 1 else f"The {count} solutions",
         why=say(
             "{count}, each put into {task} to see that it gives what is asked. A coordinate that stands in a "

@@ -22,7 +22,6 @@ from dynsolve.explain.writing import column_of, is_small, side_by_side, spong, s
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Number, Parenthesized, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.questions import TIP, Load
 
 _J = letters.J_TASK
@@ -99,7 +98,6 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
     inverse_times = formula(inverse, b=Parenthesized(b) if isinstance(b, Sum) else b, plus="+")
     return Step(
         id=name,
-        stage=Stage.RATES,
         title=title,
         why=(*why, *how, *state_prose(context)),
         formula=equation(x, inverse_times),
@@ -149,7 +147,6 @@ def _space(context: Context, name: str) -> Step:
     too_long = " In symbols its vectors are too long to be read: give the coordinates values under `state`."
     found = Step(
         id=name,
-        stage=Stage.RATES,
         title=title,
         why=(what, too_long),
         formula=condition,
@@ -222,7 +219,6 @@ def _load(context: Context, index: int, load: Load) -> Step:
         notes.append(say("It is given along axes of its link, and turned into the world."))
     return Step(
         id=f"load{index}",
-        stage=Stage.STATICS,
         title=f"What force {index} does to the joints",
         why=say(
             "In every motion its power is {power}, and that of its generalized forces ${Q}ᵀ 𝐪̇$: so the "
@@ -246,7 +242,6 @@ def _total(context: Context) -> Step:
     at, several = state_prose(context), len(numbers) > 1
     return Step(
         id="Q",
-        stage=Stage.STATICS,
         title="The generalized forces from outside",
         why=say(
             "{sum}. {at}", sum="The sum over the forces" if several else "There is only one force", at=at
@@ -264,7 +259,6 @@ def _holding(context: Context) -> Step:
     g = context.form("g") if heavy else None
     return Step(
         id="tau_static",
-        stage=Stage.STATICS,
         title="The torques that hold it at rest",
         why=say(
             "At rest{free} only {left} left in the equations of motion. {at}",

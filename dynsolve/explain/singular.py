@@ -17,11 +17,9 @@ from dynsolve.explain.writing import agreeing, listed, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP
 
-STAGE = Stage.SINGULAR
 _LOST = spong("4.10")
 
 _TITLE = "The singular configurations"
@@ -37,7 +35,6 @@ def steps(context: Context) -> Iterator[Step]:
     if found is None:
         yield Step(
             id="singular",
-            stage=STAGE,
             title="Not derived",
             why=(
                 "The Jacobian and its minors are too long to be taken apart into factors. "
@@ -83,7 +80,6 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
         text += "It is less where {of_all}"
     return Step(
         id="singular_minors",
-        stage=STAGE,
         title="What must vanish",
         why=say(
             text,
@@ -110,7 +106,6 @@ def _alternatives(forms: ConfigurationForms, found: SingularSet) -> Step:
     none = ", as no factor of the minors becomes 0" if found.rank > found.pivots else ""
     step = Step(
         id="singular",
-        stage=STAGE,
         title="No singular configuration",
         why=(f"The rank is {found.rank} in every configuration{none}.",),
         detail=Detail.BRIEF,
@@ -157,7 +152,6 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
     what = "What is lost" if lost else "The rank"
     return Step(
         id=f"singular_{case + 1}",
-        stage=STAGE,
         title=f"{what} in case {case + 1}" if len(found.losses) > 1 else f"{what} there",
         why=say(
             "Where {these}, the rank is {general}{rank} instead of {most}.{told}",

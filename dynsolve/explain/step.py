@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Flag, IntEnum, auto
+from typing import cast
 
 from dynsolve.document import Prose, Table
 from dynsolve.document.figures import ArmFigure, Figure
@@ -88,6 +89,10 @@ def outlined(lines: Sequence[Line]) -> tuple[Line, ...]:
     return (*(replace(line, detail=Detail.FULL) for line in lines[:-1]), *lines[-1:])
 
 
+OF_ITS_FILE = cast(Stage, "")
+"""The stage of a step that says none: `explain` gives it that of the file it comes from."""
+
+
 @dataclass(frozen=True, slots=True)
 class Step:
     """One step of a derivation.
@@ -115,8 +120,8 @@ class Step:
     """
 
     id: str
-    stage: Stage
-    title: str
+    stage: Stage = OF_ITS_FILE
+    title: str = ""
     why: Prose = ()
     formula: Node | None = None
     source: str = ""

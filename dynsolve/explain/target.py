@@ -44,7 +44,6 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.notation.walk import mapped, names_in, walk
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Target
 
@@ -377,7 +376,6 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
     for number, one in enumerate(forms.configurations, 1):
         yield Step(
             id=f"inverse_{number}",
-            stage=Stage.INVERSE,
             title=f"Configuration {number}",
             why=_where_from(one),
             result=tuple(_value(forms, one, name) for name in one.formulas),
@@ -456,7 +454,6 @@ def _all(forms: TargetForms) -> Step:
         title = "The configuration that reaches it" if len(found) == 1 else several
     return Step(
         id="inverse",
-        stage=Stage.INVERSE,
         title=title,
         why=told(forms) if found else reason(forms),
         table=_table(forms) if found else None,

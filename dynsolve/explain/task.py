@@ -34,10 +34,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
-
-STAGE = Stage.TASK
 
 TASK = Group("r", "The task and its Jacobian")
 
@@ -79,7 +76,6 @@ def _map(context: Context, task: Task) -> Step:
         why = say("The task is the position of the tip, of which these are the coordinates that move.")
     return Step(
         id="r",
-        stage=STAGE,
         title="The task",
         why=why,
         formula=equation(letters.TASK, column(*(mapped(entry, with_letters) for entry in task.entries))),
@@ -115,7 +111,6 @@ def _jacobian(context: Context, task: Task) -> Step:
     is_part = task.is_default and not task.is_twist and bool(still)
     return Step(
         id="Jr",
-        stage=STAGE,
         title="The Jacobian of the task",
         why=why,
         formula=general,
@@ -145,7 +140,6 @@ def _determinant(context: Context) -> Step:
     letter = formula("det {of}", of=square_of(J, context.values[name]))
     return Step(
         id="det",
-        stage=STAGE,
         title="The determinant of the Jacobian",
         why=why,
         formula=equation(letter, formula("det {matrix}", matrix=shown)) if is_small(shown) else None,
@@ -196,7 +190,6 @@ def _rate(context: Context, name: str) -> Step:
     total = sum_over_coordinates(formula("∂{J}/∂q_k q̇_k", J=letter), Symbol("k"), context.robot)
     return Step(
         id=f"{name}_dot",
-        stage=STAGE,
         title=f"How {called} changes",
         why=say(
             "Entry by entry, by the chain rule: every joint variable in an entry moves. It stands in the "
@@ -215,7 +208,6 @@ def _rate(context: Context, name: str) -> Step:
 def _whole_rate(context: Context) -> Step:
     return Step(
         id="J_dot",
-        stage=STAGE,
         title="How the Jacobian changes",
         why=("The two parts, one above the other.",),
         formula=formula("𝐉̇ = {parts}", parts=column(letters.rate(letters.JV), letters.rate(letters.JW))),
@@ -242,7 +234,6 @@ def _of_point(context: Context, point: NamedPoint) -> Iterator[Step]:
         working = formula("{v} = {J} {rates}", v=v, J=jacobian, rates=rates)
         yield Step(
             id=f"v{P}",
-            stage=STAGE,
             title=f"The velocity of {P}",
             why=("Each joint adds its column times its rate.",),
             formula=formula("{v} = {J} 𝐪̇", v=v, J=J),
@@ -269,7 +260,6 @@ def _position(context: Context, point: NamedPoint) -> Step:
         working = (equation(in_frame, context.show(point.position)),)
     return Step(
         id=f"p{P}",
-        stage=STAGE,
         title=f"The point {P}",
         why=(why,),
         formula=general,
@@ -318,7 +308,6 @@ def _jacobians(context: Context, point: NamedPoint) -> Step:
     )
     return Step(
         id=names[0],
-        stage=STAGE,
         title=f"The Jacobian of {P}",
         why=why,
         formula=formulas[0],
