@@ -111,7 +111,7 @@ def _of_stage(stage: Stage, context: Context) -> Iterator[Step]:
         steps = _steps(stage)(context)
         for step in with_factors_in_front(steps, context) if stage in _OF_BODIES else steps:
             stays = replace(step, stage=step.stage or stage)
-            shown.append(stays)  # noqa: PERF401 - what comes before a failure stays
+            shown.append(stays)  # though a later one may fail
 
     def bare() -> None:
         told = {name for step in shown for name in (step.id, *step.also)}
