@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
@@ -66,6 +66,9 @@ HintOption = Annotated[
     Stage | None,
     typer.Option(metavar="STAGE", help="What to do in this stage, without its result or a later one."),
 ]
+EditionOption = Annotated[
+    int | None, typer.Option(min=1, max=2, help="The edition of Spong's book whose sections are named.")
+]
 MethodOption = Annotated[
     MethodName,
     typer.Option(help="The way to the forces: energies, or link by link Newton's and Euler's laws."),
@@ -104,6 +107,7 @@ def solve(
     at: AtOption = None,
     digits: DigitsOption = None,
     hint: HintOption = None,
+    edition: EditionOption = None,
     method: MethodOption = MethodName.LAGRANGE,
     quiet: Quiet = False,
 ) -> int:
@@ -125,7 +129,7 @@ def solve(
         raise UsageError(f"--hint is a text on one stage; it does not go with {what}")
 
     def solved(name: str) -> Solution:
-        return with_numbers(_solved(name, method, quiet), set_, at, digits)
+        return with_numbers(_solved(name, method, edition, quiet), set_, at, digits)
 
     return _solve_all(problem, place, view, solved, quiet)
 
@@ -175,11 +179,13 @@ def _stages(stage: list[Stage] | None, first: Stage | None, last: Stage | None) 
     return [name.value for name in order[start : end + 1]]
 
 
-def _solved(name: str, method: MethodName, quiet: bool) -> Solution:
+def _solved(name: str, method: MethodName, edition: int | None, quiet: bool) -> Solution:
     from dynsolve.cli.progress import progress
     from dynsolve.solution.solution import solve as solve_problem
 
     problem = read(name)
+    if edition:
+        problem = replace(problem, edition=edition)
     with progress(problem.title, quiet) as advance:
         return solve_problem(problem, method=method.value, progress=advance)
 

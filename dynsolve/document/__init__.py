@@ -12,7 +12,8 @@ To add a kind of block, add its dataclass here and its case to each renderer.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 from dynsolve.notation.tree import Node
 
@@ -158,3 +159,31 @@ class Document:
     """Blocks in order."""
 
     blocks: tuple[Block, ...]
+
+
+def reworded(document: Document, change: Callable[[str], str]) -> Document:
+    """The document with its words and the sources of its formulas changed, everything else as it is."""
+
+    def prose(parts: Prose) -> Prose:
+        return tuple(change(part) if isinstance(part, str) else part for part in parts)
+
+    def block(old: Block) -> Block:
+        match old:
+            case Text():
+                return replace(old, parts=prose(old.parts), source=change(old.source))
+            case Formula():
+                return formula(old)
+            case Uses() | Note():
+                return replace(old, parts=prose(old.parts))
+            case List():
+                return replace(old, items=tuple(map(prose, old.items)))
+            case Table():
+                return replace(old, rows=tuple(map(prose, old.rows)))
+            case Fold():
+                return replace(old, blocks=tuple(map(block, old.blocks)))
+        return old
+
+    def formula(old: Formula) -> Formula:
+        return replace(old, source=change(old.source), otherwise=tuple(map(formula, old.otherwise)))
+
+    return Document(tuple(map(block, document.blocks)))

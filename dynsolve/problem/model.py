@@ -52,6 +52,7 @@ class Problem:
     `written` are the same as they stand in the file, which is exact.
     `accepted` is what else counts as a Denavit-Hartenberg table that is handed in.
     `remarks` are its author's words on results.
+    `edition` is that of Spong, Hutchinson, Vidyasagar by which sections are counted.
     `normals` are those of a drawing, where the file has one in the place of a table.
     `places` tells where each part of the file stands; `warnings` are what deserves
     a look and is no error.
@@ -68,6 +69,7 @@ class Problem:
     written: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[Remark, ...] = ()
+    edition: int = 1
     normals: Normals | None = None
     accepted: AcceptedTables = field(default_factory=AcceptedTables)
     places: Mapping[Path, FilePlace] = field(default_factory=dict)

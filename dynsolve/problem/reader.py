@@ -30,7 +30,7 @@ from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.questions import read_questions
 from dynsolve.problem.source import MAX_BYTES, Faults, as_source
-from dynsolve.problem.specification import CONVENTION, DRAWING, OF_A_TABLE, PROBLEM
+from dynsolve.problem.specification import CONVENTION, DRAWING, EDITION, OF_A_TABLE, PROBLEM
 from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import DHTable, read_table
 from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
@@ -103,6 +103,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
     check_symbols(faults, parsed)
     exercise = read_exercise(faults, fields, parsed)
     accepted = read_accepted_tables(faults, fields)
+    edition = word(faults, fields.get("edition"), EDITION.choices, "edition", PROBLEM["edition"].help)
     title = free_text(faults, fields.get("title"), "title") or Path(file).stem
     source = free_text(faults, fields.get("source"), "source")
     robot = build_robot(faults, parsed, exercise.asked, exercise.written)
@@ -124,6 +125,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         remarks=exercise.remarks,
         normals=parsed.normals,
         accepted=accepted,
+        edition=int(edition or 1),
         places=dict(_places(faults, root)),
         warnings=tuple(faults.warnings),
     )

@@ -13,7 +13,7 @@ from dynsolve.problem.specification import PROBLEM
 
 Schema = dict[str, Any]
 
-_BOOLEANS = {"true": True, "false": False}
+_PLAIN = {"true": True, "false": False, "1": 1, "2": 2}
 """What an editor makes of these words before it looks at the schema."""
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -44,7 +44,7 @@ def _schema_of(kind: ValueKind, shared: dict[str, Schema]) -> Schema:
         case Word((only,)):
             return {"const": only}
         case Word(choices):
-            return {"enum": [*choices, *(_BOOLEANS[word] for word in choices if word in _BOOLEANS)]}
+            return {"enum": [*choices, *(_PLAIN[word] for word in choices if word in _PLAIN)]}
         case ListOf(items, _, least, most):
             bounds = {"minItems": least or None, "maxItems": most}
             return {"type": "array", "items": _schema_of(items, shared), **_given(bounds)}

@@ -87,6 +87,7 @@ HAND = Keyed(
 )
 ZERO = Word(("table", "drawn"))
 STRICT = Word(("true", "false"))
+EDITION = Word(("1", "2"))
 DRAWING = ("axes", "tip", "zero")
 """The keys that stand for `dh` and `base`."""
 
@@ -223,6 +224,14 @@ PROBLEM = Keyed(
             "Where it comes from; shown in the solution.",
             "my course, exercise 1",
             active=True,
+        ),
+        Key(
+            "edition",
+            EDITION,
+            "Of which edition of Spong, Hutchinson, Vidyasagar the sections (§) are: 1 (2006) or 2 (2020).",
+            "2",
+            "1",
+            remedy="write edition: 1 or edition: 2",
         ),
         Key(
             "convention",

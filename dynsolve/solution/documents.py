@@ -8,7 +8,7 @@ from itertools import groupby
 from operator import attrgetter
 
 from dynsolve.derivation.rules import course_rules
-from dynsolve.document import Block, Document, Equations, Fold, Heading, Prose, Text
+from dynsolve.document import Block, Document, Equations, Fold, Heading, List, Prose, Text, reworded
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
@@ -16,7 +16,15 @@ from dynsolve.explain.given import statement
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
-from dynsolve.explain.writing import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, listed, machine
+from dynsolve.explain.writing import (
+    GAUTIER_KHALIL,
+    KHALIL_DOMBRE,
+    cited,
+    listed,
+    machine,
+    of_second_edition,
+    titled,
+)
 from dynsolve.notation.tree import Number, Power, Row, Words, equation
 from dynsolve.notation.walk import walk
 from dynsolve.quantities.robot_stages import heading_of, stages_of
@@ -96,7 +104,7 @@ def _document(
         ),
     )
     stated = _part("what is given", lambda: _statement(solution, stages, derivation))
-    return Document((
+    document = Document((
         *_opening(solution),
         *stated,
         *_part("the letters", lambda: _letters(solution, stated, derivation, detail)),
@@ -104,6 +112,7 @@ def _document(
         *_closing(solution, detail, _sources(steps, detail, short)),
         *_part("the notation", lambda: _notation(solution, (*stated, *derivation), detail, short)),
     ))  # fmt: skip
+    return reworded(document, of_second_edition) if solution.problem.edition == 2 else document
 
 
 def _part(what: str, made: Callable[[], Iterable[Block]]) -> tuple[Block, ...]:
@@ -267,12 +276,16 @@ def _closing(solution: Dynamics, detail: Detail, sources: Iterable[str]) -> Iter
     if detail is Detail.FULL:
         yield Heading("Verification", 2)
     yield Text(told)
+    sources = tuple(sources)
     books = [
         f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."
         for book in cited(sources)
     ]
     if books:
         yield Text((" ".join(books),))
+    titles = tuple((title,) for title in titled(sources)) if detail is Detail.FULL else ()
+    if titles:
+        yield List(titles)
 
 
 def _in_powers_of_ten(size: float) -> Prose:

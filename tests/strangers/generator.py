@@ -69,8 +69,9 @@ class _Plain(yaml.SafeDumper):
 
 
 def stranger(seed: int) -> Problem:
-    """The mechanism of a seed."""
-    return _Stranger(Random(seed)).problem()
+    """The mechanism of a seed; of one in seven the sections are those of the second edition."""
+    problem = _Stranger(Random(seed)).problem()
+    return problem | {"edition": "2"} if seed % 7 == 0 else problem
 
 
 class _Stranger:

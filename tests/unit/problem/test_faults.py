@@ -66,6 +66,7 @@ TABLE = {
         "1000 times",
         "angles of one size",
     ),
+    "edition": ("edition: «3»\n" + PLANAR, "one of 1, 2", "write edition: 1 or edition: 2"),
     "convention": ("convention: «dh»\n" + PLANAR, "one of standard, modified", "that of Craig"),
     "a Greek column": (row("{«θ»: q1*}"), "unknown key `θ`", "did you mean `theta`?"),
     "a column that is no name": (row("{theta: q1*, «0²»: 1}"), "unknown key `0²`", "known are"),
