@@ -18,7 +18,7 @@ h = -m₂ l₁ l_c2 s₂ of the planar elbow.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
@@ -31,7 +31,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.derivation.vectorized import christoffel_symbols
 from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric, pairs
 from dynsolve.explain.parameters import BaseParameters
-from dynsolve.explain.recurring import Definition, name_recurring
+from dynsolve.explain.recurring import Definition, name_recurring, rewritten
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
@@ -53,6 +53,11 @@ CONSTANTS_LIST, SUMS_LIST = "constants", "recurring"
 """What the two lists of names are called where others refer to them."""
 
 Index = tuple[int, int, int]
+
+
+def as_shown(indices: Iterable[Index]) -> list[Index]:
+    """The indices of Christoffel symbols in the order in which these are shown."""
+    return sorted(indices, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
 
 
 class Abbreviate(StrEnum):
@@ -207,8 +212,8 @@ def _assembled(
     name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
     sums, used = name(free_names(RECURRING, taken))
     if len(sums) == 1 and SINGLE not in taken:
-        order = sorted(enumerate(symbols), key=lambda entry: (entry[1][2], entry[1][:2]))
-        places = [len(upper) + n + place for place, _ in order]
+        keys = list(symbols)
+        places = [len(upper) + n + keys.index(key) for key in as_shown(keys)]
         sums, used = _leading_with_plus(*name(iter([Symbol(SINGLE)])), places)
     d = dict(zip(upper, used, strict=False))
     short = dict(zip(symbols, used[len(upper) + n :], strict=False))
@@ -238,16 +243,7 @@ def _leading_with_plus(
         return definitions, used
 
     def turned(node: Node) -> Node:
-        match node:
-            case Symbol():
-                return minus if node == definition.name else node
-            case Sum(terms):
-                return total([turned(term) for term in terms])
-            case Negative(argument):
-                return negated(turned(argument))
-            case Product(factors):
-                return times(1, [(turned(factor), 1) for factor in factors])
-        return node
+        return rewritten(node, lambda leaf: minus if leaf == definition.name else leaf)
 
     return (Definition(definition.name, negated(definition.meaning)),), [turned(node) for node in used]
 

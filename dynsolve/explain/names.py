@@ -16,13 +16,21 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
-from dynsolve.explain.abbreviations import RECURRING, SINGLE, Abbreviated, Exchange, Index, free_names
+from dynsolve.explain.abbreviations import (
+    RECURRING,
+    SINGLE,
+    Abbreviated,
+    Exchange,
+    Index,
+    as_shown,
+    free_names,
+)
 from dynsolve.explain.context import is_short
 from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric
 from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.build import cost, negated, split_sign, summands, times, total
 from dynsolve.notation.printing import flat_factors
 from dynsolve.notation.tree import (
     ZERO,
@@ -222,17 +230,12 @@ def _is_one_value(forms: Forms) -> bool:
 def _one_named(forms: Forms, inertias: InertiaNames) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
     """h, with the sign of the symbol that is shown first, and every symbol by it."""
     values: Mapping[Index, Expr] = forms.values["christoffel"]
-    order = (values[key] for key in _as_shown(values))
+    order = (values[key] for key in as_shown(values))
     first = next(value for value in order if not value.is_zero)
     name = tree.Symbol(SINGLE)
     by_name: dict[Expr, Node] = {first: name, -first: Negative(name)}
     symbols = {key: by_name.get(value, ZERO) for key, value in values.items()}
     return (Definition(name, inertias.put(forms.of(first))),), symbols
-
-
-def _as_shown(indices: Iterable[Index]) -> list[Index]:
-    """The indices in the order in which the symbols are shown."""
-    return sorted(indices, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
 
 
 def _written(forms: Forms, inertias: InertiaNames) -> dict[Index, Node]:
@@ -245,7 +248,7 @@ def _named(
 ) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
     """The definitions, in the order in which the symbols are shown, and every symbol by them."""
     values: Mapping[Index, Expr] = forms.values["christoffel"]
-    order = _as_shown(values)
+    order = as_shown(values)
     namer = _Namer(lambda value: inertias.put(forms.of(value)), [values[key] for key in order], free)
     symbols = {key: namer.written(values[key]) for key in order}
     return tuple(namer.definitions), {key: symbols[key] for key in values}
@@ -296,18 +299,14 @@ class _Namer:
 
     def _sum(self, form: Node) -> Node:
         """A sum in which all terms of another symbol's stand, with the name of that in their place."""
-        terms = _summands(form)
+        terms = summands(form)
         for other, part in self.forms.items():
             for sign in (1, -1):
-                own = _summands(part) if sign > 0 else tuple(map(negated, _summands(part)))
+                own = summands(part) if sign > 0 else tuple(map(negated, summands(part)))
                 if 1 < len(own) < len(terms) and set(own) <= set(terms):
                     rest = [term for term in terms if term not in own]
                     return total([*rest, times(sign, [(self.written(other), 1)])])
         return form
-
-
-def _summands(node: Node) -> tuple[Node, ...]:
-    return node.terms if isinstance(node, Sum) else (node,)
 
 
 def _factors(node: Node) -> tuple[Node, ...]:
@@ -316,4 +315,4 @@ def _factors(node: Node) -> tuple[Node, ...]:
 
 def _starts_with_minus(node: Node) -> bool:
     """Whether a form starts with a minus: of a sum, that every term has one."""
-    return isinstance(node.terms[0] if isinstance(node, Sum) else node, Negative)
+    return isinstance(summands(node)[0], Negative)

@@ -331,6 +331,18 @@ def _ordered(part: _Key, terms: Mapping[Symbol, tuple[Node, ...]], users: Sequen
     return sorted(part, key=lambda t: order.index(split_sign(t)[1]))
 
 
+def rewritten(node: Node, leaf: Callable[[Node], Node]) -> Node:
+    """A tree of sums and products, what these are made of changed, added and multiplied anew."""
+    match node:
+        case Sum(terms):
+            return total([rewritten(term, leaf) for term in terms])
+        case Negative(argument):
+            return negated(rewritten(argument, leaf))
+        case Product(factors):
+            return times(1, [(rewritten(factor, leaf), 1) for factor in factors])
+    return leaf(node)
+
+
 def expanded_once(definitions: Sequence[Definition], node: Node) -> Node:
     """A tree with the meanings put in for the names that stand in it, as they were defined."""
     meanings: dict[Node, Node] = {definition.name: definition.meaning for definition in definitions}

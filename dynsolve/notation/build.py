@@ -84,6 +84,11 @@ def factors_of(node: Node) -> tuple[Node, ...]:
     return node.factors if isinstance(node, Product) else (node,)
 
 
+def summands(node: Node) -> tuple[Node, ...]:
+    """The terms of a sum; anything else is its own one."""
+    return node.terms if isinstance(node, Sum) else (node,)
+
+
 def total(terms: Sequence[Node]) -> Node:
     """The sum of terms, flattened; it starts with a plus where that leaves the rates in their order.
 

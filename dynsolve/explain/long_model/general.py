@@ -8,19 +8,15 @@ tensors that are given, is shown in any case.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from functools import partial
-from itertools import groupby
-from math import prod
-from operator import itemgetter
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.actions import gravity_row
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
@@ -28,77 +24,60 @@ from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.kinematics import OUTWARDS
 from dynsolve.explain.long_model.inertia_entry import kinetic_step
-from dynsolve.explain.long_model.model import Change, LongModel, halves, product
+from dynsolve.explain.long_model.model import LongModel, columns_shown, halves, product
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.sanity.poses import at, turning_in
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.identities import said, used_in_product
-from dynsolve.explain.writing import column_of, listed, side_by_side, spong
+from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
-    BigSum,
-    Cross,
-    Letter,
     Negative,
     Node,
     Number,
-    Parenthesized,
     Product,
     Relation,
-    Row,
-    Sum,
     Symbol,
     Transpose,
-    Words,
-    column,
     equation,
+    number,
 )
+from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Joint, JointType
 from dynsolve.robot.questions import Method
 
-_I, _J, _K = (Symbol(name) for name in "ijk")
 
-
-@dataclass(frozen=True, slots=True)
-class GeneralStep:
-    """A step, and the ids of those in whose place it stands: they become its details."""
-
-    step: Step
-    details: frozenset[str]
-
-
-def general_steps(context: Context) -> Iterator[GeneralStep]:
-    """What is said once in the account of a long model."""
+def general_steps(context: Context) -> dict[str, Step]:
+    """What is said once, by the ids of the steps in whose place it stands: they become its details."""
     robot = context.robot
     bodies = [body.name for body in robot.bodies]
+    solid = [body for body in robot.bodies if has_link_axes(body) and not is_moved(body)]
+    coordinates = [q.index for q in robot.coordinates]
     rows = [joint.index for joint in robot.joints]
-    yield GeneralStep(_rows(context), _ids(["A"], rows) | _ids(["H"], rows[:-1]))
+    found: dict[str, Step] = {}
+
+    def say_once(step: Step, stems: str, names: Sequence[str | int]) -> None:
+        found.update({f"{stem}{name}": step for stem in stems.split() for name in names})
+
+    matrices = _rows(context)
+    say_once(matrices, "A", rows)
+    say_once(matrices, "H", rows[:-1])
     if robot.moves_each_joint_alone:
-        yield GeneralStep(_columns(context), _ids(["J"], [q.index for q in robot.coordinates]))
+        say_once(_columns(context), "J", coordinates)
     if bodies and robot.has_table:
-        solid = [body for body in robot.bodies if _is_plain(body)]
-        yield GeneralStep(_mass_centers(context), _ids(["rc"], bodies))
+        say_once(_mass_centers(context), "rc", bodies)
         if solid:
-            names = [body.name for body in solid]
-            yield GeneralStep(_tensors(context, solid), _ids(["I_body", "R", "I"], names))
-        yield GeneralStep(kinetic_step(context), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
+            say_once(_tensors(context, solid), "I_body R I", [body.name for body in solid])
+        say_once(kinetic_step(context), "Jv v Kv Kw K", bodies)
     if bodies:
-        yield GeneralStep(_potential(context), _ids(["P"], bodies))
+        say_once(_potential(context), "P", bodies)
     if robot.has_dynamics and robot.questions.method is Method.LAGRANGE:
-        coordinates = [q.index for q in robot.coordinates]
-        yield GeneralStep(_forces(context), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
-
-
-def _ids(stems: Sequence[str], names: Sequence[str | int]) -> frozenset[str]:
-    return frozenset(f"{stem}{name}" for stem in stems for name in names)
-
-
-def _is_plain(body: Body) -> bool:
-    """Whether a tensor is given about the mass centre, along the axes of the link's frame."""
-    return has_link_axes(body) and not is_moved(body)
+        say_once(_forces(context), "dLdqd ddt dLdq tau", coordinates)
+    return found
 
 
 # -- kinematics and the Jacobian -------------------------------------------------------------------
@@ -120,26 +99,26 @@ def _rows(context: Context) -> Step:
 
 def _columns(context: Context) -> Step:
     """J_i = [z × (o_n - o); z] of a revolute joint, [z; 0] of a prismatic one."""
-    robot = context.robot
-    which = letters.BEFORE if context.standard else _I
-    z, o = (letters.bold(letter, which) for letter in "zo")
-    arm = Parenthesized(Sum((letters.o(len(robot.joints)), Negative(o))))
-    kinds = {
-        JointType.REVOLUTE: ("revolute", column(Cross(z, arm), z)),
-        JointType.PRISMATIC: ("prismatic", column(z, ZERO)),
-    }
-    present = [kind for kind in kinds if any(joint.type is kind for joint in robot.joints)]
-    name = Letter("J", _I, style="bold")
+    joints = context.robot.joints
+    kinds = {joint.type for joint in joints}
+    axis = letters.BEFORE if context.standard else letters.COUNT
+    columns = []
+    if JointType.REVOLUTE in kinds:
+        turning = "𝐉_i = [𝐳_{axis} × (𝐨_{last} - 𝐨_{axis}); 𝐳_{axis}]"
+        columns.append(formula(turning, axis=axis, last=len(joints)))
+    if JointType.PRISMATIC in kinds:
+        columns.append(formula("𝐉_i = [𝐳_{axis}; {zero}]", axis=axis, zero=ZERO))
     words = " The first is that of a revolute joint, the second that of a prismatic one."
     return Step(
         id="columns",
         stage=Stage.JACOBIAN,
         title="The columns of the Jacobian",
-        why=(
-            f"The velocity and the angular velocity of {context.end} at unit rate of joint i.",
-            *((words,) if len(present) > 1 else ()),
+        why=say(
+            "The velocity and the angular velocity of {end} at unit rate of joint i.{both}",
+            end=context.end,
+            both=words if len(columns) > 1 else "",
         ),
-        formula=side_by_side([equation(name, kinds[kind][1]) for kind in present]),
+        formula=side_by_side(columns),
         source=spong("4.6.3"),
         detail=Detail.BRIEF,
         uses=("axes",),
@@ -150,21 +129,16 @@ def _columns(context: Context) -> Step:
 
 
 def _mass_centers(context: Context) -> Step:
-    robot = context.robot
-    given = [
-        equation(Letter("r", letters.rc(body).sub, Number(body.link), "bold"), context.show(body.center))
-        for body in robot.bodies
-    ]
-    frame = Letter("r", Row((Words("c"), _I)), _I, "bold")
-    ground = letters.R(robot, 1).sup
-    turned = Product((Letter("R", _I, ground, "bold"), frame))
-    center = Letter("r", Row((Words("c"), _I)), style="bold")
+    given = (
+        equation(letters.bold("r", letters.rc(body).sub, Number(body.link)), context.show(body.center))
+        for body in context.robot.bodies
+    )
     return Step(
         id="rc",
         stage=Stage.INERTIA,
         title="Mass centres",
         why=("Each is given in the frame of its link and transformed to the base.",),
-        formula=equation(center, Sum((turned, Letter("o", _I, style="bold")))),
+        formula=formula("𝐫_ci = 𝐑_i^{ground} 𝐫_ci^i + 𝐨_i", ground=_ground(context)),
         source=spong("2.6"),
         result=tuple(given),
         together=True,
@@ -173,42 +147,38 @@ def _mass_centers(context: Context) -> Step:
     )
 
 
+def _ground(context: Context) -> Node:
+    """0, or w of a base that is turned in the world."""
+    ground = letters.R(context.robot, 1).sup
+    assert ground is not None
+    return ground
+
+
 def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
-    rotation, tensor = Letter("R", _I, style="bold"), Letter("I", _I, style="bold")
-    given = []
-    for body in bodies:
-        assert body.inertia is not None
-        given.append(equation(letters.tensor(context.robot, body), context.show(body.inertia)))
+    """I_i, along the axes of the link; they turn with it.  What the sign of products of inertia is."""
+    tensors = [
+        (letters.tensor(context.robot, body), body.inertia) for body in bodies if body.inertia is not None
+    ]
+    minus = (
+        " An entry off the diagonal is minus the integral of the product of two coordinates over the mass."
+    )
+    has_products = any(not tensor[i, j].is_zero for _, tensor in tensors for i in range(3) for j in range(i))
     return Step(
         id="tensors",
         stage=Stage.INERTIA,
         title="Inertia tensors",
-        why=(
-            f"Each is given about the mass centre, along the axes of its link's frame; in {context.ground} "
-            "coordinates it turns with the link.",
-            *_off_the_diagonal(bodies),
+        why=say(
+            "Each is given about the mass centre, along the axes of its link's frame; in {ground} "
+            "coordinates it turns with the link.{minus}",
+            ground=context.ground,
+            minus=minus if has_products else "",
         ),
-        formula=side_by_side(
-            [
-                equation(rotation, Letter("R", _I, letters.R(context.robot, 1).sup, "bold")),
-                equation(letters.base_tensor(_I), Product((rotation, tensor, Transpose(rotation)))),
-            ]
-        ),
+        formula=formula("𝐑_i = 𝐑_i^{ground}, 𝓘_i = 𝐑_i 𝐈_i 𝐑_iᵀ", ground=_ground(context)),
         source=spong("7.2.1"),
-        result=tuple(given),
+        result=tuple(equation(name, context.show(tensor)) for name, tensor in tensors),
         together=True,
         detail=Detail.BRIEF,
         uses=(),
-    )
-
-
-def _off_the_diagonal(bodies: Sequence[Body]) -> Prose:
-    """The sign of the products of inertia, where there are any."""
-    tensors = [body.inertia for body in bodies if body.inertia]
-    if all(tensor[i, j].is_zero for tensor in tensors for i in range(3) for j in range(i)):
-        return ()
-    return (
-        " An entry off the diagonal is minus the integral of the product of two coordinates over the mass.",
     )
 
 
@@ -216,29 +186,25 @@ def _off_the_diagonal(bodies: Sequence[Body]) -> Prose:
 
 
 def _potential(context: Context) -> Step:
-    rows = tuple(heights(context))
-    center = Letter("r", Row((Words("c"), _I)), style="bold")
-    down = Transpose(letters.GRAVITY)
-    bodies = context.robot.bodies
+    rows = tuple(_heights(context))
     return Step(
         id="potentials",
         stage=Stage.ENERGY,
         title="Potential energy of each body",
-        why=(
-            "Minus the mass times ",
-            Product((down, center)),
-            "; ",
-            letters.GRAVITY,
-            " points down (",
-            spong("7.2.3"),
-            " writes a plus, for which the vector must point up).",
+        why=say(
+            "Minus the mass times $𝐠_0ᵀ 𝐫_ci$; $𝐠_0$ points down ({book} writes a plus, for which the "
+            "vector must point up).",
+            book=spong("7.2.3"),
         ),
-        formula=equation(Letter("P", _I), Negative(Product((Letter("m", _I), down, center)))),
+        formula=formula("P_i = -m_i 𝐠_0ᵀ 𝐫_ci"),
         source=spong("7.2.3"),
         further=(equation(letters.GRAVITY, gravity_row(context)),),
         lines=rows,
         concluding=("So, each weight times the height of its mass centre:",) if rows else (),
-        result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),
+        result=tuple(
+            equation(letters.of_body("P", body), context.form(f"P{body.name}"))
+            for body in context.robot.bodies
+        ),
         listed=True,
         detail=Detail.BRIEF,
         uses=(),
@@ -247,95 +213,54 @@ def _potential(context: Context) -> Step:
 
 def _forces(context: Context) -> Step:
     """τ_k from ∂L/∂q̇_k, d/dt of it and ∂L/∂q_k, the products of rates collected; and friction."""
-    n = context.robot.n
-    coordinate, qk = Letter("q", _K), Letter("q", _K, dots=1)
-    momentum = letters.partial_derivative(letters.L, qk)
-    by_coordinate = letters.partial_derivative(letters.L, coordinate)
-    height = letters.partial_derivative(letters.P, coordinate)
-    accelerated = _sum_over(n, _J, Product((_d(_K, _J), Letter("q", _J, dots=2))))
-    moving = _sum_over(n, _J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
-    squares = _over_rates(n, letters.partial_derivative(_d(_I, _J), coordinate))
-    coriolis = _over_rates(n, Letter("c", Row((_I, _J, _K))))
-    resisted = (Letter("tau", Row((Words("f"), _K))),) if "friction" in context.values.rules else ()
+    n, friction = context.robot.n, " + τ_fk" if "friction" in context.values.rules else ""
+    accelerated = "Σ_(j=1)^{n} d_kj q̈_j"
+    squares = "Σ_(i=1)^{n} Σ_(j=1)^{n} {factor} q̇_i q̇_j"
+    slopes = formula(squares, n=n, factor=formula("∂d_ij/∂q_k"))
     return Step(
         id="forces",
         stage=Stage.TORQUE,
         title="The generalized forces",
-        why=("The same for every coordinate ", coordinate, "."),
+        why=say("The same for every coordinate $q_k$."),
         source=spong("7.3"),
-        formula=equation(
-            Letter("tau", _K),
-            Sum((letters.time_derivative(momentum), Negative(by_coordinate), *resisted)),
-        ),
+        formula=formula(f"τ_k = d/dt ∂ℒ/∂q̇_k - ∂ℒ/∂q_k{friction}"),
         working=(
-            equation(momentum, _sum_over(n, _J, Product((_d(_K, _J), Letter("q", _J, dots=1))))),
-            equation(letters.time_derivative(momentum), Sum((accelerated, moving))),
-            equation(by_coordinate, Sum((Product((letters.HALF, squares)), Negative(height)))),
+            formula("∂ℒ/∂q̇_k = Σ_(j=1)^{n} d_kj q̇_j", n=n),
+            formula(f"d/dt ∂ℒ/∂q̇_k = {accelerated} + Σ_(j=1)^{{n}} ḋ_kj q̇_j", n=n),
+            formula("∂ℒ/∂q_k = ½ {slopes} - ∂𝒫/∂q_k", slopes=slopes),
         ),
         lines=(
-            _rates_of_entries(n),
             Line(
-                ("In the Christoffel symbols and the gravity terms",),
+                say(
+                    "The chain rule gives the rates of $d_kj$. Each product of two rates then occurs twice "
+                    "in the sum, with $i$ and $j$ exchanged, so each derivative may be replaced by half the "
+                    "sum of the two:"
+                ),
                 (
-                    side_by_side(
-                        [
-                            equation(Letter("c", Row((_I, _J, _K))), Product((letters.HALF, SLOPES))),
-                            equation(Letter("g", _K), height),
-                        ]
+                    formula(
+                        f"Σ_(j=1)^{{n}} ḋ_kj q̇_j = {squares} = ½ {squares.replace('factor', 'both')}",
+                        n=n,
+                        factor=formula("∂d_kj/∂q_i"),
+                        both=formula("(∂d_kj/∂q_i + ∂d_ki/∂q_j)"),
                     ),
                 ),
             ),
+            Line(
+                ("In the Christoffel symbols and the gravity terms",),
+                (formula("c_ijk = ½ {slopes}, g_k = ∂𝒫/∂q_k", slopes=SLOPES),),
+            ),
         ),
         concluding=("the forces are",),
-        result=(equation(Letter("tau", _K), Sum((accelerated, coriolis, *resisted, Letter("g", _K)))),),
+        result=(formula(f"τ_k = {accelerated} + {squares}{friction} + g_k", n=n, factor=formula("c_ijk")),),
         detail=Detail.BRIEF,
         uses=("L",),
     )
-
-
-def _rates_of_entries(n: int) -> Line:
-    """Σ_j ḋ_kj q̇_j as a sum over pairs of rates, the two slopes of each pair in one bracket."""
-    slopes = [letters.partial_derivative(_d(_K, a), Letter("q", b)) for a, b in ((_J, _I), (_I, _J))]
-    moving = _sum_over(n, _J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
-    by: Prose = (
-        "The chain rule gives the rates of ",
-        _d(_K, _J),
-        ". Each product of two rates then occurs twice in the sum, with ",
-        *listed([_I, _J]),
-        " exchanged, so each derivative may be replaced by half the sum of the two:",
-    )
-    both = Product((letters.HALF, _over_rates(n, Parenthesized(Sum(tuple(slopes))))))
-    return Line(by, (equation(moving, _over_rates(n, slopes[0]), both),))
-
-
-def _d(row: Node, col: Node, dots: int = 0) -> Letter:
-    return Letter("d", Row((row, col)), dots=dots)
-
-
-def _over_rates(n: int, factor: Node) -> BigSum:
-    """Σ_i Σ_j factor · q̇_i q̇_j"""
-    rates = (Letter("q", index, dots=1) for index in (_I, _J))
-    return _sum_over(n, _I, _sum_over(n, _J, Product((factor, *rates))))
-
-
-def _sum_over(n: int, index: Symbol, body: Node) -> BigSum:
-    return BigSum(body, index, Number(1), Number(n))
 
 
 # -- the last frame of a long chain, and the axes of the others ------------------------------------
 
 LONGEST_ENTRY = 40
 """The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
-
-
-def frame_changes(model: LongModel) -> dict[str, Change]:
-    """The changes by the ids of their steps."""
-    last = len(model.context.robot.joints)
-    return {
-        f"H{last}": partial(last_frame, model),
-        "axes": partial(axes, model),
-        "J": partial(jacobian, model),
-    }
 
 
 def last_frame(model: LongModel, step: Step) -> Step:
@@ -382,11 +307,7 @@ def axes(model: LongModel, step: Step) -> Step:
     robot = model.context.robot
     if robot.is_tree or letters.has_base(robot):
         return step
-    i = Symbol("i")
-    frame = replace(letters.H(robot, 1), sub=i)
-    product = Product((letters.A(1), Words("…"), Letter("A", i, style="bold")))
-    before: Prose = ("Frame i is ", equation(frame, product), ". ")
-    return replace(step, why=(*before, *step.why))
+    return replace(step, why=(*say("Frame i is $𝐇_i^0 = 𝐀_1 '…' 𝐀_i$. "), *step.why))
 
 
 def jacobian(model: LongModel, step: Step) -> Step:
@@ -396,16 +317,13 @@ def jacobian(model: LongModel, step: Step) -> Step:
     names = [coordinate_column(context, k, last, letters.o(last)) for k in range(model.n)]
     if None in names or max(cost(entry) for row in J.rows for entry in row) > LONGEST_ENTRY:
         return step
-    columns = [(column_of(J, k), name[0]) for k, name in enumerate(names) if name]
-    shown = []
-    for value, equal in groupby(columns, itemgetter(0)):
-        is_zero = all(row == (tree.ZERO,) for row in value.rows)
-        shown.append(equation(*(name for _, name in equal), ZERO if is_zero else value))
     angular = [part for part in step.result if isinstance(part, Relation) and part.parts[0] == letters.JW]
     return replace(
         step,
-        concluding=("The columns of ", letters.JV, " from the first to the last, and ", letters.JW, ":"),
-        result=(side_by_side(shown), *angular),
+        concluding=say(
+            "The columns of {Jv} from the first to the last, and {Jw}:", Jv=letters.JV, Jw=letters.JW
+        ),
+        result=(side_by_side(list(columns_shown(names, J))), *angular),
     )
 
 
@@ -422,49 +340,33 @@ def at_zero_angles(context: Context) -> Prose:
     turning = turning_in(context.robot, *end.entries)
     if not turning:
         return ()
-    place = [at(ring, entry, dict.fromkeys(turning, 0)) for entry in end.entries]
-    lengths = {name: value for name, text in context.lengths.items() if (value := _decimal(text)) is not None}
-    known = all(_symbols(entry) <= lengths.keys() for entry in place)
-    entries = [
-        equation(*dict.fromkeys((context.show(entry), _shown(_value(entry, lengths)))))
-        if known
-        else context.show(entry)
-        for entry in place
-    ]
-    unit = " (in m)." if known else "."
-    return (
-        "To check: with all joint angles 0 the entries of ",
-        letters.o(last),
-        " are ",
-        *listed(entries),
-        unit,
+    place = [context.show(at(ring, entry, dict.fromkeys(turning, 0))) for entry in end.entries]
+    values = [_in_numbers(context, entry) for entry in place]
+    known = [value for value in values if value is not None]
+    entries: list[Node] = place
+    if len(known) == len(place):
+        each = (dict.fromkeys((entry, _decimal(value))) for entry, value in zip(place, known, strict=True))
+        entries = [equation(*members) for members in each]
+    return say(
+        "To check: with all joint angles 0 the entries of {end} are {entries}{unit}.",
+        end=letters.o(last),
+        entries=listed(entries),
+        unit=" (in m)" if len(known) == len(place) else "",
     )
 
 
-def _decimal(text: str) -> Fraction | None:
-    try:
-        return Fraction(text)
-    except ValueError:  # an angle in degrees, or a formula
-        return None
+def _in_numbers(context: Context, place: Node) -> Fraction | None:
+    """The number that a length is; None where the problem has none, or an angle in degrees, for a letter."""
+    lengths: dict[Node, Node] = {}
+    for name, text in context.lengths.items():
+        try:
+            lengths[Symbol(name)] = number(Fraction(text))
+        except ValueError:
+            continue
+    return rational_value(mapped(place, lambda node: lengths.get(node, node)))
 
 
-def _symbols(expr: Expr) -> set[str]:
-    """The names in a value without sines and cosines."""
-    generators = expr.ring.generators
-    return {generators[i].name for i, degree in enumerate(expr.poly.degrees()) if degree > 0}
-
-
-def _value(expr: Expr, values: Mapping[str, Fraction]) -> Fraction:
-    """The number that a value is."""
-    names = [generator.name for generator in expr.ring.generators]
-    total = Fraction(0)
-    for powers, factor in expr.poly.to_dict().items():
-        used = zip(names, map(int, powers), strict=True)
-        total += fraction(factor) * prod(values[name] ** power for name, power in used if power)
-    return total
-
-
-def _shown(value: Fraction) -> Node:
+def _decimal(value: Fraction) -> Node:
     """A number with a decimal point."""
     size = Number(abs(value.numerator), value.denominator, decimal=value.denominator > 1)
     return Negative(size) if value < 0 else size
@@ -476,38 +378,28 @@ WIDEST = 80
 """The characters of a row up to which the rows are shown; wider ones would be a page of entries."""
 
 
-def heights(context: Context) -> Iterator[Line]:
+def _heights(context: Context) -> Iterator[Line]:
     """z₀ᵀ R of the links between the two frames that are shown, where gravity is along z₀."""
     robot = context.robot
-    if robot.is_tree or not robot.has_table or letters.has_base(robot) or not _is_along_z0(robot.gravity):
+    g = robot.gravity.entries
+    along_z = g[0].is_zero and g[1].is_zero and not g[2].is_zero
+    if robot.is_tree or not robot.has_table or letters.has_base(robot) or not along_z:
         return
     inner, outer = halves(robot)
     shown = (1, inner[-1].index, outer[-1].index)  # the first row is its own frame
-    between = [body for body in robot.bodies if body.link not in shown]
-    rows = {body.link: _row(context, body) for body in between if _is_tilted(context, body)}
+    rows: dict[int, tree.Matrix] = {}
+    for body in robot.bodies:
+        row = rotation(context.values[f"H{body.link}"]).rows[2]
+        turns = any(not robot.ring.diff(entry, k).is_zero for entry in row for k in range(robot.n))
+        if body.link not in shown and turns and not body.center.is_zero:
+            form = context.show(Matrix.of(robot.ring, [row]))
+            assert isinstance(form, tree.Matrix)
+            rows[body.link] = form
     if rows and all(matrix_width(context, row) <= WIDEST for row in rows.values()):
-        named = tuple(equation(_name(context, link), row) for link, row in rows.items())
-        yield Line(("The third rows of the rotations that give heights, where they were not shown:",), named)
-
-
-def _is_along_z0(gravity: Matrix) -> bool:
-    across = gravity.entries[0].is_zero and gravity.entries[1].is_zero
-    return across and not gravity.entries[2].is_zero
-
-
-def _is_tilted(context: Context, body: Body) -> bool:
-    """Whether the height of a body off the origin of its frame changes as the frame turns."""
-    ring, row = context.robot.ring, rotation(context.values[f"H{body.link}"]).rows[2]
-    turned = any(not ring.diff(entry, k).is_zero for entry in row for k in range(context.robot.n))
-    return turned and not body.center.is_zero
-
-
-def _row(context: Context, body: Body) -> tree.Matrix:
-    shown = context.show(Matrix.of(context.robot.ring, [rotation(context.values[f"H{body.link}"]).rows[2]]))
-    assert isinstance(shown, tree.Matrix)
-    return shown
-
-
-def _name(context: Context, link: int) -> Node:
-    """z₀ᵀ R"""
-    return Product((Transpose(letters.z(0)), letters.R(context.robot, link)))
+        named = (
+            equation(Product((Transpose(letters.z(0)), letters.R(robot, link))), row)
+            for link, row in rows.items()
+        )
+        yield Line(
+            ("The third rows of the rotations that give heights, where they were not shown:",), tuple(named)
+        )

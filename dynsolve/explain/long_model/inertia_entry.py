@@ -5,42 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from itertools import chain, groupby
-from operator import itemgetter
+from itertools import chain
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.jacobian import joint_frame, linear_jacobian
 from dynsolve.derivation.kinematics import dh_matrix, origin, rotation
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian import ZERO, column_letters, coordinate_column
-from dynsolve.explain.long_model.model import LongModel, halves
+from dynsolve.explain.long_model.model import LongModel, columns_shown, halves
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.recurring import expanded_once
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import doubled_angles
-from dynsolve.explain.writing import column_of, listed, side_by_side, spong
+from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, total
-from dynsolve.notation.tree import (
-    Cross,
-    Letter,
-    Negative,
-    Node,
-    Number,
-    Parenthesized,
-    Product,
-    Row,
-    Sum,
-    Symbol,
-    Transpose,
-    Words,
-    equation,
-)
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Cross, Negative, Node, Parenthesized, Product, Sum, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Joint, JointType
@@ -58,8 +44,8 @@ class InertiaEntry:
     @property
     def is_whole(self) -> bool:
         """Whether the shares are the entry of D."""
-        zero = self.model.context.robot.ring.zero
-        return sum((share.value for share in self.shares), start=zero) == self._value
+        added = sum((share.value for share in self.shares), start=self.model.context.robot.ring.zero)
+        return bool(added == self.model.context.values["D"][self.row, self.column])
 
     @property
     def is_of_both_parts(self) -> bool:
@@ -68,64 +54,46 @@ class InertiaEntry:
         moved = any(not share.linear.is_zero for share in self.shares)
         return turned and moved and all(not share.value.is_zero for share in self.shares)
 
-    @property
-    def _value(self) -> Expr:
-        D: Matrix = self.model.context.values["D"]
-        return D[self.row, self.column]
-
     def step(self) -> Step:
         """From the formula of D to the entry in the names of the model."""
-        short, show = self.model.short, self.model.context.show
+        short, show, shares = self.model.short, self.model.context.show, self.shares
         name = letters.entry("d", self.row + 1, self.column + 1)
         form = short.D.rows[self.row][self.column]
-        parts = [show(share.value) for share in self.shares]
-        members = dict.fromkeys((total(parts), expanded_once(short.sums, form), form))
+        whole = total([show(share.value) for share in shares])
+        members = dict.fromkeys((whole, expanded_once(short.sums, form), form))
+        many = len(shares) > 1
+        are_multiplied = many and any(share.has_both_parts for share in shares)
+        lines: list[Line] = []
+        for share in shares:
+            lines += share.lines()
+            lines += [share.products()] if are_multiplied else []
+        added = "Added up" if are_multiplied else "Put in"
         return Step(
             id="D_entry",
             stage=Stage.VECTORIZED,
             title="One entry of the inertia matrix in full",
-            why=self._on_the_bodies(name),
-            formula=equation(name, Sum(tuple(chain(*(share.in_letters for share in self.shares))))),
+            why=say(
+                "Joint {joint} moves {what} {bodies} alone, so {name} has the terms of {these}. Products of "
+                "vectors, and of a tensor with them, are the same along any axes: {those} of the link "
+                "{each}are taken.",
+                joint=shares[0].last.index,
+                what="bodies" if many else "body",
+                bodies=listed([share.body.name for share in shares]),
+                name=name,
+                these="these" if many else "this body",
+                those="those" if many else "here those",
+                each="of each body " if many else "",
+            ),
+            formula=equation(name, Sum(tuple(chain(*(share.in_letters for share in shares))))),
             source=spong("7.2.2"),
-            lines=tuple(self._lines()),
-            concluding=(self._on_the_sum(collected=len(members) > 1),),
+            lines=tuple(lines),
+            concluding=(f"{added}{', and collected in the abbreviations' if len(members) > 1 else ''}:",),
             result=(equation(name, *members),),
             notes=(
                 ("The other entries are made alike, with such terms of each body that both joints move.",),
             ),
             uses=(),
         )
-
-    @property
-    def _are_multiplied(self) -> bool:
-        """Whether the products are written out: of several bodies, of which some move and turn."""
-        return len(self.shares) > 1 and any(share.has_both_parts for share in self.shares)
-
-    def _on_the_sum(self, *, collected: bool) -> str:
-        """How the entry comes from the products."""
-        added = "Added up" if self._are_multiplied else "Put in"
-        return f"{added}{', and collected in the abbreviations' if collected else ''}:"
-
-    def _on_the_bodies(self, name: Node) -> Prose:
-        """Why there are these terms only, and along which axes they are best worked out."""
-        bodies = [share.body.name for share in self.shares]
-        many = len(bodies) > 1
-        return (
-            f"Joint {self.shares[0].last.index} moves {'bodies' if many else 'body'} ",
-            *listed(bodies),
-            " alone, so ",
-            name,
-            f" has the terms of {'these' if many else 'this body'}. Products of vectors, and of a tensor "
-            f"with them, are the same along any axes: {'those' if many else 'here those'} of the link "
-            f"{'of each body ' if many else ''}are taken.",
-        )
-
-    def _lines(self) -> Iterator[Line]:
-        """The vectors of each body, and their products."""
-        for share in self.shares:
-            yield from share.lines()
-            if self._are_multiplied:
-                yield share.products()
 
 
 MOST_BODIES = 2
@@ -256,8 +224,7 @@ class BodyShare:
     def lines(self) -> Iterator[Line]:
         """The vectors along the axes of the body, and their cross products."""
         yield Line(self._on_the_axes(), self._vectors())
-        crosses = tuple(map(self._cross, self._turning))
-        if crosses:
+        if crosses := tuple(map(self._cross, self._turning)):
             yield Line(("The cross products of these:",), crosses)
 
     @property
@@ -267,35 +234,43 @@ class BodyShare:
 
     def products(self) -> Line:
         """m (J_v)_jᵀ (J_v)_k entry by entry, and (J_ω)_jᵀ 𝓘 (J_ω)_k."""
-        show, terms = self.context.show, self.in_letters
-        left, right = (self._shown(joint) for joint in self.joints)
-        each = [product_of(1, [(a, 1), (b, 1)]) for a, b in zip(left, right, strict=True)]
-        entries = Parenthesized(total(each))
+        show, (moved, *turned) = self.context.show, self.in_letters
+        left, right = (self._shown(self._column(joint)).rows for joint in self.joints)
+        each = [product_of(1, [(a, 1), (b, 1)]) for (a,), (b,) in zip(left, right, strict=True)]
         linear, angular = show(self.linear), show(self.angular)
-        by: Prose = (f"Multiplied, for body {self.body.name}",)
-        if used := dict.fromkeys(doubled_angles(linear, angular)):
-            by += (", with ", *listed(list(used)))
-        shown = equation(terms[0], Product((self.context.mass(self.body), entries)), linear)
-        return Line((*by, ":"), (shown, equation(terms[1], angular)))
+        used = list(dict.fromkeys(doubled_angles(linear, angular)))
+        put_in = Product((self.context.mass(self.body), Parenthesized(total(each))))
+        return Line(
+            say(
+                "Multiplied, for body {body}{used}:",
+                body=self.body.name,
+                used=(", with ", *listed(used)) if used else "",
+            ),
+            (equation(moved, put_in, linear), equation(*turned, angular)),
+        )
 
-    def _shown(self, joint: Joint) -> tuple[Node, ...]:
-        """The entries of the column of J_v."""
-        column = self.context.show(self._column(joint))
-        assert isinstance(column, tree.Matrix)
-        return tuple(entry for (entry,) in column.rows)
+    def _shown(self, vector: algebra.Matrix) -> tree.Matrix:
+        shown = self.context.show(vector)
+        assert isinstance(shown, tree.Matrix)
+        return shown
 
     def _on_the_axes(self) -> Prose:
         """Along which axes the vectors are written, and where those of the joints are read off."""
-        tensor = letters.tensor(self.context.robot, self.body)
-        why: Prose = (f"Along the axes of frame {self.body.link} the tensor is ", tensor)
         rows = [(joint, product) for joint in self.joints if (product := self._product(joint))]
-        if not rows:
-            return (*why, ":")
-        be = "are the third rows of the rotations" if len(rows) > 1 else "is the third row of the rotation"
-        axes = listed([self._turned_axis(joint) for joint, _ in rows])
-        why += ("; ", *axes, f" {be} in ", *listed([each for _, each in rows]))
-        told = f". A lever is the mass centre in frame {self.body.link} plus the fourth column of the same "
-        return (*why, f"{told}product, turned to these axes:")
+        read_off = say(
+            "; {axes} {be} in {products}. A lever is the mass centre in frame {link} plus the fourth column "
+            "of the same product, turned to these axes",
+            axes=listed([self._turned_axis(joint) for joint, _ in rows]),
+            be="are the third rows of the rotations" if len(rows) > 1 else "is the third row of the rotation",
+            products=listed([product for _, product in rows]),
+            link=self.body.link,
+        )
+        return say(
+            "Along the axes of frame {link} the tensor is {tensor}{read_off}:",
+            link=self.body.link,
+            tensor=letters.tensor(self.context.robot, self.body),
+            read_off=read_off if rows else "",
+        )
 
     def _product(self, joint: Joint) -> Node | None:
         """The matrices of the rows from the joint's axis to the body's frame."""
@@ -314,9 +289,7 @@ class BodyShare:
             axes.append(equation(self._turned_axis(joint), context.show(self._axis(joint))))
             if joint.type is JointType.REVOLUTE:
                 arm = Parenthesized(Sum((letters.rc(self.body), Negative(letters.o(frame)))))
-                lever = context.show(self._lever(joint))
-                assert isinstance(lever, tree.Matrix)
-                levers.append((Product((self._turned, arm)), lever))
+                levers.append((Product((self._turned, arm)), self._shown(self._lever(joint))))
         if len(levers) == 2 and levers[0][1] == levers[1][1]:
             return side_by_side(axes), equation(*(name for name, _ in levers), levers[0][1])
         shown = [equation(*each) for each in levers]
@@ -342,47 +315,35 @@ def _bracketed(node: Node) -> Node:
 LONGEST_ENTRY = 30
 """The operations in an entry of a body's Jacobian up to which its columns are worked out."""
 
-_I, _J = Symbol("i"), Symbol("j")
-_CENTER = Letter("r", Row((Words("c"), _I)), style="bold")
-_JV, _JW = (letters.bold("J", Letter(base, _I)) for base in ("v", "omega"))
-
 
 def kinetic_step(context: Context) -> Step:
     """v_i = J_vi q̇ and ω_i = J_ωi q̇, what the columns are, and K_i."""
-    v, w = (Letter(base, _I, style="bold") for base in ("v", "omega"))
-    velocities = [equation(v, Product((_JV, letters.QD))), equation(w, Product((_JW, letters.QD)))]
-    linear = Product((letters.HALF, Letter("m", _I), letters.transposed_product(v)))
-    rotational = Product((letters.HALF, letters.transposed_product(w, letters.base_tensor(_I))))
     example = tuple(_example(context))
+    j = formula("j - 1" if context.standard else "j")
+    sliding = any(joint.type is JointType.PRISMATIC for joint in context.robot.joints)
+    both = say(" where the joint is revolute, $𝐳_{j}$ and {zero} where it is prismatic", j=j, zero=ZERO)
+    v = letters.transposed_product(formula("𝐯_i"))
+    w = letters.transposed_product(formula("𝛚_i"), formula("𝓘_i"))
     return Step(
         id="kinetics",
         stage=Stage.ENERGY,
         title="Kinetic energy of each body",
-        why=_on_columns(context),
-        formula=side_by_side(velocities),
+        why=say(
+            "The Jacobians of a mass centre are like those of the arm, with its place instead of {end}: for "
+            "each joint j up to the body's link, column $j$ of $𝐉_v_i$ is $𝐳_{j} × (𝐫_ci - 𝐨_{j})$ and that "
+            "of $𝐉_ω_i$ is $𝐳_{j}${both}. The columns of the joints after it are zero.",
+            end=context.end,
+            j=j,
+            both=both if sliding else "",
+        ),
+        formula=formula("𝐯_i = 𝐉_v_i 𝐪̇, 𝛚_i = 𝐉_ω_i 𝐪̇"),
         source=spong("7.2.2"),
         lines=example,
         concluding=("The kinetic energy of a body:",) if example else (),
-        result=(equation(Letter("K", _I), Sum((linear, rotational))),),
+        result=(formula("K_i = ½ m_i {v} + ½ {w}", v=v, w=w),),
         detail=Detail.BRIEF,
         uses=(),
     )
-
-
-def _on_columns(context: Context) -> Prose:
-    """What the columns of a body's Jacobians are, by the kinds of joints that there are."""
-    which = Sum((_J, Negative(Number(1)))) if context.standard else _J
-    z, o = letters.bold("z", which), letters.bold("o", which)
-    turning = (Cross(z, Parenthesized(Sum((_CENTER, Negative(o))))), z)
-    kinds = {joint.type for joint in context.robot.joints}
-    words: Prose = (
-        f"The Jacobians of a mass centre are like those of the arm, with its place instead of {context.end}: "
-        "for each joint j up to the body's link, column ",
-        *(_J, " of ", _JV, " is ", turning[0], " and that of ", _JW, " is ", turning[1]),
-    )
-    if JointType.PRISMATIC in kinds:
-        words += (" where the joint is revolute, ", z, " and ", ZERO, " where it is prismatic")
-    return (*words, ". The columns of the joints after it are zero.")
 
 
 def _example(context: Context) -> Iterator[Line]:
@@ -392,29 +353,18 @@ def _example(context: Context) -> Iterator[Line]:
     body = next((body for body in robot.bodies if body.link == link), None)
     if robot.is_tree or body is None or not robot.moves_each_joint_alone:
         return
-    columns = _columns(context, body)
-    if max(cost(entry) for _, value in columns for row in value.rows for entry in row) > LONGEST_ENTRY:
-        return
-    center = equation(letters.rc(body), context.form(f"rc{body.name}"))
-    shown = []
-    for value, equal in groupby(columns, itemgetter(1)):
-        is_zero = all(row == (tree.ZERO,) for row in value.rows)
-        shown.append(equation(*(name for name, _ in equal), ZERO if is_zero else value))
-    yield Line(
-        (
-            "For example, the columns of ",
-            letters.jv(body),
-            f" that are not zero, with the mass centre of body {body.name}:",
-        ),
-        (center, *shown),
-    )
-
-
-def _columns(context: Context, body: Body) -> list[tuple[Node, tree.Matrix]]:
-    """z × (r_c - o) or z of each coordinate up to the body's link, in letters and worked out."""
-    robot = context.robot
-    frames = [context.values[f"H{i}"] for i in range(body.link + 1)]
-    J = context.show(linear_jacobian(robot, frames, context.values[f"rc{body.name}"], body.link))
+    frames = [context.values[f"H{i}"] for i in range(link + 1)]
+    J = context.show(linear_jacobian(robot, frames, context.values[f"rc{body.name}"], link))
     assert isinstance(J, tree.Matrix)
-    named = [coordinate_column(context, k, body.link, letters.rc(body)) for k in range(robot.n)]
-    return [(name[0], column_of(J, k)) for k, name in enumerate(named) if name is not None]
+    names = [coordinate_column(context, k, link, letters.rc(body)) for k in range(robot.n)]
+    named = [k for k, name in enumerate(names) if name is not None]
+    if max(cost(row[k]) for row in J.rows for k in named) > LONGEST_ENTRY:
+        return
+    yield Line(
+        say(
+            "For example, the columns of {J} that are not zero, with the mass centre of body {body}:",
+            J=letters.jv(body),
+            body=body.name,
+        ),
+        (equation(letters.rc(body), context.form(f"rc{body.name}")), *columns_shown(names, J)),
+    )

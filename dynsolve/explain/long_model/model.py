@@ -2,31 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import groupby
+from operator import itemgetter
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import base_transform, dh_matrix
-from dynsolve.document import Inline, Prose
+from dynsolve.document import Prose
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import EntryFormulas, Factor
+from dynsolve.explain.jacobian import ZERO as ZERO_VECTOR
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.identities import Identity, used_in_product
+from dynsolve.explain.writing import column_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, times
-from dynsolve.notation.tree import ZERO, Node, Number, Product, Relation
+from dynsolve.notation.tree import ZERO, Node, Number, Product, Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Joint, Robot
 
 QUADRATIC = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
 """½ q̇ᵀ D q̇"""
-
-Change = Callable[[Step], Step]
-"""How a step is told otherwise."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,11 @@ class LongModel:
     def n(self) -> int:
         """The number of coordinates."""
         return self.context.robot.n
+
+    def varying(self, *values: Expr) -> list[int]:
+        """The coordinates, from 0, that values depend on."""
+        ring, each = self.context.robot.ring, set(values)
+        return [k for k in range(self.n) if any(not ring.diff(value, k).is_zero for value in each)]
 
     @cached_property
     def formulas(self) -> EntryFormulas:
@@ -75,10 +82,9 @@ def _with_number_in_front(coefficient: Fraction | int, factors: Iterable[Factor]
     return Product((Number(coefficient.numerator, coefficient.denominator), *inner))
 
 
-def with_result(step: Step, result: Node, *more: Inline) -> Step:
+def with_result(step: Step, result: Node, more: Prose = ()) -> Step:
     """The step with a result in names, and what there is to say about it."""
-    why: Prose = (*step.why, *more)
-    return replace(step, result=(result,), why=why)
+    return replace(step, result=(result,), why=(*step.why, *more))
 
 
 # -- which results would fill pages, and what stands in their place --------------------------------
@@ -89,7 +95,7 @@ LONGEST = 80
 
 def is_too_long(step: Step) -> bool:
     """Whether a step on the way would fill pages."""
-    on_the_way = step.stage is Stage.INERTIA or step.stage is Stage.ENERGY
+    on_the_way = step.stage in (Stage.INERTIA, Stage.ENERGY)
     return on_the_way and max(map(_size, step.result), default=0) > LONGEST
 
 
@@ -108,8 +114,16 @@ def left_out(step: Step) -> Step:
     """The step with its formula as its result."""
     if step.formula is None:
         return step
-    note: Prose = ("Written out it would be too long to be useful; the formula defines it.",)
+    note = ("Written out it would be too long to be useful; the formula defines it.",)
     return replace(step, result=(), notes=(*step.notes, note))
+
+
+def columns_shown(names: Sequence[tuple[Node, Node] | None], J: tree.Matrix) -> Iterator[Node]:
+    """The columns of J_v that have a name, equal neighbours in one chain."""
+    named = [(column_of(J, k), name[0]) for k, name in enumerate(names) if name is not None]
+    for value, equal in groupby(named, itemgetter(0)):
+        is_zero = all(row == (ZERO,) for row in value.rows)
+        yield equation(*(name for _, name in equal), ZERO_VECTOR if is_zero else value)
 
 
 # -- half-way along an arm: where a long product is parted, and the halves worked out --------------

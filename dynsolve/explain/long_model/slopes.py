@@ -9,15 +9,16 @@ from functools import cached_property
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.christoffel import in_slopes
 from dynsolve.explain.forms import pairs
 from dynsolve.explain.long_model.model import LongModel
-from dynsolve.explain.recurring import Definition, expanded, expanded_once
+from dynsolve.explain.recurring import Definition, expanded, expanded_once, rewritten
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import by_symbol, differentiated
 from dynsolve.explain.working.identities import doubled_angles
 from dynsolve.explain.writing import listed
-from dynsolve.notation.build import negated, times, total
+from dynsolve.notation.build import negated, times
 from dynsolve.notation.tree import (
     ZERO,
     Derivative,
@@ -33,7 +34,7 @@ from dynsolve.notation.tree import (
     Symbol,
     equation,
 )
-from dynsolve.notation.walk import names_in, walk
+from dynsolve.notation.walk import names_in, walk, with_children
 from dynsolve.quantities import letters
 
 MOST_SLOPES = 3
@@ -45,8 +46,7 @@ def christoffel_example(model: LongModel, row: int, column: int) -> tuple[Line, 
 
     It is c_kkj where that coordinate is k itself, else the symbol of row k.
     """
-    ring, entry = model.context.robot.ring, model.context.values["D"][row, column]
-    varying = [k for k in range(model.n) if not ring.diff(entry, k).is_zero]
+    varying = model.varying(model.context.values["D"][row, column])
     if not varying:
         return ()
     by = varying[-1]
@@ -117,17 +117,15 @@ def _entries_differentiated(
 def _put_in(node: Node, values: Mapping[Node, Node]) -> Node:
     """½ (Σ ±∂d/∂q) with values for the derivatives."""
     match node:
-        case Derivative():
-            return values[node]
-        case Parenthesized(argument):
-            return Parenthesized(_put_in(argument, values))
-        case Sum(terms):
-            return total([_put_in(term, values) for term in terms])
         case Negative(argument):
             return negated(_put_in(argument, values))
-        case Product(factors):
-            return Product(tuple(_put_in(factor, values) for factor in factors))
-    return node
+        case Product() | Parenthesized():
+            return with_children(node, lambda part: _put_in(part, values))
+    return _with_values(node, values)
+
+
+def _with_values(node: Node, values: Mapping[Node, Node]) -> Node:
+    return rewritten(node, lambda leaf: values.get(leaf, leaf))
 
 
 def _slope(model: LongModel, row: int, column: int, by: int) -> Node:
@@ -142,19 +140,20 @@ def gravity_example(model: LongModel) -> tuple[Line, ...]:
         return ()
     for k in reversed(range(model.n)):
         form = model.short.g.rows[k][0]
-        if form == ZERO:
-            continue
         slopes = NameSlopes(model, k, model.short.P)
-        if 1 <= len(slopes.shown) <= MOST_SLOPES:
-            members = dict.fromkeys((slopes.of(letters.P), slopes.by_the_chain_rule(model.short.P), form))
-            term = equation(letters.entry("g", k + 1), *members)
-            one = len(slopes.shown) == 1
-            why: Prose = (
-                f"For one entry in full, the {'name that depends' if one else 'names that depend'} on ",
-            )
-            how = " is differentiated as it was" if one else " are differentiated as they were"
-            why += (slopes.coordinate, f"{how} defined:")
-            return Line(why, tuple(slopes.shown.values())), Line(("Put in:",), (term,))
+        if form == ZERO or not 1 <= len(slopes.shown) <= MOST_SLOPES:
+            continue
+        members = dict.fromkeys((slopes.of(letters.P), slopes.by_the_chain_rule(model.short.P), form))
+        term = equation(letters.entry("g", k + 1), *members)
+        one = len(slopes.shown) == 1
+        why = say(
+            "For one entry in full, the {names} on {q} {are} differentiated as {they} defined:",
+            names="name that depends" if one else "names that depend",
+            q=slopes.coordinate,
+            are="is" if one else "are",
+            they="it was" if one else "they were",
+        )
+        return Line(why, tuple(slopes.shown.values())), Line(("Put in:",), (term,))
     return ()
 
 
@@ -213,20 +212,7 @@ class NameSlopes:
 
     def value(self, node: Node) -> Node:
         """The derivative of a tree term by term, what those of the names are put in."""
-        return self._put_in(self.by_the_chain_rule(node), self._values_of_names)
-
-    def _put_in(self, node: Node, values: Mapping[Node, Node]) -> Node:
-        """A tree with values for derivatives."""
-        match node:
-            case Derivative():
-                return values[node]
-            case Sum(terms):
-                return total([self._put_in(term, values) for term in terms])
-            case Negative(argument):
-                return negated(self._put_in(argument, values))
-            case Product(factors):
-                return times(1, [(self._put_in(factor, values), 1) for factor in factors])
-        return node
+        return _with_values(self.by_the_chain_rule(node), self._values_of_names)
 
     @cached_property
     def _values_of_names(self) -> dict[Node, Node]:
@@ -235,7 +221,7 @@ class NameSlopes:
         for definition in self._used:
             slope = self._slope(definition.name)
             if not slope.is_zero:
-                found[self.of(definition.name)] = self._as_a_name(slope) or self._put_in(
+                found[self.of(definition.name)] = self._as_a_name(slope) or _with_values(
                     self.by_the_chain_rule(definition.meaning), found
                 )
         return found
@@ -297,13 +283,11 @@ def _values(model: LongModel, definitions: Sequence[Definition]) -> dict[Symbol,
 
 def _of_single_angles(node: Node) -> Node:
     """2 s c for sin(2θ), as the names are written."""
-    match node:
-        case Function("sin", Product((Number(2, 1), angle))):
-            return Product((Number(2), Function("sin", angle), Function("cos", angle)))
-        case Sum(terms):
-            return total([_of_single_angles(term) for term in terms])
-        case Negative(argument):
-            return negated(_of_single_angles(argument))
-        case Product(factors):
-            return times(1, [(_of_single_angles(factor), 1) for factor in factors])
-    return node
+
+    def single(part: Node) -> Node:
+        match part:
+            case Function("sin", Product((Number(2, 1), angle))):
+                return Product((Number(2), Function("sin", angle), Function("cos", angle)))
+        return part
+
+    return rewritten(node, single)
