@@ -18,13 +18,12 @@ h = -m₂ l₁ l_c2 s₂ of the planar elbow.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from functools import partial
 from itertools import count
-from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -36,11 +35,8 @@ from dynsolve.explain.working.differentiation import product_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.printing import flat_factors
-from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Sum, Symbol
+from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Relation, Sum, Symbol
 from dynsolve.notation.walk import with_children
-
-if TYPE_CHECKING:
-    from dynsolve.explain.names import InertiaNames
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]
 
@@ -66,191 +62,6 @@ class Abbreviate(StrEnum):
     AUTO = "auto"
     NEVER = "never"
     ALWAYS = "always"
-
-
-@dataclass(frozen=True, slots=True)
-class Abbreviated:
-    """Definitions in the order in which they build on each other, and the forms that use them.
-
-    `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
-    `kept` are the base parameters that are a symbol of the problem already, and need no name.
-    A `long` model is one whose constants have names, or would have if they were no numbers; `P` is its
-    potential energy.
-    With `at_symbols` the names are those of Christoffel symbols (`explain.symbol_names`), after those of
-    `inertias`, from the kinetic energy on (`explain.inertia_names`).
-    """
-
-    constants: tuple[Definition, ...]
-    sums: tuple[Definition, ...]
-    D: tree.Matrix
-    C: tree.Matrix
-    g: tree.Matrix
-    christoffel: Mapping[Index, Node]
-    long: bool = False
-    kept: tuple[Symbol, ...] = ()
-    at_symbols: bool = False
-    inertias: InertiaNames | None = None
-    P: Node | None = None
-
-    def symbol(self, i: int, j: int, k: int) -> Node:
-        """c_ijk, the same as c_jik."""
-        return self.christoffel[min(i, j), max(i, j), k]
-
-    @property
-    def definitions(self) -> tuple[Definition, ...]:
-        """All definitions in order."""
-        return (*self.constants, *self.sums)
-
-    @property
-    def of_symbols(self) -> tuple[Definition, ...]:
-        """Those of Christoffel symbols, where they have names of their own."""
-        early = () if self.inertias is None else self.inertias.definitions
-        return self.sums[len(early) :] if self.at_symbols else ()
-
-    @property
-    def single(self) -> Definition | None:
-        """h, where it is what all Christoffel symbols are but for sign."""
-        return next((one for one in self.of_symbols if one.name == Symbol(SINGLE)), None)
-
-    def put_symbols(self, node: Node) -> Node:
-        """A tree with the names of symbols in the places of what they mean; not with h, which is a glance."""
-        for one in self.of_symbols:
-            node = node if one == self.single else Exchange.of(one).put(node)
-        return node
-
-    @property
-    def lists(self) -> tuple[str, ...]:
-        """The lists that there are of them."""
-        return tuple(
-            label for label, names in ((CONSTANTS_LIST, self.constants), (SUMS_LIST, self.sums)) if names
-        )
-
-    @property
-    def cost(self) -> int:
-        """The operations of everything that is printed but C: definitions, D, g, the c_ijk and P."""
-        entries = [e for matrix in (self.D, self.g) for row in matrix.rows for e in row]
-        potential = [] if self.P is None else [self.P]
-        meanings = [d.meaning for d in self.definitions]
-        return sum(map(cost, (*meanings, *entries, *self.christoffel.values(), *potential)))
-
-
-def is_long(forms: Forms) -> bool:
-    """Whether D, C and g written out are too long to be read."""
-    known: dict[int, tuple[Node, int]] = {}
-    size = 0
-    for name in ("D", "C", "g"):
-        matrix = forms(name)
-        assert isinstance(matrix, tree.Matrix)
-        size += sum(cost(entry, known) for row in matrix.rows for entry in row)
-    return size > LONG
-
-
-def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
-    """The explicit model of a robot, its constants and what recurs in it named.
-
-    `constants` says whether the inertial constants get names; where it is not given,
-    they do in a long model.
-    """
-    if constants is None:
-        constants = is_long(forms)
-    return _with_constants(forms) if constants else _without_constants(forms)
-
-
-def _with_constants(forms: Forms) -> Abbreviated:
-    robot, values = forms.robot, forms.values
-    base = BaseParameters.of(robot, values["D"], values["g"], CONSTANT)
-    leading, parallel = forms.collecting
-    names = list(base.meanings)
-    compactor = Compactor(
-        base.ring, [*names, *leading], parallel, decimal=is_numeric(robot), angles_outside=True
-    )
-    D, g = base.matrix(values["D"]), base.matrix(values["g"])
-    symbols = christoffel_symbols(robot, D)
-    meanings = tuple(Definition(Symbol(name), forms.of(value)) for name, value in base.meanings.items())
-    return _assembled(
-        forms,
-        meanings,
-        compactor.matrix(D),
-        compactor.matrix(g),
-        _forms_of(symbols, compactor),
-        kept=tuple(map(Symbol, base.kept)),
-        potential=compactor.form(base.expr(values["P"])),
-    )
-
-
-def _forms_of(symbols: Mapping[Index, Expr], compactor: Compactor) -> dict[Index, Node]:
-    """The trees of the symbols, half of which are others' or their opposites."""
-    made: dict[Expr, Node] = {}
-    for value in symbols.values():
-        if value not in made:
-            made[value] = negated(made[-value]) if -value in made else compactor.form(value)
-    return {key: made[value] for key, value in symbols.items()}
-
-
-def _without_constants(forms: Forms) -> Abbreviated:
-    D, g = forms("D"), forms("g")
-    assert isinstance(D, tree.Matrix) and isinstance(g, tree.Matrix)
-    symbols = {(i, j, k): forms.christoffel(i, j, k) for i, j, k in forms.values["christoffel"]}
-    return _assembled(forms, (), D, g, symbols)
-
-
-def _assembled(
-    forms: Forms,
-    constants: tuple[Definition, ...],
-    D: tree.Matrix,
-    g: tree.Matrix,
-    symbols: Mapping[Index, Node],
-    kept: tuple[Symbol, ...] = (),
-    potential: Node | None = None,
-) -> Abbreviated:
-    """The forms with names; the potential energy is that of a long model."""
-    n, long = forms.robot.n, potential is not None
-    upper = pairs(n)
-    entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
-    entries += [] if potential is None else [potential]
-    taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
-    name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
-    sums, used = name(free_names(RECURRING, taken))
-    if len(sums) == 1 and SINGLE not in taken:
-        keys = list(symbols)
-        places = [len(upper) + n + keys.index(key) for key in as_shown(keys)]
-        sums, used = _leading_with_plus(*name(iter([Symbol(SINGLE)])), places)
-    d = dict(zip(upper, used, strict=False))
-    short = dict(zip(symbols, used[len(upper) + n :], strict=False))
-    return Abbreviated(
-        constants=constants,
-        sums=sums,
-        D=tree.Matrix(tuple(tuple(d[min(i, j), max(i, j)] for j in range(n)) for i in range(n))),
-        C=coriolis_matrix(forms.robot.ring.names, lambda i, j, k: short[min(i, j), max(i, j), k]),
-        g=tree.column(*used[len(upper) : len(upper) + n]),
-        christoffel=short,
-        long=long,
-        kept=kept,
-        P=used[-1] if long else None,
-    )
-
-
-def _leading_with_plus(
-    definitions: tuple[Definition, ...], used: list[Node], symbols: Sequence[int]
-) -> tuple[tuple[Definition, ...], list[Node]]:
-    """The one name with the sign of its first Christoffel symbol, as the books' h = -m₂ l₁ l_c2 s₂ has it.
-
-    `symbols` are the places of the symbols, in the order in which they are shown.
-    """
-    (definition,) = definitions
-    minus = negated(definition.name)
-    if next((used[k] for k in symbols if used[k] in (definition.name, minus)), None) != minus:
-        return definitions, used
-
-    def turned(node: Node) -> Node:
-        return rewritten(node, lambda leaf: minus if leaf == definition.name else leaf)
-
-    return (Definition(definition.name, negated(definition.meaning)),), [turned(node) for node in used]
-
-
-def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
-    """letter1, letter2, ..., without names that the problem uses."""
-    return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)
 
 
 # -- a part of formulas exchanged for its name, wherever it stands, with either sign ---------------
@@ -348,3 +159,192 @@ def _monomial(node: Node) -> _Monomial:
                 factors.update(its)
             return number, factors
     return Fraction(1), Counter([node])
+
+
+# -- the model in names ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class InertiaNames:
+    """The definitions in order, their derivatives by the coordinates, and the formulas in these names.
+
+    `by` are the coordinates, from 1, that the named sums depend on.
+    """
+
+    definitions: tuple[Definition, ...] = ()
+    slopes: tuple[Relation, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
+    by: frozenset[int] = frozenset()
+
+    def put(self, node: Node) -> Node:
+        """The tree with the names in the places of what they mean."""
+        for exchange in self.exchanges:
+            node = exchange.put(node)
+        return node
+
+    @property
+    def symbols(self) -> frozenset[Node]:
+        """The names."""
+        return frozenset(one.name for one in self.definitions)
+
+
+@dataclass(frozen=True, slots=True)
+class Abbreviated:
+    """Definitions in the order in which they build on each other, and the forms that use them.
+
+    `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
+    `kept` are the base parameters that are a symbol of the problem already, and need no name.
+    A `long` model is one whose constants have names, or would have if they were no numbers; `P` is its
+    potential energy.
+    With `inertias`, names from the kinetic energy on, the others are those of Christoffel symbols
+    (`explain.names`).
+    """
+
+    constants: tuple[Definition, ...]
+    sums: tuple[Definition, ...]
+    D: tree.Matrix
+    C: tree.Matrix
+    g: tree.Matrix
+    christoffel: Mapping[Index, Node]
+    long: bool = False
+    kept: tuple[Symbol, ...] = ()
+    inertias: InertiaNames | None = None
+    P: Node | None = None
+
+    @property
+    def at_symbols(self) -> bool:
+        """Whether the names are introduced where they are met, those of Christoffel symbols the last."""
+        return self.inertias is not None
+
+    def symbol(self, i: int, j: int, k: int) -> Node:
+        """c_ijk, the same as c_jik."""
+        return self.christoffel[min(i, j), max(i, j), k]
+
+    @property
+    def definitions(self) -> tuple[Definition, ...]:
+        """All definitions in order."""
+        return (*self.constants, *self.sums)
+
+    @property
+    def of_symbols(self) -> tuple[Definition, ...]:
+        """Those of Christoffel symbols, where they have names of their own."""
+        return () if self.inertias is None else self.sums[len(self.inertias.definitions) :]
+
+    @property
+    def single(self) -> Definition | None:
+        """h, where it is what all Christoffel symbols are but for sign."""
+        return next((one for one in self.of_symbols if one.name == Symbol(SINGLE)), None)
+
+    def put_symbols(self, node: Node) -> Node:
+        """A tree with the names of symbols in the places of what they mean; not with h, which is a glance."""
+        for one in self.of_symbols:
+            node = node if one == self.single else Exchange.of(one).put(node)
+        return node
+
+    @property
+    def lists(self) -> tuple[str, ...]:
+        """The lists that there are of them."""
+        return (CONSTANTS_LIST,) * bool(self.constants) + (SUMS_LIST,) * bool(self.sums)
+
+
+def is_long(forms: Forms) -> bool:
+    """Whether D, C and g written out are too long to be read."""
+    known: dict[int, tuple[Node, int]] = {}
+    size = 0
+    for name in ("D", "C", "g"):
+        matrix = forms(name)
+        assert isinstance(matrix, tree.Matrix)
+        size += sum(cost(entry, known) for row in matrix.rows for entry in row)
+    return size > LONG
+
+
+def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
+    """The explicit model of a robot, its constants and what recurs in it named.
+
+    `constants` says whether the inertial constants get names; where it is not given,
+    they do in a long model.
+    """
+    values = forms.values
+    if not (is_long(forms) if constants is None else constants):
+        D, g = forms("D"), forms("g")
+        assert isinstance(D, tree.Matrix) and isinstance(g, tree.Matrix)
+        return _assembled(forms, (), D, g, {key: forms.christoffel(*key) for key in values["christoffel"]})
+    base = BaseParameters.of(forms.robot, values["D"], values["g"], CONSTANT)
+    leading, parallel = forms.collecting
+    collected, decimal = [*base.meanings, *leading], is_numeric(forms.robot)
+    compactor = Compactor(base.ring, collected, parallel, decimal=decimal, angles_outside=True)
+    inertia = base.matrix(values["D"])
+    return _assembled(
+        forms,
+        tuple(Definition(Symbol(name), forms.of(value)) for name, value in base.meanings.items()),
+        compactor.matrix(inertia),
+        compactor.matrix(base.matrix(values["g"])),
+        _forms_of(christoffel_symbols(forms.robot, inertia), compactor),
+        kept=tuple(map(Symbol, base.kept)),
+        potential=compactor.form(base.expr(values["P"])),
+    )
+
+
+def _forms_of(symbols: Mapping[Index, Expr], compactor: Compactor) -> dict[Index, Node]:
+    """The trees of the symbols, half of which are others' or their opposites."""
+    made: dict[Expr, Node] = {}
+    for value in symbols.values():
+        if value not in made:
+            made[value] = negated(made[-value]) if -value in made else compactor.form(value)
+    return {key: made[value] for key, value in symbols.items()}
+
+
+def _assembled(
+    forms: Forms,
+    constants: tuple[Definition, ...],
+    D: tree.Matrix,
+    g: tree.Matrix,
+    symbols: Mapping[Index, Node],
+    kept: tuple[Symbol, ...] = (),
+    potential: Node | None = None,
+) -> Abbreviated:
+    """The forms with names; the potential energy is that of a long model."""
+    n, long = forms.robot.n, potential is not None
+    upper = pairs(n)
+    entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
+    entries += [] if potential is None else [potential]
+    taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
+    name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
+    sums, used = name(free_names(RECURRING, taken))
+    if len(sums) == 1 and SINGLE not in taken:
+        (one,), used = name(iter([Symbol(SINGLE)]))
+        keys = list(symbols)
+        places = (len(upper) + n + keys.index(key) for key in as_shown(keys))
+        sums, used = _leading_with_plus(one, used, places)
+    d = dict(zip(upper, used, strict=False))
+    short = dict(zip(symbols, used[len(upper) + n :], strict=False))
+    return Abbreviated(
+        constants,
+        sums,
+        D=tree.Matrix(tuple(tuple(d[min(i, j), max(i, j)] for j in range(n)) for i in range(n))),
+        C=coriolis_matrix(forms.robot.ring.names, lambda i, j, k: short[min(i, j), max(i, j), k]),
+        g=tree.column(*used[len(upper) : len(upper) + n]),
+        christoffel=short,
+        long=long,
+        kept=kept,
+        P=used[-1] if long else None,
+    )
+
+
+def _leading_with_plus(
+    one: Definition, used: list[Node], symbols: Iterable[int]
+) -> tuple[tuple[Definition, ...], list[Node]]:
+    """The one name with the sign of its first Christoffel symbol, as the books' h = -m₂ l₁ l_c2 s₂ has it.
+
+    `symbols` are the places of the symbols, in the order in which they are shown.
+    """
+    minus = negated(one.name)
+    if next((used[k] for k in symbols if used[k] in (one.name, minus)), None) != minus:
+        return (one,), used
+    turned = [rewritten(node, lambda leaf: minus if leaf == one.name else leaf) for node in used]
+    return (Definition(one.name, negated(one.meaning)),), turned
+
+
+def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
+    """letter1, letter2, ..., without names that the problem uses."""
+    return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)

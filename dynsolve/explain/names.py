@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
@@ -22,6 +21,7 @@ from dynsolve.explain.abbreviations import (
     Abbreviated,
     Exchange,
     Index,
+    InertiaNames,
     as_shown,
     free_names,
 )
@@ -29,7 +29,6 @@ from dynsolve.explain.context import is_short
 from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric
 from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
-from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, summands, times, total
 from dynsolve.notation.printing import flat_factors
 from dynsolve.notation.tree import (
@@ -38,7 +37,7 @@ from dynsolve.notation.tree import (
     Matrix,
     Negative,
     Node,
-    Relation,
+    Product,
     Sum,
     Symbol,
     equation,
@@ -53,30 +52,6 @@ SHORTEST = 4
 """The operations from which on such a sum, or one in its derivative, is worth a name."""
 
 
-@dataclass(frozen=True, slots=True)
-class InertiaNames:
-    """The definitions in order, their derivatives by the coordinates, and the formulas in these names.
-
-    `by` are the coordinates, from 1, that the named sums depend on.
-    """
-
-    definitions: tuple[Definition, ...] = ()
-    slopes: tuple[Relation, ...] = ()
-    exchanges: tuple[Exchange, ...] = ()
-    by: frozenset[int] = frozenset()
-
-    def put(self, node: Node) -> Node:
-        """The tree with the names in the places of what they mean."""
-        for exchange in self.exchanges:
-            node = exchange.put(node)
-        return node
-
-    @property
-    def symbols(self) -> frozenset[Node]:
-        """The names."""
-        return frozenset(one.name for one in self.definitions)
-
-
 # -- which sums get a name -------------------------------------------------------------------------
 
 
@@ -85,7 +60,11 @@ def name_inertias(forms: Forms, names: Iterator[Symbol]) -> InertiaNames:
     robot = forms.robot
     if is_numeric(robot):
         return InertiaNames()
-    trees = [forms(name) for name in _counted(robot.n) if name in forms.values.rules]
+    of_coordinates = (
+        f"{stem}{q.index}" for q in robot.coordinates for stem in ("dLdqd", "ddt", "dLdq", "tau")
+    )
+    counted = (name for name in ("K", "D", "Cqd", *of_coordinates) if name in forms.values.rules)
+    trees = [forms(name) for name in counted]
     found: list[Definition] = []
     while (best := _worth_a_name(trees)) is not None:
         found.append(Definition(next(names), best))
@@ -93,16 +72,9 @@ def name_inertias(forms: Forms, names: Iterator[Symbol]) -> InertiaNames:
     return _with_slopes(forms, found, names)
 
 
-def _counted(n: int) -> Iterator[str]:
-    """The values in which sums are counted."""
-    yield from ("K", "D", "Cqd")
-    for k in range(1, n + 1):
-        yield from (f"dLdqd{k}", f"ddt{k}", f"dLdq{k}", f"tau{k}")
-
-
 def _worth_a_name(trees: Iterable[Node]) -> Sum | None:
     """The sum without sines and rates by which most operations are saved."""
-    uses = Counter(part for tree in trees for part in _sums(tree) if _is_inertia(part))
+    uses = Counter(part for tree in trees for part in _sums(tree) if not _moves(part))
     saved = {part: (count - 1) * cost(part) for part, count in uses.items() if cost(part) >= SHORTEST}
     best = max(saved, key=lambda part: saved[part], default=None)
     return None if best is None or saved[best] < LEAST_SAVED else best
@@ -117,68 +89,43 @@ def _sums(node: Node) -> Iterator[Sum]:
             yield from _sums(part)
 
 
-def _is_inertia(node: Sum) -> bool:
-    """Whether a sum is made of parameters and lengths alone."""
-    moving = (isinstance(part, Function) or (isinstance(part, Symbol) and part.dots) for part in walk(node))
-    return not any(moving)
-
-
-# -- their derivatives -----------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class _Slope:
-    """The derivative of a named sum by a coordinate: as it is differentiated, and collected."""
-
-    of: Definition
-    by: Symbol
-    termwise: Node
-    collected: Node
+def _moves(node: Node) -> bool:
+    """Whether there are sines or rates in a tree, and not parameters and lengths alone."""
+    return any(isinstance(part, Function) or (isinstance(part, Symbol) and part.dots) for part in walk(node))
 
 
 def _with_slopes(forms: Forms, found: Sequence[Definition], names: Iterator[Symbol]) -> InertiaNames:
     """The names with their derivatives by the coordinates; sums in these have names too."""
-    slopes = [slope for one in found for slope in _slopes(forms, found, one)]
-    sums = (part for slope in slopes for part in walk(slope.collected) if isinstance(part, Sum))
+    ring = forms.robot.ring
+    slopes: list[tuple[Node, Symbol, Node, Node]] = []
+    for one, meaning in zip(found, expanded(found, [one.name for one in found]), strict=True):
+        value = value_of(ring, meaning)
+        for k, by in enumerate(map(Symbol, ring.names)):
+            if not (slope := ring.diff(value, k)).is_zero:
+                in_letters = letters.partial_derivative(one.name, by)
+                slopes.append((in_letters, by, differentiated(meaning, by_symbol(by)).tree, forms.of(slope)))
+    sums = (part for *_, collected in slopes for part in walk(collected) if isinstance(part, Sum))
     long = (part for part in dict.fromkeys(sums) if cost(part) >= SHORTEST)
     definitions = (*found, *(Definition(name, part) for part, name in zip(long, names, strict=False)))
     named = InertiaNames(definitions, (), tuple(map(Exchange.of, definitions)))
     equal: dict[Node, list[Node]] = {}
     exchanges = list(named.exchanges)
-    for slope in slopes:
-        short = named.put(slope.collected)
-        equal.setdefault(short, []).append(letters.partial_derivative(slope.of.name, slope.by))
-        rate = Symbol(slope.by.name, 1)
-        for written, name in (
-            (slope.termwise, short),
-            (_times(slope.termwise, rate), _times(short, rate)),
-        ):
-            if isinstance(written, Sum):
-                exchanges.append(Exchange(written, name))
+    for name, by, termwise, collected in slopes:
+        short, rate = named.put(collected), Symbol(by.name, 1)
+        equal.setdefault(short, []).append(name)
+        pairs = ((termwise, short), (_times(termwise, rate), _times(short, rate)))
+        exchanges += [Exchange(written, form) for written, form in pairs if isinstance(written, Sum)]
     return InertiaNames(
         definitions,
         tuple(equation(*left, right) for right, left in equal.items()),
         tuple(exchanges),
-        frozenset(forms.robot.ring.names.index(slope.by.name) + 1 for slope in slopes),
+        frozenset(ring.names.index(by.name) + 1 for _, by, _, _ in slopes),
     )
-
-
-def _slopes(forms: Forms, found: Sequence[Definition], one: Definition) -> Iterator[_Slope]:
-    """The derivatives of a named sum by the coordinates that it depends on."""
-    ring = forms.robot.ring
-    (meaning,) = expanded(found, [one.name])
-    value = value_of(ring, meaning)
-    for k, coordinate in enumerate(map(Symbol, ring.names)):
-        if not (slope := ring.diff(value, k)).is_zero:
-            yield _Slope(
-                one, coordinate, differentiated(meaning, by_symbol(coordinate)).tree, forms.of(slope)
-            )
 
 
 def _times(node: Node, rate: Symbol) -> Node:
     """The terms of a sum times a rate, as the chain rule has them."""
-    terms = node.terms if isinstance(node, Sum) else (node,)
-    return total([product_of(1, [(term, 1), (rate, 1)]) for term in terms])
+    return total([product_of(1, [(term, 1), (rate, 1)]) for term in summands(node)])
 
 
 # -- names for what Christoffel symbols are: h of the planar elbow, or σ₁, σ₂,  --------------------
@@ -203,63 +150,42 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     taken = {*robot.ring.parameters, *robot.ring.names}
     free = free_names(RECURRING, taken)
     inertias = name_inertias(forms, free)
-    is_long = sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG
-    if SINGLE not in taken and _is_one_value(forms):
-        definitions, symbols = _one_named(forms, inertias)
-    elif is_long:
-        definitions, symbols = _named(forms, inertias, free)
-    else:
-        definitions, symbols = (), _written(forms, inertias)
-    if not (inertias.definitions or definitions):
+
+    def form(value: Expr) -> Node:
+        return inertias.put(forms.of(value))
+
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    order = [values[key] for key in as_shown(values)]
+    definitions: Sequence[Definition] = ()
+    made: dict[Expr, Node] = {}
+    if SINGLE not in taken and _is_one_value(forms, values):
+        first = next(value for value in order if not value.is_zero)  # it has a plus
+        definitions = (Definition(Symbol(SINGLE), form(first)),)
+        made = {first: Symbol(SINGLE), -first: Negative(Symbol(SINGLE)), robot.ring.zero: ZERO}
+    elif sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG:
+        namer = _Namer(form, order, free)
+        made, definitions = {value: namer.written(value) for value in order}, namer.definitions
+    symbols = {key: made[value] if made else form(value) for key, value in values.items()}
+    sums = (*inertias.definitions, *definitions)
+    if not sums:
         return None
     D, g = inertias.put(forms("D")), inertias.put(forms("g"))
     assert isinstance(D, Matrix) and isinstance(g, Matrix)
     C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
-    sums = (*inertias.definitions, *definitions)
-    return Abbreviated((), sums, D, C, g, symbols, at_symbols=True, inertias=inertias)
+    return Abbreviated((), sums, D, C, g, symbols, inertias=inertias)
 
 
-def _is_one_value(forms: Forms) -> bool:
+def _is_one_value(forms: Forms, symbols: Mapping[Index, Expr]) -> bool:
     """Whether several symbols are not zero, all of them the same but for sign, and worth a name."""
-    values: Mapping[Index, Expr] = forms.values["christoffel"]
-    found = [value for value in values.values() if not value.is_zero]
+    found = [value for value in symbols.values() if not value.is_zero]
     alike = all(value in (found[0], -found[0]) for value in found)
     return len(found) > 1 and alike and cost(forms.of(found[0])) >= SHORTEST
-
-
-def _one_named(forms: Forms, inertias: InertiaNames) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
-    """h, with the sign of the symbol that is shown first, and every symbol by it."""
-    values: Mapping[Index, Expr] = forms.values["christoffel"]
-    order = (values[key] for key in as_shown(values))
-    first = next(value for value in order if not value.is_zero)
-    name = tree.Symbol(SINGLE)
-    by_name: dict[Expr, Node] = {first: name, -first: Negative(name)}
-    symbols = {key: by_name.get(value, ZERO) for key, value in values.items()}
-    return (Definition(name, inertias.put(forms.of(first))),), symbols
-
-
-def _written(forms: Forms, inertias: InertiaNames) -> dict[Index, Node]:
-    """The symbols without names of their own."""
-    return {ijk: inertias.put(forms.christoffel(*ijk)) for ijk in forms.values["christoffel"]}
-
-
-def _named(
-    forms: Forms, inertias: InertiaNames, free: Iterator[tree.Symbol]
-) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
-    """The definitions, in the order in which the symbols are shown, and every symbol by them."""
-    values: Mapping[Index, Expr] = forms.values["christoffel"]
-    order = as_shown(values)
-    namer = _Namer(lambda value: inertias.put(forms.of(value)), [values[key] for key in order], free)
-    symbols = {key: namer.written(values[key]) for key in order}
-    return tuple(namer.definitions), {key: symbols[key] for key in values}
 
 
 class _Namer:
     """Gives a name to each symbol worth one; what has another one as factor or part is written by that."""
 
-    def __init__(
-        self, form: Callable[[Expr], Node], values: Sequence[Expr], names: Iterator[tree.Symbol]
-    ) -> None:
+    def __init__(self, form: Callable[[Expr], Node], values: Sequence[Expr], names: Iterator[Symbol]) -> None:
         self.forms: dict[Expr, Node] = {}
         for value in values:
             if value not in self.forms and -value not in self.forms:
@@ -280,7 +206,7 @@ class _Namer:
         return found
 
     def _named(self, form: Node) -> Node:
-        minus = _starts_with_minus(form)
+        minus = isinstance(summands(form)[0], Negative)  # of a sum, that every term has one
         name = next(self._names)
         self.definitions.append(Definition(name, total([negated(form)]) if minus else form))
         return Negative(name) if minus else name
@@ -310,9 +236,4 @@ class _Namer:
 
 
 def _factors(node: Node) -> tuple[Node, ...]:
-    return flat_factors(node) if isinstance(node, tree.Product) else (node,)
-
-
-def _starts_with_minus(node: Node) -> bool:
-    """Whether a form starts with a minus: of a sum, that every term has one."""
-    return isinstance(summands(node)[0], Negative)
+    return flat_factors(node) if isinstance(node, Product) else (node,)

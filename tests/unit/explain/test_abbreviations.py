@@ -127,7 +127,10 @@ def test_a_long_model_becomes_short() -> None:
     for problem in LONG:
         assert is_long(solved(problem).forms)
     names = short("puma560")
-    assert names.cost < 3000
+    matrices = [entry for matrix in (names.D, names.g) for row in matrix.rows for entry in row]
+    meanings = [definition.meaning for definition in names.definitions]
+    assert names.P is not None
+    assert sum(map(cost, (*matrices, *meanings, *names.christoffel.values(), names.P))) < 3000
     assert len(names.sums) < 45
     assert longest_chain(names) <= 4
     assert max(cost(d.meaning) for d in names.sums) < 80

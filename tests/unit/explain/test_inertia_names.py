@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
+from dynsolve.explain.abbreviations import InertiaNames
 from dynsolve.explain.named_steps import DERIVATIVES
-from dynsolve.explain.names import InertiaNames
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Node, Relation
 from dynsolve.notation.tree_values import evaluate
