@@ -250,12 +250,8 @@ class Abbreviated:
 def is_long(forms: Forms) -> bool:
     """Whether D, C and g written out are too long to be read."""
     known: dict[int, tuple[Node, int]] = {}
-    size = 0
-    for name in ("D", "C", "g"):
-        matrix = forms(name)
-        assert isinstance(matrix, tree.Matrix)
-        size += sum(cost(entry, known) for row in matrix.rows for entry in row)
-    return size > LONG
+    rows = (row for name in ("D", "C", "g") for row in forms.matrix(name).rows)
+    return sum(cost(entry, known) for row in rows for entry in row) > LONG
 
 
 def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
@@ -266,9 +262,8 @@ def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
     """
     values = forms.values
     if not (is_long(forms) if constants is None else constants):
-        D, g = forms("D"), forms("g")
-        assert isinstance(D, tree.Matrix) and isinstance(g, tree.Matrix)
-        return _assembled(forms, (), D, g, {key: forms.christoffel(*key) for key in values["christoffel"]})
+        symbols = {key: forms.christoffel(*key) for key in values["christoffel"]}
+        return _assembled(forms, (), forms.matrix("D"), forms.matrix("g"), symbols)
     base = BaseParameters.of(forms.robot, values["D"], values["g"], CONSTANT)
     leading, parallel = forms.collecting
     collected, decimal = [*base.meanings, *leading], is_numeric(forms.robot)

@@ -62,9 +62,7 @@ class Context:
 
     def matrix(self, name: str) -> tree.Matrix:
         """The tree of a quantity that is a matrix."""
-        node = self.forms(name)
-        assert isinstance(node, tree.Matrix)
-        return node
+        return self.forms.matrix(name)
 
     def show(self, value: Expr | Matrix) -> Node:
         """The tree of any exact value."""

@@ -8,11 +8,10 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import combinations_with_replacement
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -34,6 +33,9 @@ from dynsolve.quantities.index import quantities
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
+
+Factor = tuple[Node, int]
+"""A factor of a product, and its exponent."""
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -124,10 +126,11 @@ class Forms:
             if made is not None:
                 return made
         quantity = quantities(self.robot).of_rule(name)
-        if quantity is not None and quantity.family is families.DLDQD and is_numeric(self.robot):
-            return self._momentum_in_decimals(value)
-        if quantity is not None and quantity.family in _KINETIC and is_numeric(self.robot):
-            return self._kinetic_in_decimals(value)
+        if quantity is not None and is_numeric(self.robot):
+            if quantity.family is families.DLDQD:
+                return self._momentum_in_decimals(value)
+            if quantity.family in _KINETIC:
+                return self._kinetic_in_decimals(value)
         if name == "tau":
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
@@ -161,13 +164,10 @@ class Forms:
         if isinstance(inner, tree.Sum):
             rates = [ring.symbol_indices[(name, 1)] for name in names]
             terms: list[Node] = []
-            for j, k in combinations_with_replacement(range(len(names)), 2):
+            for j, k in pairs(len(names)):
                 entry = self.of(Expr(ring, energy.poly.derivative(rates[j]).derivative(rates[k])))
-                first, second = Symbol(names[j], 1), Symbol(names[k], 1)
-                if j == k:
-                    terms.append(times(1, [(entry, 1), (first, 2)], decimal=True))
-                else:
-                    terms.append(times(2, [(entry, 1), (first, 1), (second, 1)], decimal=True))
+                factors = [(entry, 1), *_rates(names, j, k)]
+                terms.append(times(1 if j == k else 2, factors, decimal=True))
             inner = total(terms)
         return Product((letters.HALF, *factors_of(inner)))
 
@@ -177,57 +177,51 @@ class Forms:
         quantity = quantities(self.robot).of_rule(name)
         if quantity is None:
             return None
-        formulas = self._formulas
+        formulas, index = self._formulas, quantity.index[0] - 1 if quantity.index else 0
         match quantity.family:
             case families.K:
                 return formulas.kinetic_energy()
             case families.C:
                 return coriolis_matrix(self.robot.ring.names, self.christoffel)
             case families.CQD:
-                return tree.column(*(formulas.coriolis_force(k) for k in range(self.robot.n)))
+                return tree.column(*map(formulas.coriolis_force, range(self.robot.n)))
             case families.I:
-                return self._base_inertia(self.robot.bodies[quantity.index[0] - 1].name)
+                return self._base_inertia(self.robot.bodies[index].name)
             case families.K_BODY:
-                body = self.robot.bodies[quantity.index[0] - 1].name
+                body = self.robot.bodies[index].name
                 return total([self(f"Kv{body}"), self(f"Kw{body}")])
-        of_coordinate = {
-            families.DLDQD: formulas.momentum,
-            families.DDT: formulas.momentum_rate,
-            families.DLDQ: formulas.lagrangian_derivative,
-            families.FORCE: formulas.force,
-        }
-        way = of_coordinate.get(quantity.family)
-        if way is None:
-            return None
-        return way(quantity.index[0] - 1)
+            case families.DLDQD:
+                return formulas.momentum(index)
+            case families.DDT:
+                return formulas.momentum_rate(index)
+            case families.DLDQ:
+                return formulas.lagrangian_derivative(index)
+            case families.FORCE:
+                return formulas.force(index)
+        return None
 
     @cached_property
     def _formulas(self) -> EntryFormulas:
         """The formulas in the entries of D and g and the Christoffel symbols, written by their forms."""
-        return EntryFormulas(self.robot.ring.names, self._d, self.christoffel, self._g, self._friction)
+        rubs = "friction" in self.values.rules
+        return EntryFormulas(
+            self.robot.ring.names,
+            lambda i, j: self.matrix("D").rows[i][j],
+            self.christoffel,
+            lambda k: self.matrix("g").rows[k][0],
+            lambda k: self.matrix("friction").rows[k][0] if rubs else ZERO,
+        )
 
-    def _d(self, i: int, j: int) -> Node:
-        D = self("D")
-        assert isinstance(D, tree.Matrix)
-        return D.rows[i][j]
-
-    def _g(self, k: int) -> Node:
-        return self._entry("g", k)
-
-    def _friction(self, k: int) -> Node:
-        return self._entry("friction", k) if "friction" in self.values.rules else ZERO
-
-    def _entry(self, vector: str, k: int) -> Node:
-        form = self(vector)
+    def matrix(self, name: str) -> tree.Matrix:
+        """The compact tree of a value that is a matrix."""
+        form = self(name)
         assert isinstance(form, tree.Matrix)
-        return form.rows[k][0]
+        return form
 
     def _base_inertia(self, body: str) -> Node:
         """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed."""
-        R, tensor = self(f"R{body}"), self(f"I_body{body}")
-        assert isinstance(R, tree.Matrix) and isinstance(tensor, tree.Matrix)
-        rows = tuple(tuple(_sandwich(R.rows[i], tensor, R.rows[j]) for j in range(3)) for i in range(3))
-        return tree.Matrix(rows)
+        R, tensor = self.matrix(f"R{body}").rows, self.matrix(f"I_body{body}")
+        return tree.Matrix(tuple(tuple(_sandwich(left, tensor, right) for right in R) for left in R))
 
 
 def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ...]) -> Node:
@@ -280,8 +274,6 @@ def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
 
 # -- compact forms of products and quotients: a determinant in its factors, fractions --------------
 
-Factors = Sequence[tuple[Node, int]]
-
 LONG_FACTORS = 150
 """Expressions of more terms are not taken apart: over roots that takes minutes."""
 
@@ -307,7 +299,7 @@ class ProductForms:
         below, under = self._factors(value.divisor)
         return times(above / below, [*over, *((node, -power) for node, power in under)])
 
-    def _factors(self, expr: Expr) -> tuple[Fraction, Factors]:
+    def _factors(self, expr: Expr) -> tuple[Fraction, list[Factor]]:
         """(number, factors with their exponents) that make the shortest form."""
         plain = self.compactor.form(expr)
         found = None if expr.is_number or len(expr) > LONG_FACTORS else self._product(expr)
@@ -315,7 +307,7 @@ class ProductForms:
             return Fraction(1), [(plain, 1)]
         return found
 
-    def _product(self, expr: Expr) -> tuple[Fraction, Factors] | None:
+    def _product(self, expr: Expr) -> tuple[Fraction, list[Factor]] | None:
         """An expression taken apart; None where its factors have no form in this ring."""
         relative = search_ring(self.ring, (), {})
         there, back = Transfer(self.ring, relative), Transfer(relative, self.ring)
@@ -338,13 +330,6 @@ class ProductForms:
 ChristoffelSymbols = Callable[[int, int, int], Node]
 """c_ijk of i, j, k from 0, and ZERO for one that is zero."""
 
-Factor = tuple[Node, int]
-"""A factor of a product, and its exponent."""
-
-
-ProductWriter = Callable[[Fraction | int, Iterable[Factor]], Node]
-"""Writes coefficient · Π node^exponent."""
-
 
 @dataclass(frozen=True, slots=True)
 class EntryFormulas:
@@ -358,14 +343,15 @@ class EntryFormulas:
     c: ChristoffelSymbols
     g: Callable[[int], Node]
     friction: Callable[[int], Node]
-    product: ProductWriter = times
+    product: Callable[[Fraction | int, Iterable[Factor]], Node] = times
+    """Writes coefficient · Π node^exponent."""
 
     def kinetic_energy(self) -> Node:
         """K = Σ_i ½ d_ii q̇_i² + Σ_{i<j} d_ij q̇_i q̇_j"""
         return total(
             [
-                self.product(Fraction(1, 2) if i == j else 1, [(self.d(i, j), 1), *self._rates(i, j)])
-                for i, j in pairs(len(self.coordinates))
+                self.product(Fraction(1, 2) if i == j else 1, [(self.d(i, j), 1), *rates])
+                for i, j, rates in self._pairs()
             ]
         )
 
@@ -376,18 +362,18 @@ class EntryFormulas:
     def momentum_rate(self, k: int) -> Node:
         """d/dt ∂L/∂q̇_k = Σ_j d_kj q̈_j + Σ_ij ∂d_kj/∂q_i q̇_i q̇_j, with ∂d_kj/∂q_i = c_ijk + c_ikj"""
         terms = self.acceleration_terms(k)
-        for i, j in pairs(len(self.coordinates)):
+        for i, j, rates in self._pairs():
             own = self.product(1 if i == j else 2, [(self.c(i, j, k), 1)])
             others = [self.c(i, k, j)] if i == j else [self.c(i, k, j), self.c(j, k, i)]
-            terms.append(self.product(1, [(total([own, *others]), 1), *self._rates(i, j)]))
+            terms.append(self.product(1, [(total([own, *others]), 1), *rates]))
         return total(terms)
 
     def lagrangian_derivative(self, k: int) -> Node:
         """∂L/∂q_k = ½ Σ_ij ∂d_ij/∂q_k q̇_i q̇_j - g_k, with ∂d_ij/∂q_k = c_kij + c_kji"""
         terms = []
-        for i, j in pairs(len(self.coordinates)):
+        for i, j, rates in self._pairs():
             factor = self.c(k, i, i) if i == j else total([self.c(k, i, j), self.c(k, j, i)])
-            terms.append(self.product(1, [(factor, 1), *self._rates(i, j)]))
+            terms.append(self.product(1, [(factor, 1), *rates]))
         return total([*terms, negated(self.g(k))])
 
     def force(self, k: int) -> Node:
@@ -404,18 +390,17 @@ class EntryFormulas:
 
     def _coriolis_terms(self, k: int) -> list[Node]:
         return [
-            self.product(1 if i == j else 2, [(self.c(i, j, k), 1), *self._rates(i, j)])
-            for i, j in pairs(len(self.coordinates))
+            self.product(1 if i == j else 2, [(self.c(i, j, k), 1), *rates]) for i, j, rates in self._pairs()
         ]
 
     def _times_rates(self, k: int, dots: int) -> list[Node]:
-        return [
-            self.product(1, [(self.d(k, j), 1), (Symbol(name, dots), 1)])
-            for j, name in enumerate(self.coordinates)
-        ]
+        names = enumerate(self.coordinates)
+        return [self.product(1, [(self.d(k, j), 1), (Symbol(name, dots), 1)]) for j, name in names]
 
-    def _rates(self, i: int, j: int) -> list[Factor]:
-        return rate_factors(self.coordinates, i, j)
+    def _pairs(self) -> Iterator[tuple[int, int, list[Factor]]]:
+        """(i, j, q̇_i q̇_j) with i ≤ j"""
+        for i, j in pairs(len(self.coordinates)):
+            yield i, j, _rates(self.coordinates, i, j)
 
 
 def pairs(n: int) -> list[tuple[int, int]]:
@@ -423,7 +408,7 @@ def pairs(n: int) -> list[tuple[int, int]]:
     return [(i, j) for i in range(n) for j in range(i, n)]
 
 
-def rate_factors(coordinates: Sequence[str], i: int, j: int) -> list[Factor]:
+def _rates(coordinates: Sequence[str], i: int, j: int) -> list[Factor]:
     """q̇_i q̇_j, or q̇_i²"""
     if i == j:
         return [(Symbol(coordinates[i], 1), 2)]
@@ -443,8 +428,7 @@ def coriolis_matrix(coordinates: Sequence[str], c: ChristoffelSymbols) -> tree.M
 def collected_coriolis_force(coordinates: Sequence[str], c: ChristoffelSymbols, k: int) -> Node:
     """Row k of C q̇; the rates of equal symbols are collected."""
     return _collected(
-        (c(i, j, k), times(1 if i == j else 2, rate_factors(coordinates, i, j)))
-        for i, j in pairs(len(coordinates))
+        (c(i, j, k), times(1 if i == j else 2, _rates(coordinates, i, j))) for i, j in pairs(len(coordinates))
     )
 
 

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from itertools import combinations
 from math import gcd, lcm
 
@@ -81,20 +82,14 @@ class _Sharing:
         self.sums: dict[_Key, Symbol] = {}
         self.terms: dict[Symbol, tuple[Node, ...]] = {}
         self._order: dict[Symbol, int] = {}
-        self._seen: dict[Node, Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
         self._multiples = Multiples(decimal)
+        self.intern: Callable[[Node], Node] = cache(self._interned)
 
     # -- reading -----------------------------------------------------------------------------------
 
-    def intern(self, node: Node) -> Node:
-        """The node with a placeholder for every sum in it."""
-        found = self._seen.get(node)
-        if found is None:
-            found = self._seen[node] = self._interned(node)
-        return found
-
     def _interned(self, node: Node) -> Node:
+        """The node with a placeholder for every sum in it."""
         match node:
             case Sum(parts):
                 return self.placeholder([self.intern(part) for part in parts])
@@ -115,21 +110,23 @@ class _Sharing:
     def placeholder(self, terms: Sequence[Node]) -> Node:
         """± the placeholder of a sum."""
         key = frozenset(terms)
-        opposite = frozenset(map(negated, terms))
-        if key in self.sums:
-            return self.sums[key]
-        if opposite in self.sums:
-            return Negative(self.sums[opposite])
-        multiple = self._multiples.of_sum(terms)
-        if multiple is not None:
-            return multiple
+        found = self._known(key) or self._multiples.found(map(_monomial, terms))
+        if found is not None:
+            return found
         flip = sum(isinstance(t, Negative) for t in terms) * 2 > len(terms)
         name = Symbol(f" {len(self.terms)}")
-        self.sums[opposite if flip else key] = name
+        self.sums[_opposite(key) if flip else key] = name
         self._order[name] = len(self.terms)
         self.terms[name] = tuple(map(negated, terms)) if flip else tuple(terms)
         self._multiples.add(name, self.terms[name])
         return Negative(name) if flip else name
+
+    def _known(self, key: _Key) -> Node | None:
+        """± the placeholder that a sum has already."""
+        if key in self.sums:
+            return self.sums[key]
+        opposite = self.sums.get(_opposite(key))
+        return None if opposite is None else Negative(opposite)
 
     # -- parts that sums share ---------------------------------------------------------------------
 
@@ -149,7 +146,7 @@ class _Sharing:
             if gains[part] <= 0:
                 break
             users = [name for name in holders[part] if self._holds(name, part)]
-            if self._gain(part, len(users) + self._is_sum(part)) > 0:
+            if self._gain(part, len(users) + (self._known(part) is not None)) > 0:
                 self._put(part, sorted(users, key=self._order.__getitem__))
                 changed = True
         return changed
@@ -167,7 +164,7 @@ class _Sharing:
             if count < 2:
                 continue
             left, right = frozenset(self.terms[a]), frozenset(self.terms[b])
-            for other in (right, frozenset(map(negated, right))):
+            for other in (right, _opposite(right)):
                 shared = left & other
                 if len(shared) > 1:
                     yield _canonical(shared), (a, b)
@@ -177,19 +174,17 @@ class _Sharing:
         size = sum(cost(split_sign(term)[1], self._costs) for term in part) + len(part) - 1
         return (users - 1) * size - 2 if size >= SHORTEST_SUM else 0
 
-    def _is_sum(self, part: _Key) -> bool:
-        """Whether the part is a sum by itself somewhere."""
-        return part in self.sums or frozenset(map(negated, part)) in self.sums
-
     def _holds(self, name: Symbol, part: _Key) -> bool:
         terms = frozenset(self.terms[name])
-        return len(part) < len(terms) and (part <= terms or frozenset(map(negated, part)) <= terms)
+        return len(part) < len(terms) and (part <= terms or _opposite(part) <= terms)
 
-    def _put(self, part: _Key, users: Iterable[Symbol]) -> None:
-        whole = self.placeholder(_ordered(part, self.terms, users := list(users)))
+    def _put(self, part: _Key, users: Sequence[Symbol]) -> None:
+        """The placeholder of a part in the sums that hold it, its terms in the order of the first of them."""
+        order = [split_sign(term)[1] for term in self.terms[users[0]]]
+        whole = self.placeholder(sorted(part, key=lambda term: order.index(split_sign(term)[1])))
         for name in users:
             terms = self.terms[name]
-            mine = part if part <= frozenset(terms) else frozenset(map(negated, part))
+            mine = part if part <= frozenset(terms) else _opposite(part)
             one = whole if mine == part else negated(whole)
             place = next(i for i, t in enumerate(terms) if t in mine)
             rest = [t for t in terms if t not in mine]
@@ -231,15 +226,12 @@ class _Sharing:
 
     def _everywhere(self, change: Callable[[Node], Node | None], roots: Sequence[Node]) -> list[Node]:
         """The sums changed where `change` has something for a part, and so the entries."""
-        done: dict[Node, Node] = {}
 
+        @cache
         def put(node: Node) -> Node:
-            found = done.get(node)
+            found = change(node)
             if found is None:
-                found = change(node)
-                if found is None:
-                    found = node if isinstance(node, Function) else with_children(node, put)
-                done[node] = found
+                found = node if isinstance(node, Function) else with_children(node, put)
             return found
 
         for name, terms in self.terms.items():
@@ -277,13 +269,7 @@ class _Writer:
     ) -> None:
         self.terms, self.uses, self.names, self.decimal, self.least = terms, uses, names, decimal, least
         self.definitions: list[Definition] = []
-        self._done: dict[Node, Node] = {}
-
-    def write(self, node: Node) -> Node:
-        found = self._done.get(node)
-        if found is None:
-            found = self._done[node] = self._written(node)
-        return found
+        self.write: Callable[[Node], Node] = cache(self._written)
 
     def _written(self, node: Node) -> Node:
         match node:
@@ -303,32 +289,27 @@ class _Writer:
         return node
 
     def _named(self, node: Node, meaning: Node, shortest: int) -> Node:
-        if not self._is_worth_a_name(self.uses.get(node, 0), cost(meaning), shortest):
+        """The name of a meaning that is used often enough and more than a glance, else the meaning."""
+        uses, size = self.uses.get(node, 0), cost(meaning)
+        saves = size >= _GLANCE and (uses - 1) * size >= self.least
+        if not (saves if self.least else uses > 1 and size >= shortest):
             return meaning
         name = next(self.names)
         self.definitions.append(Definition(name, meaning))
         return name
 
-    def _is_worth_a_name(self, uses: int, size: int, shortest: int) -> bool:
-        """Whether a meaning of some size is used often enough, and is more than a glance."""
-        if self.least:
-            return size >= _GLANCE and (uses - 1) * size >= self.least
-        return uses > 1 and size >= shortest
+
+def _opposite(part: _Key) -> _Key:
+    return frozenset(map(negated, part))
 
 
 def _canonical(part: _Key) -> _Key:
     """The part or its opposite, the same for both."""
-    opposite = frozenset(map(negated, part))
+    opposite = _opposite(part)
     minus = sum(isinstance(t, Negative) for t in part)
     if 2 * minus != len(part):
         return opposite if 2 * minus > len(part) else part
     return min(part, opposite, key=lambda p: sorted(map(repr, p)))
-
-
-def _ordered(part: _Key, terms: Mapping[Symbol, tuple[Node, ...]], users: Sequence[Symbol]) -> list[Node]:
-    """The terms of a part in the order of the first sum that holds it."""
-    order = [split_sign(t)[1] for t in terms[users[0]]]
-    return sorted(part, key=lambda t: order.index(split_sign(t)[1]))
 
 
 def rewritten(node: Node, leaf: Callable[[Node], Node]) -> Node:
@@ -356,14 +337,10 @@ def expanded_once(definitions: Sequence[Definition], node: Node) -> Node:
 def expanded(definitions: Sequence[Definition], nodes: Sequence[Node]) -> list[Node]:
     """Trees with the meanings put back for the names; what recurs is shared and not repeated."""
     meanings: dict[Node, Node] = {}
-    done: dict[Node, Node] = {}
 
+    @cache
     def put(node: Node) -> Node:
-        found = done.get(node)
-        if found is None:
-            found = meanings.get(node, node) if isinstance(node, Symbol) else with_children(node, put)
-            done[node] = found
-        return found
+        return meanings.get(node, node) if isinstance(node, Symbol) else with_children(node, put)
 
     for definition in definitions:
         meanings[definition.name] = put(definition.meaning)
@@ -405,10 +382,6 @@ class Multiples:
                     self.smallest[name] = min(content / own, self.smallest.get(name, Fraction(1)))
                 return times(sign * content / own, [(name, 1)], decimal=self.decimal)
         return None
-
-    def of_sum(self, terms: Sequence[Node]) -> Node | None:
-        """The same of the terms of a sum."""
-        return self.found(map(_monomial, terms))
 
     def in_product(self, product: Product, terms: dict[Symbol, tuple[Node, ...]]) -> Node | None:
         """A product of a sine or cosine and a sum as the placeholder of both, multiplied out."""
