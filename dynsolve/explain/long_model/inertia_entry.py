@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import chain
@@ -26,7 +26,7 @@ from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, total
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Cross, Negative, Node, Parenthesized, Product, Sum, Transpose, equation
+from dynsolve.notation.tree import Cross, Node, Parenthesized, Product, Sum, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Joint, JointType
@@ -76,7 +76,7 @@ class InertiaEntry:
                 "Joint {joint} moves {what} {bodies} alone, so {name} has the terms of {these}. Products of "
                 "vectors, and of a tensor with them, are the same along any axes: {those} of the link "
                 "{each}are taken.",
-                joint=shares[0].last.index,
+                joint=shares[0].last.joint.index,
                 what="bodies" if many else "body",
                 bodies=listed([share.body.name for share in shares]),
                 name=name,
@@ -122,7 +122,8 @@ def _entries(model: LongModel) -> Iterator[InertiaEntry]:
         if len(carried) > MOST_BODIES or not all(has_link_axes(b) and not is_moved(b) for b in carried):
             continue
         for row in reversed(range(column)):
-            shares = (BodyShare(context, body, moving[row], moving[column]) for body in carried)
+            both = moving[row], moving[column]
+            shares = (BodyShare(context, body, *(_side(context, body, j) for j in both)) for body in carried)
             yield InertiaEntry(model, row, column, tuple(shares))
 
 
@@ -135,22 +136,42 @@ BESIDE = 30
 
 
 @dataclass(frozen=True)
+class _Side:
+    """A joint and, along the axes of the link of a body that it moves, Rᵀ z, Rᵀ (r_c - o), the column of J_v.
+
+    `way` are the rows from the joint's axis to the body's frame, `names` J_v and J_ω in letters.
+    """
+
+    joint: Joint
+    turns: bool
+    way: tuple[Joint, ...]
+    names: tuple[Node, Node]
+    axis: algebra.Matrix
+    lever: algebra.Matrix
+    column: algebra.Matrix
+
+
+def _side(context: Context, body: Body, joint: Joint) -> _Side:
+    robot, turns = context.robot, joint.type is JointType.REVOLUTE
+    way = robot.joints[joint_frame(robot, joint) : body.link]
+    matrices = (dh_matrix(robot, row) for row in way)
+    along = reduce(lambda left, right: left @ right, matrices, algebra.Matrix.identity(robot.ring, 4))
+    back = rotation(along).T
+    axis, lever = back.column_at(2), body.center + back @ origin(along)
+    column = algebra.cross(axis, lever) if turns else axis
+    return _Side(joint, turns, way, column_letters(context, joint, letters.rc(body)), axis, lever, column)
+
+
+@dataclass(frozen=True)
 class BodyShare:
     """m (J_v)_jᵀ (J_v)_k + (J_ω)_jᵀ I (J_ω)_k of one body and two joints that move it."""
 
     context: Context
     body: Body
-    first: Joint
-    last: Joint
+    first: _Side
+    last: _Side
 
     @property
-    def joints(self) -> tuple[Joint, Joint]:
-        """The two joints, the one nearer to the base first."""
-        return self.first, self.last
-
-    # -- exactly -----------------------------------------------------------------------------------
-
-    @cached_property
     def value(self) -> Expr:
         """Both parts together."""
         return self.linear + self.angular
@@ -158,152 +179,112 @@ class BodyShare:
     @cached_property
     def linear(self) -> Expr:
         """m (J_v)_jᵀ (J_v)_k"""
-        left, right = map(self._column, self.joints)
-        return self.context.robot.ring.dot(left.entries, right.entries) * self.body.mass
+        left, right = self.first.column.entries, self.last.column.entries
+        return self.context.robot.ring.dot(left, right) * self.body.mass
 
     @cached_property
     def angular(self) -> Expr:
         """(J_ω)_jᵀ I (J_ω)_k, zero where one of the joints slides."""
-        if not self._turns:
+        if not (self.first.turns and self.last.turns):
             return self.context.robot.ring.zero
-        left, right = map(self._axis, self.joints)
         tensor: algebra.Matrix = self.context.values[f"I_body{self.body.name}"]
-        return (left.T @ tensor @ right)[0, 0]
-
-    @property
-    def _turning(self) -> tuple[Joint, ...]:
-        return tuple(joint for joint in self.joints if joint.type is JointType.REVOLUTE)
-
-    @property
-    def _turns(self) -> bool:
-        return len(self._turning) == len(self.joints)
-
-    def _way(self, joint: Joint) -> tuple[Joint, ...]:
-        """The rows from the joint's axis to the body's frame."""
-        robot = self.context.robot
-        return robot.joints[joint_frame(robot, joint) : self.body.link]
-
-    def _along(self, joint: Joint) -> algebra.Matrix:
-        """The body's frame seen from that of the joint's axis, 4×4."""
-        robot = self.context.robot
-        matrices = (dh_matrix(robot, row) for row in self._way(joint))
-        return reduce(lambda left, right: left @ right, matrices, algebra.Matrix.identity(robot.ring, 4))
-
-    def _axis(self, joint: Joint) -> algebra.Matrix:
-        """Rᵀ z"""
-        return rotation(self._along(joint)).T.column_at(2)
-
-    def _lever(self, joint: Joint) -> algebra.Matrix:
-        """Rᵀ (r_c - o)"""
-        way = self._along(joint)
-        return self.body.center + rotation(way).T @ origin(way)
-
-    def _column(self, joint: Joint) -> algebra.Matrix:
-        """The column of J_v."""
-        axis = self._axis(joint)
-        return algebra.cross(axis, self._lever(joint)) if joint.type is JointType.REVOLUTE else axis
-
-    # -- in letters --------------------------------------------------------------------------------
-
-    @property
-    def in_letters(self) -> tuple[Node, ...]:
-        """m (J_v)_jᵀ (J_v)_k and (J_ω)_jᵀ 𝓘 (J_ω)_k in axes and levers."""
-        left, right = map(self._letters, self.joints)
-        mass = self.context.mass(self.body)
-        linear = Product((mass, Transpose(_bracketed(left[0])), _bracketed(right[0])))
-        tensor = letters.base_tensor(letters.index_of(self.body.name))
-        return (linear, Product((Transpose(left[1]), tensor, right[1]))) if self._turns else (linear,)
-
-    def _letters(self, joint: Joint) -> tuple[Node, Node]:
-        return column_letters(self.context, joint, letters.rc(self.body))
-
-    @property
-    def _turned(self) -> Node:
-        return Transpose(letters.of_body("R", self.body, "bold"))
-
-    def lines(self) -> Iterator[Line]:
-        """The vectors along the axes of the body, and their cross products."""
-        yield Line(self._on_the_axes(), self._vectors())
-        if crosses := tuple(map(self._cross, self._turning)):
-            yield Line(("The cross products of these:",), crosses)
+        return (self.first.axis.T @ tensor @ self.last.axis)[0, 0]
 
     @property
     def has_both_parts(self) -> bool:
         """Whether the body moves and turns with both joints."""
         return not self.linear.is_zero and not self.angular.is_zero
 
+    @property
+    def in_letters(self) -> tuple[Node, ...]:
+        """m (J_v)_jᵀ (J_v)_k and (J_ω)_jᵀ 𝓘 (J_ω)_k in axes and levers."""
+        (v, w), (other_v, other_w) = self.first.names, self.last.names
+        linear = Product((self.context.mass(self.body), Transpose(_bracketed(v)), _bracketed(other_v)))
+        tensor = letters.base_tensor(letters.index_of(self.body.name))
+        both_turn = self.first.turns and self.last.turns
+        return (linear, Product((Transpose(w), tensor, other_w))) if both_turn else (linear,)
+
+    def lines(self) -> Iterator[Line]:
+        """The vectors along the axes of the body, and their cross products."""
+        yield Line(self._on_the_axes(), self._vectors())
+        crosses = [
+            equation(
+                self._turned(_bracketed(side.names[0])),
+                Cross(self._shown(side.axis), self._shown(side.lever)),
+                self._shown(side.column),
+            )
+            for side in (self.first, self.last)
+            if side.turns
+        ]
+        if crosses:
+            yield Line(("The cross products of these:",), tuple(crosses))
+
     def products(self) -> Line:
         """m (J_v)_jᵀ (J_v)_k entry by entry, and (J_ω)_jᵀ 𝓘 (J_ω)_k."""
         show, (moved, *turned) = self.context.show, self.in_letters
-        left, right = (self._shown(self._column(joint)).rows for joint in self.joints)
-        each = [product_of(1, [(a, 1), (b, 1)]) for (a,), (b,) in zip(left, right, strict=True)]
+        rows = zip(self._shown(self.first.column).rows, self._shown(self.last.column).rows, strict=True)
+        entries = Parenthesized(total([product_of(1, [(a, 1), (b, 1)]) for (a,), (b,) in rows]))
         linear, angular = show(self.linear), show(self.angular)
         used = list(dict.fromkeys(doubled_angles(linear, angular)))
-        put_in = Product((self.context.mass(self.body), Parenthesized(total(each))))
         return Line(
-            say(
-                "Multiplied, for body {body}{used}:",
-                body=self.body.name,
-                used=(", with ", *listed(used)) if used else "",
+            (f"Multiplied, for body {self.body.name}", *((", with ", *listed(used)) if used else ()), ":"),
+            (
+                equation(moved, Product((self.context.mass(self.body), entries)), linear),
+                equation(*turned, angular),
             ),
-            (equation(moved, put_in, linear), equation(*turned, angular)),
         )
+
+    def _turned(self, vector: Node) -> Node:
+        """Rᵀ times a vector, in letters."""
+        return Product((Transpose(letters.of_body("R", self.body, "bold")), vector))
 
     def _shown(self, vector: algebra.Matrix) -> tree.Matrix:
         shown = self.context.show(vector)
         assert isinstance(shown, tree.Matrix)
         return shown
 
+    def _axis(self, side: _Side) -> Node:
+        return self._turned(letters.z(joint_frame(self.context.robot, side.joint)))
+
     def _on_the_axes(self) -> Prose:
         """Along which axes the vectors are written, and where those of the joints are read off."""
-        rows = [(joint, product) for joint in self.joints if (product := self._product(joint))]
+        sides = [side for side in (self.first, self.last) if side.way]
         read_off = say(
             "; {axes} {be} in {products}. A lever is the mass centre in frame {link} plus the fourth column "
             "of the same product, turned to these axes",
-            axes=listed([self._turned_axis(joint) for joint, _ in rows]),
-            be="are the third rows of the rotations" if len(rows) > 1 else "is the third row of the rotation",
-            products=listed([product for _, product in rows]),
+            axes=listed([self._axis(side) for side in sides]),
+            be="are the third rows of the rotations"
+            if len(sides) > 1
+            else "is the third row of the rotation",
+            products=listed([_product([letters.A(row.index) for row in side.way]) for side in sides]),
             link=self.body.link,
         )
         return say(
             "Along the axes of frame {link} the tensor is {tensor}{read_off}:",
             link=self.body.link,
             tensor=letters.tensor(self.context.robot, self.body),
-            read_off=read_off if rows else "",
+            read_off=read_off if sides else "",
         )
-
-    def _product(self, joint: Joint) -> Node | None:
-        """The matrices of the rows from the joint's axis to the body's frame."""
-        matrices = tuple(letters.A(row.index) for row in self._way(joint))
-        return Product(matrices) if len(matrices) > 1 else next(iter(matrices), None)
-
-    def _turned_axis(self, joint: Joint) -> Node:
-        return Product((self._turned, letters.z(joint_frame(self.context.robot, joint))))
 
     def _vectors(self) -> tuple[Node, ...]:
         """The axes and levers along the axes of the body."""
-        context = self.context
         axes, levers = [], []
-        for joint in self.joints:
-            frame = joint_frame(context.robot, joint)
-            axes.append(equation(self._turned_axis(joint), context.show(self._axis(joint))))
-            if joint.type is JointType.REVOLUTE:
-                arm = Parenthesized(Sum((letters.rc(self.body), Negative(letters.o(frame)))))
-                levers.append((Product((self._turned, arm)), self._shown(self._lever(joint))))
+        for side in (self.first, self.last):
+            axes.append(equation(self._axis(side), self._shown(side.axis)))
+            if side.turns:
+                frame = joint_frame(self.context.robot, side.joint)
+                arm = formula("({center} - {o})", center=letters.rc(self.body), o=letters.o(frame))
+                levers.append((self._turned(arm), self._shown(side.lever)))
         if len(levers) == 2 and levers[0][1] == levers[1][1]:
             return side_by_side(axes), equation(*(name for name, _ in levers), levers[0][1])
         shown = [equation(*each) for each in levers]
-        beside = len(levers) == 2 and sum(matrix_width(context, value) for _, value in levers) <= BESIDE
+        width = sum(matrix_width(self.context, value) for _, value in levers)
+        beside = len(levers) == 2 and width <= BESIDE
         return side_by_side(axes), *([side_by_side(shown)] if beside else shown)
 
-    def _cross(self, joint: Joint) -> Node:
-        """The column of J_v of a joint that turns, as a cross product."""
-        show = self.context.show
-        return equation(
-            Product((self._turned, _bracketed(self._letters(joint)[0]))),
-            Cross(show(self._axis(joint)), show(self._lever(joint))),
-            show(self._column(joint)),
-        )
+
+def _product(factors: Sequence[Node]) -> Node:
+    return factors[0] if len(factors) == 1 else Product(tuple(factors))
 
 
 def _bracketed(node: Node) -> Node:
