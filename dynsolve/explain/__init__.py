@@ -54,10 +54,9 @@ What the signs of a report mean:
 
 Long models are written in names (`--abbreviate`):
 
-    abbreviations  which constants and terms get names, and D, C and g in these
+    abbreviations  which constants, sums and Christoffel symbols get names, and D, C and g in these
     recurring      what stands in several places
     named_steps    the steps of a derivation in these names, and where they are introduced
-    names          names for long sums of masses and lengths, and for Christoffel symbols
     long_model     those of a long model, which stay in d_ij, c_ijk and g_k where they can
 
 And hints (`--hint`), made of the same steps:

@@ -1,8 +1,8 @@
 """The steps of a short model in names: which sums have one, and where it is introduced.
 
 Which:  a sum of masses and lengths that comes up again and again from the kinetic energy on, and what its
-        derivatives are made of (`inertia_names`): σ₁, σ₂, ...
-        what Christoffel symbols are, where C would fill half a page (`symbol_names`): σ₃, ...
+        derivatives are made of (`name_inertias`): σ₁, σ₂, ...
+        what Christoffel symbols are, where C would fill half a page (`name_symbols`): σ₃, ...
         what all of them are but for sign: h.
 Where:  in the first step from the kinetic energy on in whose result it stands, after that result, which is
         then written with the name; h beside the first symbol that it is, as in the book.
@@ -104,8 +104,7 @@ def _of_short_model(steps: Iterable[Step], context: Context, short: Abbreviated)
         if step.stage is Stage.VECTORIZED:
             step = _result_exchanged(step, named)
         if step.id in _ENDING_IN_VALUES:
-            lines = (replace(line, formulas=tuple(map(_without_value, line.formulas))) for line in step.lines)
-            step = replace(step, lines=tuple(lines))
+            step = replace(step, lines=_in_lines(step.lines, _without_value))
         yield _with_cells(step, _without_value) if step.id == "terms" else step
 
 
@@ -137,6 +136,10 @@ def _with_cells(step: Step, change: Callable[[Node], Node]) -> Step:
     assert step.table is not None
     rows = tuple(_changed(row, change) for row in step.table.rows)
     return replace(step, table=replace(step.table, rows=rows))
+
+
+def _in_lines(lines: Iterable[Line], change: Callable[[Node], Node]) -> tuple[Line, ...]:
+    return tuple(replace(line, formulas=tuple(map(change, line.formulas))) for line in lines)
 
 
 def _changed(parts: Iterable[Inline], change: Callable[[Node], Node]) -> Prose:
@@ -271,9 +274,8 @@ class _Names:
         """A step in the names; its last line is left out where only the order of the result differs."""
         put = self.sums.put
         last = self._last_put if step.id in _COLLECTED else put
-        lines = step.lines  # the plain sum of K stands before the names are defined
-        if step.id != "K":
-            lines = tuple(replace(line, formulas=tuple(map(last, line.formulas))) for line in lines)
+        # the plain sum of K stands before the names are defined
+        lines = step.lines if step.id == "K" else _in_lines(step.lines, last)
         written = replace(
             step if step.table is None else _with_cells(step, put),
             why=_changed(step.why, put),
@@ -355,9 +357,8 @@ class _Names:
             named = self.short.put_symbols(node.parts[-1])
             return node if named == node.parts[-1] else equation(*node.parts, named)
 
-        lines = (replace(line, formulas=tuple(map(also_named, line.formulas))) for line in step.lines)
         written = _result_exchanged(step, _named_symbols(self.context, self.short))
-        written = replace(written, lines=tuple(lines))
+        written = replace(written, lines=_in_lines(step.lines, also_named))
         if self.single is None:
             return written
         first, *others = written.result

@@ -187,7 +187,7 @@ class Dynamics:
 
     @cached_property
     def _with_symbols_named(self) -> Abbreviated | None:
-        from dynsolve.explain.names import name_symbols
+        from dynsolve.explain.abbreviations import name_symbols
 
         short = name_symbols(self.forms)
         return None if short is None else self._verified(short)

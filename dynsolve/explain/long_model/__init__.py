@@ -8,6 +8,5 @@ links stay the products they are, which would fill pages written out.
     model          the robot, its names, and d_ij, c_ijk and g_k by name; which results would fill pages
     general        what is said once for all links, bodies and coordinates; the last frame and its check
     inertia_entry  one entry of D worked out in full, body by body
-    slopes         one Christoffel symbol and one gravity term worked out in full
-    vectorized     D, the Christoffel symbols, C and g, and one row of τ
+    vectorized     D, the Christoffel symbols, C and g, one of each in full, and one row of τ
 """
