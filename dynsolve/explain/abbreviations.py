@@ -32,7 +32,7 @@ from dynsolve.derivation.vectorized import christoffel_symbols
 from dynsolve.explain.context import is_short
 from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric, pairs
 from dynsolve.explain.parameters import BaseParameters
-from dynsolve.explain.recurring import Definition, expanded, name_recurring, rewritten
+from dynsolve.explain.recurring import Definition, exchanged, expanded, name_recurring, rewritten
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, summands, times, total
@@ -131,15 +131,10 @@ class Exchange:
         return changed
 
     def _in_sum(self, node: Sum, meaning: Sum) -> Node:
-        for own, name in (
-            (set(meaning.terms), self.name),
-            (set(map(negated, meaning.terms)), negated(self.name)),
-        ):
-            if own <= set(node.terms):
-                place = next(i for i, term in enumerate(node.terms) if term in own)
-                rest = [term for term in node.terms if term not in own]
-                before = sum(term not in own for term in node.terms[:place])
-                return total([*rest[:before], name, *rest[before:]])
+        for own, name in ((meaning.terms, self.name), (map(negated, meaning.terms), negated(self.name))):
+            part = set(own)
+            if part <= set(node.terms):
+                return total(exchanged(node.terms, part, name))
         return node
 
     def _in_product(self, node: Product | Quotient) -> Node:

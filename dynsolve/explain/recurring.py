@@ -7,7 +7,7 @@ of several sums; so is a product.  Names build on each other, the inner ones fir
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -186,10 +186,7 @@ class _Sharing:
             terms = self.terms[name]
             mine = part if part <= frozenset(terms) else _opposite(part)
             one = whole if mine == part else negated(whole)
-            place = next(i for i, t in enumerate(terms) if t in mine)
-            rest = [t for t in terms if t not in mine]
-            before = sum(t not in mine for t in terms[:place])
-            self.terms[name] = (*rest[:before], one, *rest[before:])
+            self.terms[name] = exchanged(terms, mine, one)
 
     # -- products that are sums by themselves ------------------------------------------------------
 
@@ -310,6 +307,12 @@ def _canonical(part: _Key) -> _Key:
     if 2 * minus != len(part):
         return opposite if 2 * minus > len(part) else part
     return min(part, opposite, key=lambda p: sorted(map(repr, p)))
+
+
+def exchanged(terms: Sequence[Node], part: Collection[Node], one: Node) -> tuple[Node, ...]:
+    """Terms with one in the place of the first of a part of them, and without the others of it."""
+    place = next(i for i, term in enumerate(terms) if term in part)
+    return (*terms[:place], one, *(term for term in terms[place:] if term not in part))
 
 
 def rewritten(node: Node, leaf: Callable[[Node], Node]) -> Node:

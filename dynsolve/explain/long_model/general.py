@@ -24,10 +24,10 @@ from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.kinematics import OUTWARDS
 from dynsolve.explain.long_model.inertia_entry import kinetic_step
-from dynsolve.explain.long_model.model import LongModel, columns_shown, halves, product
+from dynsolve.explain.long_model.model import LongModel, brief_step, columns_shown, halves, product
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.sanity.poses import at, turning_in
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.identities import said, used_in_product
 from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation import tree
@@ -85,15 +85,13 @@ def general_steps(context: Context) -> dict[str, Step]:
 
 def _rows(context: Context) -> Step:
     joints = context.robot.joints
-    return Step(
+    return brief_step(
         id="rows",
         stage=Stage.KINEMATICS,
         title="The rows of the table",
         why=("The matrix with the entries of each row.",),
         result=tuple(equation(letters.A(joint.index), context.form(f"A{joint.index}")) for joint in joints),
         together=True,
-        detail=Detail.BRIEF,
-        uses=(),
     )
 
 
@@ -109,7 +107,7 @@ def _columns(context: Context) -> Step:
     if JointType.PRISMATIC in kinds:
         columns.append(formula("𝐉_i = [𝐳_{axis}; {zero}]", axis=axis, zero=ZERO))
     words = " The first is that of a revolute joint, the second that of a prismatic one."
-    return Step(
+    return brief_step(
         id="columns",
         stage=Stage.JACOBIAN,
         title="The columns of the Jacobian",
@@ -120,7 +118,6 @@ def _columns(context: Context) -> Step:
         ),
         formula=side_by_side(columns),
         source=spong("4.6.3"),
-        detail=Detail.BRIEF,
         uses=("axes",),
     )
 
@@ -133,7 +130,7 @@ def _mass_centers(context: Context) -> Step:
         equation(letters.bold("r", letters.rc(body).sub, Number(body.link)), context.show(body.center))
         for body in context.robot.bodies
     )
-    return Step(
+    return brief_step(
         id="rc",
         stage=Stage.INERTIA,
         title="Mass centres",
@@ -142,8 +139,6 @@ def _mass_centers(context: Context) -> Step:
         source=spong("2.6"),
         result=tuple(given),
         together=True,
-        detail=Detail.BRIEF,
-        uses=(),
     )
 
 
@@ -163,7 +158,7 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
         " An entry off the diagonal is minus the integral of the product of two coordinates over the mass."
     )
     has_products = any(not tensor[i, j].is_zero for _, tensor in tensors for i in range(3) for j in range(i))
-    return Step(
+    return brief_step(
         id="tensors",
         stage=Stage.INERTIA,
         title="Inertia tensors",
@@ -177,8 +172,6 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
         source=spong("7.2.1"),
         result=tuple(equation(name, context.show(tensor)) for name, tensor in tensors),
         together=True,
-        detail=Detail.BRIEF,
-        uses=(),
     )
 
 
@@ -187,7 +180,7 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
 
 def _potential(context: Context) -> Step:
     rows = tuple(_heights(context))
-    return Step(
+    return brief_step(
         id="potentials",
         stage=Stage.ENERGY,
         title="Potential energy of each body",
@@ -206,8 +199,6 @@ def _potential(context: Context) -> Step:
             for body in context.robot.bodies
         ),
         listed=True,
-        detail=Detail.BRIEF,
-        uses=(),
     )
 
 
@@ -217,7 +208,7 @@ def _forces(context: Context) -> Step:
     accelerated = "Σ_(j=1)^{n} d_kj q̈_j"
     squares = "Σ_(i=1)^{n} Σ_(j=1)^{n} {factor} q̇_i q̇_j"
     slopes = formula(squares, n=n, factor=formula("∂d_ij/∂q_k"))
-    return Step(
+    return brief_step(
         id="forces",
         stage=Stage.TORQUE,
         title="The generalized forces",
@@ -252,7 +243,6 @@ def _forces(context: Context) -> Step:
         ),
         concluding=("the forces are",),
         result=(formula(f"τ_k = {accelerated} + {squares}{friction} + g_k", n=n, factor=formula("c_ijk")),),
-        detail=Detail.BRIEF,
         uses=("L",),
     )
 

@@ -16,10 +16,10 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian import ZERO, column_letters, coordinate_column
-from dynsolve.explain.long_model.model import LongModel, columns_shown, halves
+from dynsolve.explain.long_model.model import LongModel, brief_step, columns_shown, halves
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.recurring import expanded_once
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import doubled_angles
 from dynsolve.explain.writing import listed, side_by_side, spong
@@ -305,7 +305,7 @@ def kinetic_step(context: Context) -> Step:
     both = say(" where the joint is revolute, $𝐳_{j}$ and {zero} where it is prismatic", j=j, zero=ZERO)
     v = letters.transposed_product(formula("𝐯_i"))
     w = letters.transposed_product(formula("𝛚_i"), formula("𝓘_i"))
-    return Step(
+    return brief_step(
         id="kinetics",
         stage=Stage.ENERGY,
         title="Kinetic energy of each body",
@@ -322,8 +322,6 @@ def kinetic_step(context: Context) -> Step:
         lines=example,
         concluding=("The kinetic energy of a body:",) if example else (),
         result=(formula("K_i = ½ m_i {v} + ½ {w}", v=v, w=w),),
-        detail=Detail.BRIEF,
-        uses=(),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import groupby
 from operator import itemgetter
 
@@ -17,7 +17,7 @@ from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import EntryFormulas, Factor
 from dynsolve.explain.jacobian import ZERO as ZERO_VECTOR
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import Identity, used_in_product
 from dynsolve.explain.writing import column_of
 from dynsolve.notation import tree
@@ -29,6 +29,9 @@ from dynsolve.robot.model import Joint, Robot
 
 QUADRATIC = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
 """½ q̇ᵀ D q̇"""
+
+brief_step = partial(Step, detail=Detail.BRIEF, uses=())
+"""A step that stands for many."""
 
 
 @dataclass(frozen=True)
