@@ -27,7 +27,7 @@ from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.christoffel import compared_rows, with_slopes
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import collected_coriolis_force
-from dynsolve.explain.long_model.steps import of_long_model
+from dynsolve.explain.long_model import of_long_model
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, name_of_term, rates_of, rows_in_names, terms_of
 from dynsolve.explain.working.derivatives import are_alike, inertia_rate, varying
