@@ -21,47 +21,23 @@ A step may say more of how it is shown (`step`): which of its parts a worked exa
 which `group` it is, what it says in a line where it is not shown itself (`outcome`), and what it tells that
 a step like it has told (`said`).  `solution.depths` makes of this what a depth shows.
 
-Everything a step is made from is in its `Context`; `writing` has what several stages write.
+Everything a step is made from is in its `Context`: the robot, its exact values and their compact `forms`;
+`writing` has what several stages write.  Beside the stages:
 
-    step        what a step is, and in which detail it is shown
-    context     the robot, its exact values, their compact forms; how its formulas look
-    forms       the compact form of every value; how long ones are put together from parts
-    writing     sentences and pieces of formulas; the books and their sections that steps refer to
-    given       what is given of the robot and its bodies, of what acts on it, and what is asked
-    mass_centers
-                where mass centres are, tensors turned to the base, bodies with a density
-    placed_bodies
-                bodies that are given by their positions, and models without bodies
-    matrix_factors
-                what all entries of a matrix share, in front of it; how wide matrices are
-    actions     what acts beside gravity: springs, rotors, friction; the potential energy
-    body_parts  what each body adds to D, its products multiplied out
-    terms       what each term of a force is, and the step of D q̈ + C q̇ + g = τ
-    inverse_formulas
-                the solutions of inverse kinematics as formulas, and their conditions
-    target      the configurations that reach a target in numbers, and their steps
-    inverse_figures
-                drawings of the solutions
-    sanity      checks that a person can do on the finished model
-    working     the lines between a formula and its result, each proved before it is shown
-
-What the signs of a report mean:
-
-    notation_list       the list of notation: a line for every sign that occurs
-    signs               the signs of a document, their styles and their units
-    textbook_letters    the lines of the textbook's letters
-    parameter_meanings  what the parameters of a problem are: the length of link 2, from o_1 to o_2
+    given, placed_bodies, mass_centers, actions, matrix_factors, body_parts, terms
+                         what several steps of the stages are made of
+    working, sanity      the lines between a formula and its result; checks that a person can do on a model
+    inverse_*, target    the solutions of inverse kinematics as formulas, and in numbers for a target
+    notation_list, signs, textbook_letters, parameter_meanings
+                         what the signs of a report mean
+    hint                 hints (`--hint`), made of the same steps: what to do, without its results
 
 Long models are written in names (`--abbreviate`):
 
-    abbreviations  which constants, sums and Christoffel symbols get names, and D, C and g in these
-    recurring      what stands in several places
-    named_steps    the steps of a derivation in these names, and where they are introduced
-    long_model     those of a long model, which stay in d_ij, c_ijk and g_k where they can
-
-And hints (`--hint`), made of the same steps:
-
-    hint        what to do in a stage, without its results, and what goes wrong most often there
+    recurring            what stands in several places
+    abbreviations        which constants, sums and Christoffel symbols get names, and D, C and g in these
+    named_steps          the steps in these names, and where they are introduced
+    long_model           those of a long model, which stay in d_ij, c_ijk and g_k where they can
 """
 
 from __future__ import annotations
