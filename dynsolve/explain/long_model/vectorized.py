@@ -337,13 +337,10 @@ def _entries_differentiated(
     """
     names: dict[Relation, None] = {}
     entries = []
+    every = ((*pair, by) for by in range(model.n) for pair in pairs(model.n))
+    places = {_slope(model, *place): place for place in every}
     for slope in dict.fromkeys(part for part in walk(slopes) if isinstance(part, Derivative)):
-        row, column, by = next(
-            (row, column, by)
-            for by in range(model.n)
-            for row, column in pairs(model.n)
-            if _slope(model, row, column, by) == slope
-        )
+        row, column, by = places[slope]
         form = model.short.D.rows[row][column]
         found = NameSlopes(model, by, form, result)
         if len(found.shown) > MOST_SLOPES:
@@ -415,6 +412,7 @@ class NameSlopes:
         self.coordinate = Symbol(ring.names[k])
         used = _needed_by(model, formula)
         values = _values(model, list(dict.fromkeys((*used, *_needed_by(model, result)))))
+        known = _by_value(values)
         self._slopes = {one.name: ring.diff(values[one.name], k) for one in used}
         self._written: dict[Node, Node] = {}
         self.shown: dict[Symbol, Relation] = {}
@@ -422,7 +420,7 @@ class NameSlopes:
             slope = self._slopes[one.name]
             if not slope.is_zero:
                 left, chain = self.of(one.name), self.by_the_chain_rule(one.meaning)
-                self._written[left] = _as_a_name(slope, values) or _with_values(chain, self._written)
+                self._written[left] = known.get(slope) or _with_values(chain, self._written)
                 self.shown[one.name] = equation(*dict.fromkeys((left, chain, self._written[left])))
 
     def of(self, node: Node) -> Derivative:
@@ -445,13 +443,13 @@ class NameSlopes:
         return _with_values(self.by_the_chain_rule(node), self._written)
 
 
-def _as_a_name(slope: Expr, values: Mapping[Symbol, Expr]) -> Node | None:
-    """A name, or a small multiple of one, that has this value."""
-    for name, value in values.items():
-        for factor in _FACTORS:
-            if value * factor == slope:
-                return times(factor, [(name, 1)])
-    return None
+def _by_value(values: Mapping[Symbol, Expr]) -> dict[Expr, Node]:
+    """What is worth a name, or a small multiple of one, written by that."""
+    known: dict[Expr, Node] = {}
+    for factor in _FACTORS:
+        for name, value in values.items():
+            known.setdefault(value * factor, times(factor, [(name, 1)]))
+    return known
 
 
 def _needed_by(model: LongModel, formula: Node) -> list[Definition]:
@@ -467,10 +465,7 @@ def _needed_by(model: LongModel, formula: Node) -> list[Definition]:
 def slopes_that_are_names(model: LongModel) -> Iterator[tuple[Derivative, Node]]:
     """∂σ/∂q where it is a name again, or twice one, and that: coordinate by coordinate."""
     values = _values(model, model.short.sums)
-    known: dict[Expr, Node] = {}
-    for factor in _FACTORS:
-        for name, value in values.items():
-            known.setdefault(value * factor, times(factor, [(name, 1)]))
+    known = _by_value(values)
     for k, q in enumerate(model.context.robot.coordinates):
         for name, value in values.items():
             if form := known.get(model.context.robot.ring.diff(value, k)):
