@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import told_frames
@@ -17,6 +18,7 @@ from dynsolve.explain.working.identities import product_named
 from dynsolve.explain.working.rotational import factor_of_identity
 from dynsolve.explain.writing import GEOMETRY, GIVEN, block_of, is_small, name_of, spong
 from dynsolve.notation.build import number_in_front
+from dynsolve.notation.template import formula
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     ONE,
@@ -24,14 +26,10 @@ from dynsolve.notation.tree import (
     Integral,
     Letter,
     Matrix,
-    Negative,
     Node,
     Number,
-    Parenthesized,
-    Power,
     Product,
     Row,
-    Sum,
     Symbol,
     Transpose,
     Words,
@@ -40,7 +38,7 @@ from dynsolve.notation.tree import (
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Convention, Robot
-from dynsolve.robot.shapes import Density, SliceMoment
+from dynsolve.robot.shapes import Density
 
 STAGE = Stage.INERTIA
 
@@ -49,21 +47,27 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
     """r_c = R r + o; with `tells` it warns that the mass centre is not the frame's origin."""
     r, way = letters.rc(body), _way(context, body)
     kind, where = _where(context, body)
-    why: Prose = (f"The mass centre of {name_of(body)} ", *where, ".")
+    ground = ""
     if not any(joint.type for joint in context.robot.path(body.link)):
         kind = ""
-        why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
+        ground = " No joint comes before that link, so the body belongs to the ground and does not move."
+    not_the_origin = say(
+        "The mass centre is not the origin of frame {i}: the fourth column of {H} is not {r}.",
+        i=body.link,
+        H=letters.H(context.robot, body.link),
+        r=r,
+    )
     return Step(
         id=f"rc{body.name}",
         stage=STAGE,
         title=f"Mass centre of {name_of(body)}",
-        why=why,
+        why=say("The mass centre of {body} {where}.{ground}", body=name_of(body), where=where, ground=ground),
         formula=equation(r, way.named),
         source=way.source,
         further=way.given,
         working=(equation(r, way.values),) if way.values else (),
         result=(equation(r, context.form(f"rc{body.name}")),),
-        notes=(_not_the_origin(body, letters.H(context.robot, body.link)),) if tells else (),
+        notes=(not_the_origin,) if tells else (),
         detail=Detail.BRIEF,
         normal=WORKED & ~Part.FURTHER | Part.WHY if way.values else TOLD,
         said=f"center {kind}" if kind else "",
@@ -90,28 +94,35 @@ def _way(context: Context, body: Body) -> _Way:
     if body.center.is_zero:
         return _Way(letters.o(body.link), uses=_told_at(context.robot, body.link), source=GIVEN)
     other = other_end(context.robot, body)
+    c = letters.index_of(body.name)
     if other is None:
-        own = Letter("r", letters.rc(body).sub, Number(body.link), "bold")
+        own = formula("𝐫_c{c}^{i}", c=c, i=body.link)
         return _from(context, body, body.link, own, body.center)
     if body.center_written == "midpoint":
-        both = ends(context.robot, body)
-        between = _half(*map(letters.o, both))
-        values = [_origin(context, end) for end in both]
-        shown = _half(*values) if is_small(*values) else None
-        return _Way(between, shown, uses=("axes",), source=GEOMETRY)
+        near, far = ends(context.robot, body)
+        values = [_origin(context, end) for end in (near, far)]
+        return _Way(
+            _half(letters.o(near), letters.o(far)),
+            _half(*values) if is_small(*values) else None,
+            uses=("axes",),
+            source=GEOMETRY,
+        )
     end, back = other
-    index = Row((Number(end), Words(","), Words("c"), letters.index_of(body.name)))
-    lever = letters.bold("r", index, Number(body.link))
+    lever = letters.bold("r", Row((Number(end), Words(","), Words("c"), c)), Number(body.link))
     return _from(context, body, end, lever, body.center - back)
 
 
-def _from(context: Context, body: Body, start: int, lever: Letter, value: algebra.Matrix) -> _Way:
+def _from(context: Context, body: Body, start: int, lever: Node, value: algebra.Matrix) -> _Way:
     """R r + o: the lever r from origin `start`, given along the axes of the link's frame."""
     link, shown = body.link, context.show(value)
     rotation, origin = block_of(context.matrix(f"H{link}"), 3, 0, 3), _origin(context, start)
-    values = Sum((Product((rotation, shown)), origin)) if is_small(shown, rotation, origin) else None
-    named = Sum((Product((letters.R(context.robot, link), lever)), letters.o(start)))
-    return _Way(named, values, (equation(lever, shown),), None if start == link else (f"H{link}", "axes"))
+    is_short = is_small(shown, rotation, origin)
+    return _Way(
+        formula("{R} {r} + {o}", R=letters.R(context.robot, link), r=lever, o=letters.o(start)),
+        formula("{R} {r} + {o}", R=rotation, r=shown, o=origin) if is_short else None,
+        (equation(lever, shown),),
+        None if start == link else (f"H{link}", "axes"),
+    )
 
 
 def _origin(context: Context, frame: int) -> Matrix:
@@ -124,32 +135,36 @@ def _told_at(robot: Robot, frame: int) -> tuple[str, ...]:
 
 
 def _half(near: Node, far: Node) -> Node:
-    return Product((letters.HALF, Parenthesized(Sum((near, far)))))
+    return formula("½ ({near} + {far})", near=near, far=far)
+
+
+_FROM_THE_NEAR_END = (
+    "is given from the near end of link {link}, {near}, along the axes of frame {link}, which is fixed in "
+    "the link"
+)
 
 
 def _where(context: Context, body: Body) -> tuple[str, Prose]:
     """How a mass centre is given: the kind of it, and in words."""
-    link, written = body.link, body.center_written
-    near, far = ends(context.robot, body)
+    written = body.center_written
+    kind, words = "frame", "is given by its coordinates in frame {link}, which are constant"
     if written == "tip":
-        return written, (f"is at the far end of link {link}, ", letters.o(far))
-    if written == "midpoint":
-        return written, (f"is half-way along link {link}, between ", letters.o(near), " and ", letters.o(far))
-    if body.center.is_zero:
-        return "origin", ("is at the origin ", letters.o(link), f" of frame {link}")
-    if is_given_by(body, "near") and context.standard:
-        return "near", (
-            f"is given from the near end of link {link}, ",
-            letters.o(near),
-            f", along the axes of frame {link}, which is fixed in the link",
-        )
-    if is_given_by(body, "along"):
-        way: Prose = ("from ", letters.o(near), " to ", letters.o(far))
-        fraction = part_of_the_way(body)
-        if fraction is None:
-            return "", (f"is on link {link}, at the given part of the way ", *way)
-        return "", ("is ", fraction, f" of the way along link {link}, ", *way)
-    return "frame", (f"is given by its coordinates in frame {link}, which are constant",)
+        kind, words = written, "is at the far end of link {link}, {far}"
+    elif written == "midpoint":
+        kind, words = written, "is half-way along link {link}, between {near} and {far}"
+    elif body.center.is_zero:
+        kind, words = "origin", "is at the origin {own} of frame {link}"
+    elif is_given_by(body, "near") and context.standard:
+        kind = "near"
+        words = _FROM_THE_NEAR_END
+    elif is_given_by(body, "along"):
+        kind, words = "", "is {part} of the way along link {link}, from {near} to {far}"
+        if part_of_the_way(body) is None:
+            words = "is on link {link}, at the given part of the way from {near} to {far}"
+    near, far = map(letters.o, ends(context.robot, body))
+    part = part_of_the_way(body) if kind == "" else None
+    own = letters.o(body.link)
+    return kind, say(words, link=body.link, near=near, far=far, own=own, part=part or "")
 
 
 def is_given_by(body: Body, key: str) -> bool:
@@ -192,16 +207,6 @@ def other_end(robot: Robot, body: Body) -> tuple[int, algebra.Matrix] | None:
     return (row.index, onward) if body.center_written == "midpoint" else None
 
 
-def _not_the_origin(body: Body, H: Letter) -> Prose:
-    return (
-        f"The mass centre is not the origin of frame {body.link}: the fourth column of ",
-        H,
-        " is not ",
-        letters.rc(body),
-        ".",
-    )
-
-
 # -- how the tensor of a body along the axes of the base comes about: R I Rᵀ, or why it stays as it is
 
 
@@ -224,24 +229,25 @@ def turning_of(context: Context, body: Body, R: Letter) -> Turning:
     """By the factor of the identity, by an axis of symmetry, or by two products of matrices."""
     factor, axis = factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
     if factor is not None:
-        line = Product((number_in_front(context.show(factor)), R, Transpose(R)))
-        why: Prose = ("The tensor is a multiple of the identity matrix: whatever ", R, " is, ")
-        why += (Product((R, Transpose(R))), " is the identity matrix, and the rotation keeps the tensor.")
-        return Turning((line,), why, same=letters.tensor(context.robot, body))
-    if axis is not None:
-        tensor = context.values[f"I_body{body.name}"]
-        alone = sum(not entry.is_zero for entry in tensor.entries) == 1
-        kept = f"the moment about {axis} alone enters" if alone else f"the moments across {axis} are equal"
-        why = (
-            " Here ",
-            R,
-            f" is a rotation about {axis}, and {kept}, so the tensor stays as it is.",
+        return Turning(
+            (formula("{k} {R} {R}ᵀ", k=number_in_front(context.show(factor)), R=R),),
+            say(
+                "The tensor is a multiple of the identity matrix: whatever {R} is, ${R} {R}ᵀ$ is the "
+                "identity matrix, and the rotation keeps the tensor.",
+                R=R,
+            ),
+            same=letters.tensor(context.robot, body),
         )
-        return Turning((), why, same=letters.tensor(context.robot, body), axis=axis)
-    lines = tuple(_turned(context, body))
-    is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
-    notes: tuple[Prose, ...] = (("This rotation does not change the tensor.",),) if is_kept else ()
-    return Turning(lines, (), _turned_named(context, body) if lines else (), notes)
+    if axis is not None:
+        alone = sum(not entry.is_zero for entry in context.values[f"I_body{body.name}"].entries) == 1
+        kept = f"the moment about {axis} alone enters" if alone else f"the moments across {axis} are equal"
+        words = f" Here {{R}} is a rotation about {axis}, and {kept}, so the tensor stays as it is."
+        return Turning((), say(words, R=R), same=letters.tensor(context.robot, body), axis=axis)
+    b, lines = body.name, tuple(_turned(context, body))
+    rotation, given, base = (context.values[name] for name in (f"R{b}", f"I_body{b}", f"I{b}"))
+    named = product_named(context, rotation, given @ rotation.T, base) if lines else ()
+    is_kept = context.form(f"I{b}") == context.form(f"I_body{b}")
+    return Turning(lines, (), named, (("This rotation does not change the tensor.",),) if is_kept else ())
 
 
 def _axis_of_symmetry(context: Context, body: Body) -> str | None:
@@ -268,114 +274,76 @@ def _turned(context: Context, body: Body) -> Iterator[Node]:
             yield Product((rotation, shown))
 
 
-def _turned_named(context: Context, body: Body) -> Prose:
-    """The identities by which R (I Rᵀ) becomes what is printed."""
-    R, given, base = (context.values[f"{letter}{body.name}"] for letter in ("R", "I_body", "I"))
-    return product_named(context, R, given @ R.T, base)
-
-
 # -- the step of a body with a density: its mass, centre and moments, by integration along its axis
 
-_X = Symbol("x")
-_RHO = Row((Letter("rho"), Parenthesized(_X)))
+_MASS_OF_A_DISK = "The {what} has the mass {mass}, its density times its area."
+_MASS_OF_SLICES = (
+    "The {what} is made of slices dx with the mass ${mass} 'dx'$; $x$ runs{along} from the near end, 0, to "
+    "the far one. Each power of $x$ is integrated by itself."
+)
 
 
 def density_step(context: Context, body: Body, density: Density) -> Step:
     """m = ∫ ρ A dx, x_c = ∫ ρ A x dx / m, and the moments, moved to the mass centre by the parallel axes."""
-    m, center = letters.of_body("m", body), Letter("x", Row((Words("c"), letters.index_of(body.name))))
-    square = Product((m, Power(center, Number(2))))
-    across = [
-        (
-            equation(_moment(body, "near", of), _over(density, _squared(of)), of.integral),
-            equation(_moment(body, "c", of), Sum((_moment(body, "near", of), Negative(square))), of.value),
-        )
-        for of in _across(density)
+    assert density.shape is not None
+    index, m, rho, x = (
+        letters.index_of(body.name),
+        letters.of_body("m", body),
+        formula("{rho}(x)", rho=Letter("rho")),
+        Symbol("x"),
+    )
+    one, other = density.tilted
+    across = (one,) if one.slice == other.slice else density.tilted  # of what is round one, for both
+    weight = [
+        rho if density.varies else density.formula,
+        *([density.measure] if density.measure != ONE else []),
     ]
-    mass = (_over(density), density.mass) if density.extent is not None else (density.mass,)
+
+    def over(*factors: Node) -> Node:
+        """The integral of ρ A times a factor over the body; the product where it has no extent."""
+        integrand = Product((*weight, *factors))
+        return integrand if density.extent is None else Integral(integrand, x, ZERO, density.extent)
+
+    def moment(about: str, axes: str = "") -> Node:
+        """I about the `axis`, or across it about the near end or c; with the axes where these differ."""
+        named = (Words(axes), Words(",")) if axes and len(across) > 1 else ()
+        return Letter("I", Row((index, Words(","), *named, Words(about))))
+
+    mass = (density.mass,) if density.extent is None else (over(), density.mass)
     lines = [Line(("The mass:",), (equation(m, *mass),))]
     if density.extent is not None:
-        first = equation(Product((m, center)), _over(density, _X), density.first)
-        told: Prose = ("The first moment, and the centre that it gives:",)
-        lines.append(Line(told, (first, equation(center, density.center))))
+        first = formula("{m} x_c{i} = {over} = {value}", m=m, i=index, over=over(x), value=density.first)
+        center = formula("x_c{i} = {value}", i=index, value=density.center)
+        lines.append(Line(("The first moment, and the centre that it gives:",), (first, center)))
     if density.turned.slice != ZERO:
-        own = equation(
-            _moment(body, "axis", None), _over(density, density.turned.slice), density.turned.integral
-        )
+        own = equation(moment("axis"), over(density.turned.slice), density.turned.integral)
         lines.append(Line(("The moment of inertia about its axis:",), (own,)))
-    if density.extent is not None:
-        told = ("The moment of inertia across it, about its near end:",)
-        lines.append(Line(told, tuple(near for near, _ in across)))
-        concluding: Prose = ("About the mass centre, by the parallel-axis theorem:",)
-        result = tuple(centred for _, centred in across)
+    if density.extent is None:
+        concluding = "The moment of inertia across it, in its plane:"
+        result = [equation(moment("c", of.axes), over(of.slice), of.value) for of in across]
     else:
-        concluding = ("The moment of inertia across it, in its plane:",)
-        result = tuple(
-            equation(_moment(body, "c", of), _over(density, of.slice), of.value) for of in _across(density)
-        )
+        concluding, result, near = "About the mass centre, by the parallel-axis theorem:", [], []
+        for of in across:
+            square = formula("x²") if of.slice == ZERO else formula("x² + {own}", own=of.slice)
+            at_end = moment("near", of.axes)
+            near.append(equation(at_end, over(square), of.integral))
+            moved = formula("{I} - {m} x_c{i}²", I=at_end, m=m, i=index)
+            result.append(equation(moment("c", of.axes), moved, of.value))
+        lines.append(Line(("The moment of inertia across it, about its near end:",), tuple(near)))
     return Step(
         id=f"density{body.name}",
         stage=Stage.INERTIA,
         title=f"Mass, centre and moments of {name_of(body)} by integration",
-        why=_why(density),
-        formula=equation(_RHO, density.formula) if density.varies else None,
+        why=say(
+            _MASS_OF_A_DISK if density.extent is None else _MASS_OF_SLICES,
+            what=SHAPES[density.shape.kind],
+            mass=Product(tuple(weight)),
+            along=f" along {density.shape.axis} of its frame" if density.shape.axis else "",
+        ),
+        formula=equation(rho, density.formula) if density.varies else None,
         source=spong("7.2.1"),
         lines=tuple(lines),
-        concluding=concluding,
-        result=result,
+        concluding=(concluding,),
+        result=tuple(result),
         uses=(),
     )
-
-
-def _why(density: Density) -> Prose:
-    assert density.shape is not None
-    what, axis = SHAPES[density.shape.kind], density.shape.axis
-    mass = Product((_rho(density), *_measure(density)))
-    if density.extent is None:
-        return (f"The {what} has the mass ", mass, ", its density times its area.")
-    along = f" runs along {axis} of its frame" if axis else " runs"
-    return (
-        f"The {what} is made of slices dx with the mass ",
-        Product((mass, Words("dx"))),
-        "; ",
-        _X,
-        f"{along} from the near end, 0, to the far one. Each power of ",
-        _X,
-        " is integrated by itself.",
-    )
-
-
-def _rho(density: Density) -> Node:
-    return _RHO if density.varies else density.formula
-
-
-def _measure(density: Density) -> Iterator[Node]:
-    if density.measure != ONE:
-        yield density.measure
-
-
-def _across(density: Density) -> tuple[SliceMoment, ...]:
-    """The moments across the axis; of what is round one, for both."""
-    one, other = density.tilted
-    return (one,) if one.slice == other.slice else density.tilted
-
-
-def _squared(of: SliceMoment) -> Node:
-    """x² and what a slice has about its own centre."""
-    square = Power(_X, Number(2))
-    return square if of.slice == ZERO else Sum((square, of.slice))
-
-
-def _over(density: Density, factor: Node = ONE) -> Node:
-    """The integral of ρ A times a factor over the body; the product where it has no extent."""
-    integrand = Product((_rho(density), *_measure(density), *((factor,) if factor != ONE else ())))
-    if density.extent is None:
-        return integrand
-    return Integral(integrand, _X, Number(0), density.extent)
-
-
-def _moment(body: Body, about: str, of: SliceMoment | None) -> Letter:
-    """I about the `axis`, or across it about the near end or c; with the axes where these differ."""
-    density = body.density
-    assert density is not None
-    axes = (Words(of.axes), Words(",")) if of is not None and len(_across(density)) > 1 else ()
-    return Letter("I", Row((letters.index_of(body.name), Words(","), *axes, Words(about))))
