@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.column_products import of_columns
@@ -15,9 +16,8 @@ from dynsolve.explain.working.identities import Identity, cancelled_in_product, 
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity, turned
 from dynsolve.explain.writing import name_of, spong, sum_of
 from dynsolve.notation.build import number_in_front
-from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, Symbol, equation
+from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
 
 BESIDE = 2
@@ -34,11 +34,12 @@ def part_steps(context: Context, body: Body) -> Iterator[Step]:
         yield replace(step, uses=(), detail=Detail.FULL)
     elif _is_in_two(context, body):
         linear, angular = step.result
-        i, j = Symbol("i"), Symbol("j")
-        columns: Prose = ("Entry ", i, ", ", j, " is the mass times the scalar product of columns ", i)
-        columns += (" and ", j, " of ", letters.jv(body), ".")
+        columns = say(
+            "Entry $i$, $j$ is the mass times the scalar product of columns $i$ and $j$ of {Jv}.",
+            Jv=letters.jv(body),
+        )
         yield _worked_out(context, body, _named_part(step, "linear", columns, linear), turns=False)
-        own: Prose = (f"As for the rotational kinetic energy of {name_of(body)}.",)
+        own = (f"As for the rotational kinetic energy of {name_of(body)}.",)
         tensor = () if along_own_axes(context, body) else (f"Jv{body.name}#2", f"I{body.name}")
         step = replace(_named_part(step, "rotational", own, angular), id=f"Dw{body.name}", uses=tensor)
         yield _turned(context, body, step)
@@ -55,15 +56,27 @@ def _is_in_two(context: Context, body: Body) -> bool:
 
 def _step(context: Context, body: Body) -> Step:
     """The contribution of one body, without the way there."""
+    b, values = body.name, context.values
+    moves, turns = not values[f"Jv{b}"].is_zero, _turns(context, body)
+    why = "Its linear and its rotational part."
+    if body.is_point:
+        why = "Its linear part alone: it is a point."
+    elif not moves:
+        why = "Its rotational part alone: its mass centre does not move."
+    elif not turns:
+        why = "Its linear part alone: it does not turn."
+    linear = (equation(linear_name(context, body), context.form(f"Dv{b}")),)
+    angular = (equation(angular_name(body), context.form(f"Dw{b}")),) if turns else ()
+    both = turns and not (along_own_axes(context, body) or _is_in_two(context, body))
     return Step(
-        id=f"D_direct{body.name}",
-        stage=Stage.VECTORIZED,
-        title=f"What body {body.name} adds to the inertia matrix",
-        why=_why(context, body),
+        id=f"D_direct{b}",
+        title=f"What body {b} adds to the inertia matrix",
+        why=(why,),
         source=spong("7.2.2"),
-        result=tuple(_results(context, body)),
+        result=(*(linear if moves or body.is_point else ()), *angular),
         together=context.robot.n <= BESIDE,
-        uses=_uses(context, body),
+        # into both products, where the second needs nothing but matrices put in; else into the first
+        uses=(f"Jv{b}", f"I{b}") if both else (f"Jv{b}#1",) if moves else (),
         is_task=False,
     )
 
@@ -74,14 +87,6 @@ def _named_part(step: Step, part: str, why: Prose, result: Node) -> Step:
 
 def _turns(context: Context, body: Body) -> bool:
     return not (body.is_point or context.values[f"Jw{body.name}"].is_zero)
-
-
-def _uses(context: Context, body: Body) -> tuple[str, ...]:
-    """What goes into the first product; into both, where the second needs nothing but matrices put in."""
-    b = body.name
-    if _turns(context, body) and not (along_own_axes(context, body) or _is_in_two(context, body)):
-        return f"Jv{b}", f"I{b}"
-    return () if context.values[f"Jv{b}"].is_zero else (f"Jv{b}#1",)
 
 
 def _turned(context: Context, body: Body, step: Step) -> Step:
@@ -117,7 +122,7 @@ def _worked_out(context: Context, body: Body, step: Step, turns: bool) -> Step:
 
 def _by(operation: str, used: Sequence[Identity], cancelled: Prose = ()) -> Prose:
     """Multiplied out, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):"""
-    named: Prose = (", with ", *said(used)) if used else ()
+    named = say(", with {used}", used=said(used)) if used else ()
     return (operation, *named, *cancelled, ":")
 
 
@@ -127,35 +132,26 @@ def sum_step(context: Context) -> Step | None:
     if len(parts) < 2:
         return None
     same = context.values["D"] == context.values["D_direct"]
-    who = "body" if len(context.robot.bodies) == 1 else "bodies"
-    who += " and the rotors" if context.robot.actions.motors else ""
-    adds = "adds" if who == "body" else "add"
-    verdict = " is the " if same else " is not the "
+    motors, bodies = bool(context.robot.actions.motors), context.robot.bodies
+    who = ("body" if len(bodies) == 1 else "bodies") + (" and the rotors" if motors else "")
+    added = [f"{part}{b.name}" for b in bodies for part in ("D_direct", *["Dw"] * _is_in_two(context, b))]
     return Step(
         id="D_sum",
-        stage=Stage.VECTORIZED,
         title="The sum of these matrices",
-        why=(
-            f"Summed up, what the {who} {adds}{verdict}",
-            letters.D,
-            " read off above",
-            Reference(("D",), ", "),
-            ", entry by entry." if same else ".",
+        why=say(
+            "Summed up, what the {who} {add} is{no} the $𝐃$ read off above{where}{so}.",
+            who=who,
+            add="adds" if who == "body" else "add",
+            no="" if same else " not",
+            where=Reference(("D",), ", "),
+            so=", entry by entry" if same else "",
         ),
         source=spong("7.2.2"),
         result=tuple(_summed_entries(context, parts)),
         listed=True,
-        uses=tuple(_added_in(context)),
+        uses=(*added, "Dm"),
         is_task=False,
     )
-
-
-def _added_in(context: Context) -> Iterator[str]:
-    """The steps of what is added."""
-    for body in context.robot.bodies:
-        yield f"D_direct{body.name}"
-        yield from (f"Dw{body.name}",) * _is_in_two(context, body)
-    yield "Dm"
 
 
 def _summands(context: Context) -> list[str]:
@@ -185,16 +181,6 @@ def _added(context: Context, parts: Sequence[str], i: int, j: int) -> list[Node]
     return [entry for entry in entries if entry != ZERO]
 
 
-def _why(context: Context, body: Body) -> Prose:
-    if body.is_point:
-        return ("Its linear part alone: it is a point.",)
-    if context.values[f"Jv{body.name}"].is_zero:
-        return ("Its rotational part alone: its mass centre does not move.",)
-    if context.values[f"Jw{body.name}"].is_zero:
-        return ("Its linear part alone: it does not turn.",)
-    return ("Its linear and its rotational part.",)
-
-
 def linear_name(context: Context, body: Body) -> Node:
     """m J_vᵀ J_v, in letters."""
     return Product((context.mass(body), letters.transposed_product(letters.jv(body))))
@@ -203,14 +189,6 @@ def linear_name(context: Context, body: Body) -> Node:
 def angular_name(body: Body) -> Node:
     """J_ωᵀ 𝓘 J_ω, in letters."""
     return letters.transposed_product(letters.jw(body), letters.base_tensor(letters.index_of(body.name)))
-
-
-def _results(context: Context, body: Body) -> Iterator[Node]:
-    values = context.values
-    if body.is_point or not values[f"Jv{body.name}"].is_zero:
-        yield equation(linear_name(context, body), context.form(f"Dv{body.name}"))
-    if not (body.is_point or values[f"Jw{body.name}"].is_zero):
-        yield equation(angular_name(body), context.form(f"Dw{body.name}"))
 
 
 def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
@@ -228,8 +206,11 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     yield from others
     in_letters = letters.transposed_product(Parenthesized(own.name), letters.tensor(context.robot, body))
     product = letters.transposed_product(context.show(own.value), context.show(given))
-    put_in: Prose = ("The tensor along the body's own axes put in:",)
-    yield Line(put_in, (equation(name, in_letters, product),), (f"I_body{b}",))
+    yield Line(
+        ("The tensor along the body's own axes put in:",),
+        (equation(name, in_letters, product),),
+        (f"I_body{b}",),
+    )
 
 
 def _with_tensor(context: Context, J: Matrix, tensor: Matrix) -> Node:

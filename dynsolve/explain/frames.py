@@ -15,13 +15,10 @@ from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.writing import craig, listed, side_by_side, spong
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words, column, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.drawing.drawn import Drawing
 from dynsolve.robot.drawing.normals import Relation
 from dynsolve.robot.drawing.procedure import Normals, frames
 from dynsolve.robot.model import Convention
-
-STAGE = Stage.FRAMES
 
 FRAMES = Group("frames", "The frames")
 
@@ -120,7 +117,6 @@ def _drawn_axes(context: Context, normals: Normals) -> Step:
     ]  # fmt: skip
     return Step(
         id="axes",
-        stage=STAGE,
         title="The joint axes",
         why=say(
             "The joint axes in the pose that is drawn, in world coordinates; the hand is at {hand}. $𝐳$ lies "
@@ -159,7 +155,6 @@ def _drawn_frame(context: Context, normals: Normals, i: int) -> Step:
     shown = [equation(n, column(*map(form, v.entries))) for n, v in zip(names, placed, strict=True)]
     return Step(
         id=f"frame{i}",
-        stage=STAGE,
         title=f"Frame {i}",
         why=_why_frame(context, normals, i),
         source=_source(context),
@@ -204,7 +199,6 @@ def _measured_table(context: Context, normals: Normals) -> Step:
     more = " One row more, without a joint, takes the last frame to the hand."
     return Step(
         id="DH",
-        stage=STAGE,
         title="The Denavit-Hartenberg table",
         why=say(
             f"{_MEASURED[drawing.convention]} {zero}{more if len(robot.joints) > len(drawing.axes) else ''}",

@@ -56,10 +56,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
-
-STAGE = Stage.JACOBIAN
 
 ZERO = Letter("0", style="bold")
 """The zero vector."""
@@ -96,7 +93,6 @@ def _axes(context: Context) -> Step:
     read_off = _told_read_off(context)
     return Step(
         id="axes",
-        stage=STAGE,
         title="Axes and origins of the frames",
         why=say(
             "In the first three rows of {matrices} the third column is $𝐳$, the fourth $𝐨${frame_0}. "
@@ -202,7 +198,6 @@ def _column(context: Context, q: Coordinate) -> Step:
     name = letters.bold("J", Number(q.index))
     step = Step(
         id=f"J{q.index}",
-        stage=STAGE,
         title=f"Column {q.index} of the Jacobian",
         source=spong("4.6.3"),
         result=(equation(name, ZERO),),
@@ -290,7 +285,6 @@ def _whole(context: Context) -> Step:
         in_letters.append(Matrix(tuple(zip(*columns, strict=True))))
     return Step(
         id="J",
-        stage=STAGE,
         title=f"The Jacobian of {context.end}",
         why=say(
             "The columns side by side. ${Jv} 𝐪̇$ is the velocity of {end}, $𝐉_ω 𝐪̇$ the angular velocity of "

@@ -31,10 +31,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.unicode import lowered
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
-
-STAGE = Stage.KINEMATICS
 
 ROWS = Group("A", "The matrices of the rows")
 
@@ -80,7 +77,6 @@ def _table(context: Context) -> Step:
         )
     return Step(
         id="dh",
-        stage=STAGE,
         title="Denavit-Hartenberg table",
         why=say(
             "{motions} {stars}{numbers}",
@@ -197,7 +193,6 @@ def _general(context: Context) -> Step:
     name = formula("𝐀_i")
     return Step(
         id="A",
-        stage=STAGE,
         title="The matrix of a row",
         why=("The product of the four motions, into which the entries of each row are put.",),
         formula=equation(name, product),
@@ -220,7 +215,6 @@ def _row(context: Context, joint: Joint) -> Step:
     }[joint.type]
     return Step(
         id=f"A{i}",
-        stage=STAGE,
         title=f"Row {i} of the table: A{lowered(str(i))}",
         why=(*what, Reference(("A",), " in "), f": {kind}."),
         source=_of_conventions(context, "3.2", "3.4"),
@@ -258,7 +252,6 @@ def _frame(context: Context, i: int) -> Step:
     name, H = letters.H(robot, i), context.form(f"H{i}")
     step = Step(
         id=f"H{i}",
-        stage=STAGE,
         title=f"Frame {i} seen from the {context.ground}",
         source=_of_conventions(context, "3.1", "3.5"),
         result=(equation(name, H),),
@@ -348,7 +341,6 @@ def base_step(context: Context) -> Step:
         way = " Each motion is along or about an axis of the frame that those before it have led to."
     return Step(
         id="H0",
-        stage=Stage.KINEMATICS,
         title="The base frame in the world",
         why=say(
             "Gravity is given in the world w, in which frame 0 is {how}.{way} The heights, and the vectors "

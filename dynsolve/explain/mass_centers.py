@@ -36,11 +36,8 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Convention, Robot
 from dynsolve.robot.shapes import Density
-
-STAGE = Stage.INERTIA
 
 
 def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
@@ -59,7 +56,6 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
     )
     return Step(
         id=f"rc{body.name}",
-        stage=STAGE,
         title=f"Mass centre of {name_of(body)}",
         why=say("The mass centre of {body} {where}.{ground}", body=name_of(body), where=where, ground=ground),
         formula=equation(r, way.named),
@@ -286,18 +282,12 @@ _MASS_OF_SLICES = (
 def density_step(context: Context, body: Body, density: Density) -> Step:
     """m = ∫ ρ A dx, x_c = ∫ ρ A x dx / m, and the moments, moved to the mass centre by the parallel axes."""
     assert density.shape is not None
-    index, m, rho, x = (
-        letters.index_of(body.name),
-        letters.of_body("m", body),
-        formula("{rho}(x)", rho=Letter("rho")),
-        Symbol("x"),
-    )
+    index, m = letters.index_of(body.name), letters.of_body("m", body)
+    rho, x = formula("{rho}(x)", rho=Letter("rho")), Symbol("x")
     one, other = density.tilted
     across = (one,) if one.slice == other.slice else density.tilted  # of what is round one, for both
-    weight = [
-        rho if density.varies else density.formula,
-        *([density.measure] if density.measure != ONE else []),
-    ]
+    weight = [rho if density.varies else density.formula]
+    weight += [density.measure] if density.measure != ONE else []
 
     def over(*factors: Node) -> Node:
         """The integral of ρ A times a factor over the body; the product where it has no extent."""
@@ -332,7 +322,6 @@ def density_step(context: Context, body: Body, density: Density) -> Step:
         lines.append(Line(("The moment of inertia across it, about its near end:",), tuple(near)))
     return Step(
         id=f"density{body.name}",
-        stage=Stage.INERTIA,
         title=f"Mass, centre and moments of {name_of(body)} by integration",
         why=say(
             _MASS_OF_A_DISK if density.extent is None else _MASS_OF_SLICES,

@@ -39,11 +39,8 @@ from dynsolve.notation.tree import (
     number,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 from dynsolve.robot.questions import Method
-
-STAGE = Stage.NEWTON_EULER
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -60,8 +57,7 @@ def steps(context: Context) -> Iterator[Step]:
         group = Group(f"inwards{joint.index}", f"Link {joint.index}, inwards")
         yield from (replace(step, group=group) for step in _inwards(context, joint))
     if by_method:
-        for step in (*spring_steps(context), *friction_steps(context)):
-            yield replace(step, stage=STAGE)
+        yield from (*spring_steps(context), *friction_steps(context))
         for q in robot.coordinates:
             yield replace(_torque(context, q), group=Group("tau", "The forces and torques of the motors"))
         yield _lagrange(context)
@@ -199,7 +195,6 @@ def _sum(context: Context, key: str, title: str, why: Prose, name: Node, parts: 
     lines = (Line((f"Its parts{zero}:",), tuple(shown)),) if len(shown) > 1 else ()
     return Step(
         id=key,
-        stage=STAGE,
         title=title,
         why=why,
         formula=equation(name, sum_of([term for term, _ in parts]) if parts else ZERO),
@@ -222,7 +217,6 @@ def _links(context: Context) -> Step:
         base = say(" Gravity is turned into each frame too: ${g} = 𝐑_i^0ᵀ 𝐠_0$.", g=general("{g}"))
     return Step(
         id="links",
-        stage=STAGE,
         title="The links, each in its own frame",
         why=say(
             "Every vector of link i is written along the axes of its own frame i, in which the mass centre "
@@ -342,8 +336,8 @@ def _spinning_step(context: Context, joint: Joint) -> Step:
         first, second = (recursions.joint_rate(robot, joint, A, dots) for dots in (1, 2))
         values += [second, cross(context.values[f"wl{i}"], first)]
         why = "The joint's own acceleration, and the turning of its axis with the link."
-    parts = list(zip(_angular_acceleration(link, spin), values, strict=True))
-    return _sum(context, f"wdl{i}", f"Link {i}, outwards: angular acceleration", (why,), link("{dw}"), parts)
+    title, terms = f"Link {i}, outwards: angular acceleration", _angular_acceleration(link, spin)
+    return _sum(context, f"wdl{i}", title, (why,), link("{dw}"), list(zip(terms, values, strict=True)))
 
 
 def _motion_before(context: Context, joint: Joint) -> recursions.Motion:
@@ -404,11 +398,18 @@ def _center_step(context: Context, joint: Joint, body: Body) -> Step:
 
 def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
     """The steps of one link, of what is asked for and what that is derived from."""
-    i, wanted = joint.index, context.wanted
-    nothing = "" if context.robot.links_after(i) else " No link follows, so nothing is passed on."
+    i, wanted, follows = joint.index, context.wanted, context.robot.links_after(joint.index)
+    nothing = "" if follows else " No link follows, so nothing is passed on."
     if f"fl{i}" in wanted:
         title = f"Link {i}, inwards: the force in its joint"
-        why = say("{why}{more}", why=_newton(context, i), more=nothing)
+        why = say(
+            "Newton's law: what the mass needs{own}{next}.{nothing}"
+            if context.robot.bodies_on(i)
+            else "The link has no mass: it passes on the force that the next link needs.{nothing}",
+            own=" beside its weight" if _is_heavy(context) else "",
+            next=", and what the next link needs" if follows else "",
+            nothing=nothing,
+        )
         yield _sum(context, f"fl{i}", title, why, letters.in_link("f", i), list(_forces(context, i)))
     if f"nl{i}" in wanted:
         title = f"Link {i}, inwards: the moment in its joint"
@@ -418,14 +419,6 @@ def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
             nothing=nothing,
         )
         yield _sum(context, f"nl{i}", title, why, letters.in_link("n", i), list(_moments(context, i)))
-
-
-def _newton(context: Context, i: int) -> str:
-    if not context.robot.bodies_on(i):
-        return "The link has no mass: it passes on the force that the next link needs."
-    own = " beside its weight" if _is_heavy(context) else ""
-    next_link = ", and what the next link needs" if context.robot.links_after(i) else ""
-    return f"Newton's law: what the mass needs{own}{next_link}."
 
 
 def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:
@@ -476,7 +469,6 @@ def _torque(context: Context, q: Coordinate) -> Step:
     beside, added = in_recursions(context, q)
     return Step(
         id=f"tau{q.index}",
-        stage=STAGE,
         title=f"Coordinate {q.index}: the {kind}",
         why=say(
             "The motor gives the component of the {what} along the axis of the joint; the bearings hold "
@@ -497,7 +489,6 @@ def _lagrange(context: Context) -> Step:
     why = say("The Euler-Lagrange equations of the same robot give the same {forces}.", forces=forces)
     return Step(
         id="lagrange",
-        stage=STAGE,
         title="The same by the Lagrangian",
         why=why,
         outcome=why,
@@ -550,7 +541,6 @@ def _general(context: Context, key: str, title: str, why: str, sums: dict[str, l
     link = Names.general(context.standard)
     return Step(
         id=key,
-        stage=STAGE,
         title=title,
         why=(why,),
         source=_source(context),

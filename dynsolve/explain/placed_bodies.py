@@ -8,27 +8,26 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import is_small, listed, name_of, spong, sum_of
+from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Derivative,
     Letter,
-    Matrix,
     Node,
-    Number,
     Product,
-    Row,
-    Symbol,
     Words,
     column,
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.model import Body
 
@@ -36,13 +35,11 @@ from dynsolve.robot.model import Body
 def center_step(context: Context, body: Body) -> Step:
     """r_c, which the problem gives."""
     moves = any(map(context.robot.ring.depends_on_coordinates, body.center.entries))
-    why = f"The position of {name_of(body)} is given"
-    why += " as a function of the coordinates." if moves else ": it does not move."
+    how = " as a function of the coordinates." if moves else ": it does not move."
     return Step(
         id=f"rc{body.name}",
-        stage=Stage.INERTIA,
         title=f"Mass centre of {name_of(body)}",
-        why=(why,),
+        why=(f"The position of {name_of(body)} is given{how}",),
         result=(equation(letters.rc(body), context.form(f"rc{body.name}")),),
         said="given position" if moves else "",
         uses=(),
@@ -55,19 +52,16 @@ def center_step(context: Context, body: Body) -> Step:
 
 def orientation_step(context: Context, body: Body) -> Step:
     """R, the product of the body's turns."""
-    R = letters.of_body("R", body, "bold")
+    R, factors = letters.of_body("R", body, "bold"), _factors(body)
+    several = len(factors) > 1
+    shown = zip(factors, body.turns, strict=True)
     return Step(
         id=f"R{body.name}",
-        stage=Stage.INERTIA,
         title=f"Orientation of {name_of(body)}",
         why=turned(body),
-        formula=equation(R, Product(_factors(body))) if len(body.turns) > 1 else None,
+        formula=equation(R, Product(factors)) if several else None,
         source=spong("2.5.3"),
-        working=tuple(
-            equation(name, context.show(turn.rotation))
-            for name, turn in zip(_factors(body), body.turns, strict=True)
-            if len(body.turns) > 1
-        ),
+        working=tuple(equation(name, context.show(turn.rotation)) for name, turn in shown) if several else (),
         result=(equation(R, context.form(f"R{body.name}")),),
         uses=(),
     )
@@ -75,38 +69,31 @@ def orientation_step(context: Context, body: Body) -> Step:
 
 def turned(body: Body) -> Prose:
     """By which angles a body turns, about which axes."""
+    name = name_of(body).capitalize()
     if not body.turns:
-        return (f"{name_of(body).capitalize()} does not turn.",)
-    if len(body.turns) == 1:
-        (turn,) = body.turns
-        return (f"{name_of(body).capitalize()} turns by ", turn.angle, " about ", *_axis(turn), ".")
-    parts: Prose = (f"{name_of(body).capitalize()} turns by ",)
-    for place, turn in enumerate(body.turns):
-        parts += (turn.angle, " about ", *_axis(turn))
-        parts += (", then by " if place < len(body.turns) - 1 else ". ",)
-    return (
-        *parts,
-        "Each axis is carried along by the turns before it, so that its matrix stands on the right.",
-    )
+        return (f"{name} does not turn.",)
+    turns: Prose = ()
+    for turn in body.turns:
+        then = ", then by " if turns else ""
+        turns += say("{then}{angle} about {axis}", then=then, angle=turn.angle, axis=_axis(turn))
+    words = "{name} turns by {turns}."
+    if len(body.turns) > 1:
+        words += " Each axis is carried along by the turns before it, so that its matrix stands on the right."
+    return say(words, name=name, turns=turns)
 
 
-def _axis(turn: BodyTurn) -> Prose:
+def _axis(turn: BodyTurn) -> str:
     """An axis in words: z for [0, 0, 1]."""
-    ring = turn.axis.ring
-    for name, k in (("x", 0), ("y", 1), ("z", 2)):
-        others = [entry for i, entry in enumerate(turn.axis.entries) if i != k]
-        if turn.axis[k, 0] == ring.one and all(entry.is_zero for entry in others):
-            return (f"the axis {name}",)
-    return ("the axis given",)
+    for k, name in enumerate("xyz"):
+        if turn.axis == Matrix.identity(turn.axis.ring, 3).column_at(k):
+            return f"the axis {name}"
+    return "the axis given"
 
 
 def _factors(body: Body) -> tuple[Node, ...]:
     """R_{1,1}, R_{1,2}: the matrices of the turns of a body."""
-    index = letters.index_of(body.name)
-    return tuple(
-        Letter("R", Row((index, Words(","), Number(place))), None, "bold")
-        for place in range(1, len(body.turns) + 1)
-    )
+    index, places = letters.index_of(body.name), range(1, len(body.turns) + 1)
+    return tuple(formula("𝐑_({body},{place})", body=index, place=place) for place in places)
 
 
 # -- how they move ---------------------------------------------------------------------------------
@@ -114,56 +101,44 @@ def _factors(body: Body) -> tuple[Node, ...]:
 
 def jacobians_step(context: Context, body: Body) -> Step:
     """J_v = ∂r_c/∂q, and the sum of the axes of the turns, each times the rates of its angle."""
-    b = body.name
-    jv, jw = letters.jv(body), letters.jw(body)
-    why: Prose = (
-        "Differentiate the position: column k is its partial derivative with respect to the k-th coordinate.",
-    )
-    results: list[Node] = [equation(jv, context.form(f"Jv{b}"))]
-    working: tuple[Node, ...] = ()
-    also: tuple[str, ...] = ()
-    if body.turns or not body.is_point:
-        also = (f"Jw{b}",)
-        results.append(equation(jw, context.form(f"Jw{b}")))
-        why += (" ", *_angular(body))
-    if len(body.turns) > 1:
-        working = (_sum_of_axes(context, body),)
+    b, jv, is_point = body.name, letters.jv(body), body.is_point and not body.turns
+    results = [equation(jv, context.form(f"Jv{b}"))]
+    if not is_point:
+        results.append(equation(letters.jw(body), context.form(f"Jw{b}")))
     return Step(
         id=f"Jv{b}",
-        stage=Stage.ENERGY,
-        title=f"Jacobians of {name_of(body)}" if also else f"Jacobian of {name_of(body)}",
-        why=why,
+        title=f"Jacobian of {name_of(body)}" if is_point else f"Jacobians of {name_of(body)}",
+        why=say(
+            "Differentiate the position: column k is its partial derivative with respect to the k-th "
+            "coordinate.{angular}",
+            angular="" if is_point else _ANGULAR[min(len(body.turns), 2)],
+        ),
         formula=equation(jv, letters.partial_derivative(letters.rc(body), letters.Q)),
         source=spong("7.2.2"),
-        working=working,
+        working=(_sum_of_axes(context, body),) if len(body.turns) > 1 else (),
         result=tuple(results),
-        also=also,
+        also=() if is_point else (f"Jw{b}",),
         uses=(f"rc{b}",),
     )
 
 
-def _angular(body: Body) -> Prose:
-    """The sentence about the angular velocity."""
-    if not body.turns:
-        return ("The body does not turn.",)
-    if len(body.turns) == 1:
-        return ("The angular velocity is the rate of the angle along its axis, which does not move.",)
-    return (
-        "The angular velocity is the sum over the turns: the rate of each angle along its axis, as the "
-        "turns before it have carried that.",
-    )
+_ANGULAR = (
+    " The body does not turn.",
+    " The angular velocity is the rate of the angle along its axis, which does not move.",
+    " The angular velocity is the sum over the turns: the rate of each angle along its axis, as the turns "
+    "before it have carried that.",
+)
+"""The angular velocity of no turn, of one, and of several."""
 
 
 def _sum_of_axes(context: Context, body: Body) -> Node:
     """ω = a₁ φ̇₁ + R₁ a₂ φ̇₂ + ..."""
-    robot = context.robot
     terms: list[Node] = []
     for place, turn in enumerate(body.turns):
-        before = _factors(body)[:place]
-        rates = zip(turn.rates.entries, robot.coordinates, strict=True)
-        rate = total([times(1, [(context.show(r), 1), (letters.velocity(q), 1)])
-                      for r, q in rates if not r.is_zero])  # fmt: skip
-        terms.append(Product((*before, context.show(turn.axis), rate)))
+        rates = zip(turn.rates.entries, context.robot.coordinates, strict=True)
+        moved = [(context.show(rate), letters.velocity(q)) for rate, q in rates if not rate.is_zero]
+        rate = total([times(1, [(factor, 1), (velocity, 1)]) for factor, velocity in moved])
+        terms.append(Product((*_factors(body)[:place], context.show(turn.axis), rate)))
     return equation(letters.of_body("omega", body, "bold"), total(terms))
 
 
@@ -179,8 +154,7 @@ def energy_steps(context: Context, given: GivenModel) -> Iterator[Step]:
     yield from springs
     yield _with_added(_potential(context, given), letters.P, [letters.PS] * len(springs))
     yield from rotors
-    kinetic = _of_inertia(context, given) if given.D is not None else _kinetic(context, given)
-    yield _with_added(kinetic, letters.K, [letters.KM] * len(rotors))
+    yield _with_added(_kinetic(context, given), letters.K, [letters.KM] * len(rotors))
 
 
 def _with_added(step: Step, energy: Letter, added: Sequence[Letter]) -> Step:
@@ -189,101 +163,77 @@ def _with_added(step: Step, energy: Letter, added: Sequence[Letter]) -> Step:
         return step
     given = Letter(energy.base, Words("given"), None, energy.style)
     formula = equation(energy, sum_of([given, *added]))
-    why = (*step.why, " What is not in it is added: ", *listed(added), ".")
+    why = (*step.why, *say(" What is not in it is added: {added}.", added=listed(added)))
     return replace(step, why=why, formula=formula, working=(), uses=None)
 
 
 def _potential(context: Context, given: GivenModel) -> Step:
     if given.L is not None:
-        why: Prose = ("What is left of ℒ where nothing moves, with the opposite sign.",)
-    elif given.P is not None:
-        why = ("Given by the problem.",)
+        why = "What is left of ℒ where nothing moves, with the opposite sign."
     else:
-        why = ("The problem gives none.",)
+        why = "The problem gives none." if given.P is None else "Given by the problem."
+    return _energy(context, "P", "Potential energy", why)
+
+
+def _energy(context: Context, name: str, title: str, why: str) -> Step:
+    """An energy that is given."""
     return Step(
-        id="P",
-        stage=Stage.ENERGY,
-        title="Potential energy",
-        why=why,
+        id=name,
+        title=title,
+        why=(why,),
         source=spong("7.1"),
-        result=(equation(letters.P, context.form("P")),),
+        result=(equation(Letter(name, style="script"), context.form(name)),),
         detail=Detail.BRIEF,
     )
 
 
 def _kinetic(context: Context, given: GivenModel) -> Step:
-    why = "Given by the problem: a quadratic form in the rates."
-    if given.L is not None:
-        why = "The terms of ℒ with rates: a quadratic form in them."
-    return Step(
-        id="K",
-        stage=Stage.ENERGY,
-        title="Kinetic energy",
-        why=(why,),
-        source=spong("7.1"),
-        result=(equation(letters.K, context.form("K")),),
-        detail=Detail.BRIEF,
-    )
-
-
-def _of_inertia(context: Context, given: GivenModel) -> Step:
-    """K = ½ q̇ᵀ D q̇ with the D that is given."""
-    assert given.D is not None
+    """The given one, or K = ½ q̇ᵀ D q̇ with the D that is given."""
+    if given.D is None:
+        what = "Given by the problem" if given.L is None else "The terms of ℒ with rates"
+        them = "the rates" if given.L is None else "them"
+        return _energy(context, "K", "Kinetic energy", f"{what}: a quadratic form in {them}.")
     D = context.show(given.D)
     rates = tuple(letters.velocity(q) for q in context.robot.coordinates)
-    working: tuple[Node, ...] = ()
-    if is_small(D):
-        working = (equation(letters.K, Product((letters.HALF, Matrix((rates,)), D, column(*rates)))),)
-    return Step(
-        id="K",
-        stage=Stage.ENERGY,
-        title="Kinetic energy",
-        why=(
-            "The problem gives ",
-            letters.D,
-            ", and the kinetic energy is its quadratic form in the rates.",
-        ),
+    shown = Product((letters.HALF, tree.Matrix((rates,)), D, column(*rates)))
+    return replace(
+        _energy(context, "K", "Kinetic energy", ""),
+        why=say("The problem gives $𝐃$, and the kinetic energy is its quadratic form in the rates."),
         formula=equation(letters.K, _QUADRATIC),
         source=spong("7.3"),
-        working=working,
-        result=(equation(letters.K, context.form("K")),),
+        working=(equation(letters.K, shown),) if is_small(D) else (),
         uses=(),
-        detail=Detail.BRIEF,
     )
 
 
 def inertia_step(context: Context, given: GivenModel) -> Step:
     """The D that is given, or that of K, beside the one read off from the forces."""
     same = context.values["D"] == context.values["D_direct"]
-    ends: Prose = (" It is" if same else " It is not", " the ", letters.D, " read off above")
-    ends += (", entry by entry.",) if same else (".",)
-    if given.D is not None:
-        return Step(
-            id="D_direct",
-            stage=Stage.VECTORIZED,
-            title="The inertia matrix, as the problem gives it",
-            why=("Without the Lagrangian.", *ends),
-            source=spong("7.3"),
-            result=(equation(letters.D, context.form("D_direct")),),
-            uses=(),
-            is_task=False,
-        )
-    i, j = Symbol("i"), Symbol("j")
-    rates = (Letter("q", i, dots=1), Letter("q", j, dots=1))
-    second = Derivative(Derivative(letters.K, rates[1]), rates[0])
-    return Step(
+    is_same = " It is the $𝐃$ read off above, entry by entry."
+    ends = say(is_same if same else " It is not the $𝐃$ read off above.")
+    step = Step(
         id="D_direct",
-        stage=Stage.VECTORIZED,
-        title="The inertia matrix, from the kinetic energy",
-        why=(
-            "Without the Lagrangian: ",
-            equation(letters.K, _QUADRATIC),
-            ", so that ",
-            Letter("d", Row((i, j))),
-            " is the second derivative of the kinetic energy by two rates.",
-            *ends,
-        ),
-        formula=equation(Letter("d", Row((i, j))), second),
+        title="The inertia matrix, as the problem gives it",
+        why=("Without the Lagrangian.", *ends),
         source=spong("7.3"),
+        result=(equation(letters.D, context.form("D_direct")),),
+        uses=(),
+        is_task=False,
+    )
+    if given.D is not None:
+        return step
+    return replace(
+        step,
+        title="The inertia matrix, from the kinetic energy",
+        why=say(
+            "Without the Lagrangian: {K}, so that $d_ij$ is the second derivative of the kinetic energy by "
+            "two rates.{ends}",
+            K=equation(letters.K, _QUADRATIC),
+            ends=ends,
+        ),
+        formula=equation(formula("d_ij"), Derivative(formula("∂{K}/∂q̇_j", K=letters.K), formula("q̇_i"))),
+        result=(),
+        uses=None,
+        is_task=True,
         hint=("Another way to D, without the Lagrangian: differentiate the kinetic energy twice.",),
     )

@@ -77,27 +77,21 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
     longest number of the problem has, so that a reader can follow each line from the one before it.
     """
     style = _with_free_shorthands(robot, style_of(robot))
-    taken = frozenset(_own(robot, style))
+    own = (*_names(robot), *map(Symbol, robot.questions.reached))
+    taken = {*map(UnicodePrinter().text, own), *map(UnicodePrinter(style).text, shorthands(robot, style))}
     found: dict[Sign, str] = {}
     for (base, count), other in ALTERNATIVES.items():
         read_as_cosine = (base, count) == ("c", 2) and style.shorthand
-        if read_as_cosine or not taken.isdisjoint(_printed(_scalars(robot, base, count))):
+        if read_as_cosine or not taken.isdisjoint(map(UnicodePrinter().text, _scalars(robot, base, count))):
             found[base, "italic", count] = other
     decimal = style.decimal or digits is not None
     shown = (digits or shown_digits(robot) + MORE_DIGITS) if decimal else 0
     return replace(style, letters=found, bold=True, decimal=decimal, digits=shown)
 
 
-def _printed(nodes: Iterable[Node]) -> Iterator[str]:
-    return map(UnicodePrinter().text, nodes)
-
-
-# -- what keeps its sign ---------------------------------------------------------------------------
-
-
 def _with_free_shorthands(robot: Robot, style: Style) -> Style:
     """The style without the shorthands that look like a name of the problem: c_12 where that is a length."""
-    names = set(_printed(map(Symbol, _names(robot))))
+    names = set(map(UnicodePrinter().text, _names(robot)))
     write = UnicodePrinter(style).text
     clashing = [node for node in shorthands(robot, style) if write(node) in names]
     given_up = {part.name for node in clashing for part in walk(node) if isinstance(part, Symbol)}
@@ -105,14 +99,8 @@ def _with_free_shorthands(robot: Robot, style: Style) -> Style:
     return replace(style, shorthand=kept)
 
 
-def _names(robot: Robot) -> list[str]:
-    return [*robot.parameters, *(q.name for q in robot.coordinates)]
-
-
-def _own(robot: Robot, style: Style) -> Iterator[str]:
-    """The names of the problem and the shorthands, as a terminal prints them."""
-    yield from _printed(map(Symbol, (*_names(robot), *robot.questions.reached)))
-    yield from map(UnicodePrinter(style).text, shorthands(robot, style))
+def _names(robot: Robot) -> list[Symbol]:
+    return [Symbol(name) for name in (*robot.parameters, *(q.name for q in robot.coordinates))]
 
 
 def shorthands(robot: Robot, style: Style) -> Iterator[Function]:
@@ -127,17 +115,11 @@ def shorthands(robot: Robot, style: Style) -> Iterator[Function]:
                     yield node
 
 
-# -- what may give way -----------------------------------------------------------------------------
-
-
 def _scalars(robot: Robot, base: str, count: int) -> Iterator[Node]:
     """The scalars of the textbook with a letter: energies of the bodies, entries by coordinates."""
     if base in ("P", "K"):
-        yield from (letters.of_body(base, body) for body in robot.bodies)
-        return
-    places = range(1, robot.n + 1)
-    for indices in product(places, repeat=count):
-        yield letters.entry(base, *indices)
+        return (letters.of_body(base, body) for body in robot.bodies)
+    return (letters.entry(base, *indices) for indices in product(range(1, robot.n + 1), repeat=count))
 
 
 # -- which signs occur in a document: names, shorthands and letters of the textbook, by their kinds
@@ -152,19 +134,11 @@ TRANSPOSED: Kind = ("T", "raised", "")
 """The T over a matrix that is transposed."""
 
 _SAME: dict[Kind, Kind] = {
-    ("x", "bold", ""): ("x", "bold", "#"),
-    ("y", "bold", ""): ("y", "bold", "#"),
-    ("z", "bold", ""): ("z", "bold", "#"),
-    ("o", "bold", ""): ("o", "bold", "#"),
-    ("A", "bold", ""): ("A", "bold", "#"),
-    ("H", "bold", ""): ("H", "bold", "#^"),
-    ("R", "bold", ""): ("R", "bold", "#^"),
+    **{(letter, "bold", ""): (letter, "bold", "#") for letter in "xyzoA"},
+    **{(letter, "bold", ""): (letter, "bold", "#^") for letter in "HR"},
     ("r", "bold", "c"): ("r", "bold", "c#"),
-    ("R", "bold", "ztheta"): ("R", "bold", "z#"),
-    ("R", "bold", "x#"): ("R", "bold", "z#"),
-    ("R", "bold", "y#"): ("R", "bold", "z#"),
-    ("I", "bold", "#^"): ("I", "bold", "#"),
-    ("I", "bold", "#given"): ("I", "bold", "#"),
+    **{("R", "bold", shape): ("R", "bold", "z#") for shape in ("ztheta", "x#", "y#")},
+    **{("I", "bold", shape): ("I", "bold", "#") for shape in ("#^", "#given")},
 }
 """Kinds that mean the same: an axis or a matrix without its number, a rotation about another axis."""
 
