@@ -54,9 +54,8 @@ def state_prose(context: Context) -> Prose:
     values = context.robot.questions.state.values
     if not values:
         return ()
-    return say(
-        "At {q}.", q=side_by_side([equation(Symbol(name, dots), value) for name, dots, value in values])
-    )
+    given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in values])
+    return say("At {given}.", given=given)
 
 
 def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, why: Prose) -> Step:
@@ -162,7 +161,7 @@ def _space(context: Context, name: str) -> Step:
     rank, count = rank_parts(J).rank, len(vectors)
     return replace(
         found,
-        why=say("{what}{space}{at}", what=what, space=" " if state else "", at=state_prose(context)),
+        why=(f"{what} ", *state_prose(context)) if state else (what,),
         source=spong("4.10" if name == "lost" else "4.9"),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
@@ -202,21 +201,19 @@ def _load(context: Context, index: int, load: Load) -> Step:
         del parts[1]
     elif load.force.is_zero:
         del parts[0]
-    working: list[Node] = []
-    products: list[Node] = []
+    Q, working, put_in = letters.of_load(index), list[Node](), list[Node]()
     for F, _, J, value, jacobian in parts:
         if not value.is_zero:
-            vector, matrix = context.show(value), context.show(jacobian)
-            working += [equation(F, vector), *([] if load.point else [equation(J, matrix)])]
-            products.append(formula("{J}ᵀ {F}", J=matrix, F=vector))
-    Q = letters.of_load(index)
-    if products and is_small(*products):
-        working.append(equation(Q, sum_of(products)))
-    notes = []
+            put_in += [context.show(jacobian), context.show(value)]
+            working += [equation(F, put_in[-1]), *([] if load.point else [equation(J, put_in[-2])])]
+    if put_in and is_small(*put_in):
+        pairs = zip(put_in[::2], put_in[1::2], strict=True)
+        working.append(equation(Q, sum_of([formula("{J}ᵀ {F}", J=J, F=F) for J, F in pairs])))
+    notes: tuple[Prose, ...] = ()
     if load.by_robot:
-        notes.append(say("The robot exerts it, so what acts on the robot is its opposite."))
+        notes = (("The robot exerts it, so what acts on the robot is its opposite.",),)
     if load.axes is not None:
-        notes.append(say("It is given along axes of its link, and turned into the world."))
+        notes += (("It is given along axes of its link, and turned into the world.",),)
     return Step(
         id=f"load{index}",
         title=f"What force {index} does to the joints",
@@ -231,7 +228,7 @@ def _load(context: Context, index: int, load: Load) -> Step:
         source=_FORCES,
         working=tuple(working),
         result=(equation(Q, context.form(f"load{index}")),),
-        notes=tuple(notes),
+        notes=notes,
         normal=NOTED,
     )
 
@@ -243,9 +240,7 @@ def _total(context: Context) -> Step:
     return Step(
         id="Q",
         title="The generalized forces from outside",
-        why=say(
-            "{sum}. {at}", sum="The sum over the forces" if several else "There is only one force", at=at
-        ),
+        why=("The sum over the forces. " if several else "There is only one force. ", *at),
         formula=equation(letters.Q_FORCES, sum_of([*map(letters.of_load, numbers)])),
         source=_FORCES,
         working=(equation(letters.Q_FORCES, context.show(general)),) if at and several else (),

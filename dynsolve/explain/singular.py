@@ -202,27 +202,22 @@ def _figure(
 ) -> ArmFigure | None:
     """The arm where the conditions hold; None without links, or where no motion of the tip is lost.
 
-    `matrix` is the Jacobian that loses rank, `lost` the columns w with wᵀ J = 0.
+    `matrix` is the Jacobian that loses rank, `lost` the columns w with wᵀ J = 0; a row of it is a velocity of
+    the tip along one of the `axes` of the world, or something else.
     """
     if not robot.has_table:
         return None
     task = robot.questions.task
     axes: tuple[int | None, ...] = (0, 1, 2, None, None, None)
     if matrix != "J" and task is not None and not task.is_twist:
-        axes = tuple(map(_axis, task.entries))
+        entries = [e if isinstance(e, Reference) and e.quantity == TIP else None for e in task.entries]
+        axes = tuple(entry.row - 1 if entry and entry.row is not None else None for entry in entries)
     motions = [(name, _motion(w, axes)) for name, w in zip(names, lost, strict=True)]
     arrows = tuple(ArmArrow(name, direction) for name, direction in motions if direction is not None)
     if not arrows or len(arrows) > MOST_ARROWS:
         return None
     those = agreeing("the arrow|arrows", len(arrows))
     return ArmFigure(f"The arm in this case: its tip cannot move along {those}.", tuple(zeros), arrows)
-
-
-def _axis(entry: Node) -> int | None:
-    """The axis of the world along which a component of the task is a coordinate of the tip, or None."""
-    if isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None:
-        return entry.row - 1
-    return None
 
 
 def _motion(w: Matrix, axes: Sequence[int | None]) -> tuple[Node, Node, Node] | None:

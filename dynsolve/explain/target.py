@@ -374,12 +374,28 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
     whole = _all(forms)
     group = Group("inverse", whole.title)
     for number, one in enumerate(forms.configurations, 1):
+        origin = "Branch|Branches {branches} with these numbers{boundary}."
+        if not one.branches:
+            origin = "Found in numbers, and put into $𝐫(𝐪)$."
+        several = ": they are one, for the target is on their boundary"
+        remarks = (
+            (one.free, "{q} is|are free here: infinitely many solutions."),
+            (one.outside, "{q} is|are beyond the limits."),
+        )
         yield Step(
             id=f"inverse_{number}",
             title=f"Configuration {number}",
-            why=_where_from(one),
+            why=say(
+                agreeing(origin, len(one.branches)),
+                branches=listed([str(branch) for branch in one.branches]),
+                boundary=several if len(one.branches) > 1 else "",
+            ),
             result=tuple(_value(forms, one, name) for name in one.formulas),
-            notes=tuple(_remarks(one)),
+            notes=tuple(
+                say(agreeing(text, len(names)), q=listed([*map(Symbol, names)]))
+                for names, text in remarks
+                if names
+            ),
             listed=True,
             uses=("inverse_branches",) if one.branches else (),
             is_task=False,
@@ -387,17 +403,6 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
             normal=NOTED,
         )
     yield replace(whole, group=group, normal=NOTED)
-
-
-def _where_from(one: Configuration) -> Prose:
-    if not one.branches:
-        return say("Found in numbers, and put into $𝐫(𝐪)$.")
-    if len(one.branches) == 1:
-        return say("Branch {branch} with these numbers.", branch=one.branches[0])
-    return say(
-        "Branches {branches} with these numbers: they are one, for the target is on their boundary.",
-        branches=listed([str(branch) for branch in one.branches]),
-    )
 
 
 def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
@@ -436,15 +441,6 @@ def _in_degrees(value: float) -> Node:
     return Negative(size) if value < 0 and hundredths else size
 
 
-def _remarks(one: Configuration) -> Iterator[Prose]:
-    for names, text in (
-        (one.free, "{q} is|are free here: infinitely many solutions."),
-        (one.outside, "{q} is|are beyond the limits."),
-    ):
-        if names:
-            yield say(agreeing(text, len(names)), q=listed([*map(Symbol, names)]))
-
-
 def _all(forms: TargetForms) -> Step:
     """The configurations in a table; where there are none, why."""
     found = forms.configurations
@@ -455,7 +451,7 @@ def _all(forms: TargetForms) -> Step:
     return Step(
         id="inverse",
         title=title,
-        why=told(forms) if found else reason(forms),
+        why=told(forms),
         table=_table(forms) if found else None,
         notes=tuple(_lost(forms)),
         detail=Detail.BRIEF,
@@ -469,26 +465,21 @@ def _all(forms: TargetForms) -> Step:
 
 
 def told(forms: TargetForms) -> Prose:
-    """How the configurations were found, and how they are known to be right."""
-    if forms.is_searched:
+    """How the configurations were found, and how they are known to be right; or why there are none."""
+    if forms.configurations and forms.is_searched:
         return say(
             "Newton's method from 200 configurations led to these, each put into $𝐫(𝐪)$ to ten digits. That "
             "there are no others is not proved."
         )
-    return say("Each is put into $𝐫(𝐪)$ to see that it gives the task.")
-
-
-def reason(forms: TargetForms) -> Prose:
-    """Why there is no configuration, or none that stands alone; nothing where there are some."""
     if forms.configurations:
-        return ()
+        return say("Each is put into $𝐫(𝐪)$ to see that it gives the task.")
     if forms.is_family:
-        return ("The configurations that reach this do not stand alone: there are infinitely many.",)
+        return say("The configurations that reach this do not stand alone: there are infinitely many.")
     if forms.unmet:
         return say("No configuration reaches this: no joint gives $𝐫(𝐪)$ these values.")
     if forms.lost:
-        return ("No configuration reaches this: no branch is real.",)
-    return ("No configuration that reaches this was found: Newton's method from 200 of them led to none.",)
+        return say("No configuration reaches this: no branch is real.")
+    return say("No configuration that reaches this was found: Newton's method from 200 of them led to none.")
 
 
 def _table(forms: TargetForms) -> Table:

@@ -62,7 +62,7 @@ def beside_branches(forms: ConfigurationForms, write: Callable[[Prose], str]) ->
     """
     if forms.target is None:
         return
-    from dynsolve.explain.target import reason, told
+    from dynsolve.explain.target import told
 
     found = forms.target.configurations
     yield (
@@ -73,5 +73,4 @@ def beside_branches(forms: ConfigurationForms, write: Callable[[Prose], str]) ->
         yield "inverse_free", [list(one.free) for one in found]
     if forms.robot.questions.limits:
         yield "inverse_outside", [list(one.outside) for one in found]
-    why = told(forms.target) if found else reason(forms.target)
-    yield "inverse_why", write(why)
+    yield "inverse_why", write(told(forms.target))
