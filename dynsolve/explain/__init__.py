@@ -64,7 +64,8 @@ _OF_BODIES = (Stage.INERTIA, Stage.ENERGY)
 
 _BESIDE = {
     Stage.LAGRANGIAN: ("torque", "lagrangian_steps"),
-    Stage.TASK_INERTIA: ("forward_dynamics", "task_inertia_steps"),
+    Stage.FORWARD_DYNAMICS: ("constraints", "forward_steps"),
+    Stage.TASK_INERTIA: ("constraints", "task_inertia_steps"),
     Stage.STATICS: ("rates", "statics_steps"),
 }
 """The stages that stand in the file of another, and their functions there."""

@@ -8,21 +8,20 @@ from dataclasses import replace
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.agreement import agreement
 from dynsolve.document import Prose, Reference
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate, slopes
 from dynsolve.explain.writing import counted_sum, is_small, listed, spong
+from dynsolve.notation.build import times
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
-    Letter,
     Negative,
     Node,
-    Number,
     Parenthesized,
     Product,
-    Row,
     Sum,
     Symbol,
-    Transpose,
     equation,
 )
 from dynsolve.quantities import letters
@@ -33,20 +32,9 @@ STAGE = Stage.VECTORIZED
 MOST_ZEROS = 20
 """Up to this number Christoffel symbols that are zero are named one by one."""
 
-_I, _J, _K = (Symbol(name) for name in "ijk")
+_I = Symbol("i")
 
-
-def _d(*indices: Node) -> Letter:
-    return Letter("d", Row(indices))
-
-
-SLOPES = Parenthesized(
-    Sum((
-        letters.partial_derivative(_d(_K, _J), Letter("q", _I)),
-        letters.partial_derivative(_d(_K, _I), Letter("q", _J)),
-        Negative(letters.partial_derivative(_d(_I, _J), Letter("q", _K))),
-    ))
-)  # fmt: skip
+SLOPES = formula("(∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k)")
 """Twice c_ijk, by the derivatives of D."""
 
 Slope = tuple[tuple[int, int], int]
@@ -55,24 +43,26 @@ Slope = tuple[tuple[int, int], int]
 
 def christoffel_step(context: Context) -> Step:
     """c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k), those that are not zero."""
-    n = context.robot.n
     nonzero, zero = _sorted_symbols(context)
-    general = equation(Letter("c", Row((_I, _J, _K))), Product((letters.HALF, SLOPES)))
-    results = tuple(_symbol(context, *indices) for indices in nonzero)
     way = slopes(context)
+    swapped = "The first two indices may be swapped: $c_ijk = c_jik$. " if context.robot.n > 1 else ""
+    why = say(
+        f"They are made of the derivatives of $𝐃$ with respect to the coordinates. {swapped}"
+        "Partial derivatives that are zero are left out."
+    )
     return Step(
         id="christoffel",
         stage=STAGE,
         title="Christoffel symbols",
-        why=_christoffel_why(n, len(nonzero)),
-        formula=general,
+        why=why if nonzero else say("$𝐃$ is constant, so every Christoffel symbol is zero."),
+        formula=formula("c_ijk = ½ {slopes}", slopes=SLOPES),
         source=spong("7.3"),
         lines=way.lines,
         concluding=way.concluding,
-        result=results,
+        result=tuple(_symbol(context, *indices) for indices in nonzero),
         hint=(
-            "Each is made of three partial derivatives of entries of D. The "
-            "first two indices may be swapped, which halves the work.",
+            "Each is made of three partial derivatives of entries of D. The first two indices may be "
+            "swapped, which halves the work.",
         ),
         notes=tuple(_zero_note(context, zero)) if nonzero else (),
     )
@@ -85,19 +75,6 @@ def equal_symbols(context: Context) -> Reference:
     return Reference(
         tuple(label for label, (i, j, _) in zip(labels, nonzero, strict=True) if i != j), ", as in "
     )
-
-
-def _christoffel_why(n: int, count: int) -> Prose:
-    if not count:
-        return (
-            letters.D,
-            " is constant, so every Christoffel symbol is zero.",
-        )
-    swapped = equation(Letter("c", Row((_I, _J, _K))), Letter("c", Row((_J, _I, _K))))
-    why: Prose = ("They are made of the derivatives of ", letters.D, " with respect to the coordinates. ")
-    if n > 1:
-        why += ("The first two indices may be swapped: ", swapped, ". ")
-    return (*why, "Partial derivatives that are zero are left out.")
 
 
 def _sorted_symbols(context: Context) -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]]:
@@ -136,7 +113,13 @@ def with_slopes(context: Context, slopes: Iterable[Slope]) -> tuple[str, ...]:
 def in_slopes(context: Context, i: int, j: int, k: int) -> Node:
     """½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k) without those that are zero or cancel, of indices from 0."""
     weights = _weights(context, i, j, k)
-    return _halved([_weighted(context, key, weight) for key, weight in weights.items() if weight])
+    names = context.robot.ring.names
+    parts = [
+        (weight, letters.partial_derivative(letters.entry("d", row + 1, col + 1), Symbol(names[by])))
+        for ((row, col), by), weight in weights.items()
+        if weight
+    ]
+    return _halved(parts)
 
 
 def _weights(context: Context, i: int, j: int, k: int) -> dict[Slope, int]:
@@ -150,23 +133,14 @@ def _weights(context: Context, i: int, j: int, k: int) -> dict[Slope, int]:
     return weights
 
 
-def _weighted(context: Context, key: Slope, weight: int) -> tuple[int, Node]:
-    (row, col), by = key
-    name = letters.entry("d", row + 1, col + 1)
-    return weight, letters.partial_derivative(name, Symbol(context.robot.coordinates[by].name))
-
-
 def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
     """½ (Σ weight · ∂d/∂q), with weights 1, 2 and -1; a factor 2 that stands alone cancels."""
     if len(parts) == 1:
         weight, derivative = parts[0]
         node = derivative if abs(weight) == 2 else Product((letters.HALF, derivative))
         return Negative(node) if weight < 0 else node
-    terms = []
-    for weight, derivative in parts:
-        term = Product((Number(2), derivative)) if abs(weight) == 2 else derivative
-        terms.append(Negative(term) if weight < 0 else term)
-    return Product((letters.HALF, Parenthesized(Sum(tuple(terms)))))
+    terms = [times(weight, [(derivative, 1)]) for weight, derivative in parts]
+    return formula("½ ({terms})", terms=Sum(tuple(terms)))
 
 
 def _zero_note(context: Context, zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
@@ -176,23 +150,27 @@ def _zero_note(context: Context, zero: Sequence[tuple[int, int, int]]) -> Iterat
         yield ("All the others are zero.",)
         return
     cancelled = [ijk for ijk in zero if _weights(context, *ijk)]
-    names = _named([ijk for ijk in zero if ijk not in cancelled])
-    note: Prose = (*names, " are zero." if len(names) > 1 else " is zero.") if names else ()
+    vanishing, cancelling = (
+        listed([letters.entry("c", *(place + 1 for place in ijk)) for ijk in symbols])
+        for symbols in ([ijk for ijk in zero if ijk not in cancelled], cancelled)
+    )
+    note: Prose = ()
+    if vanishing:
+        note = say("{names} are zero." if len(vanishing) > 1 else "{names} is zero.", names=vanishing)
     if cancelled:
         by_symmetry = not any(weight for ijk in cancelled for weight in _weights(context, *ijk).values())
-        note += (f"{' ' * bool(note)}In ", *_named(cancelled), " the derivatives cancel")
-        note += (", ", letters.D, " being symmetric.") if by_symmetry else (".",)
+        note = say(
+            "{note}In {names} the derivatives cancel{why}.",
+            note=(*note, " ") if note else "",
+            names=cancelling,
+            why=say(", $𝐃$ being symmetric") if by_symmetry else "",
+        )
     yield note
-
-
-def _named(symbols: Sequence[tuple[int, int, int]]) -> Prose:
-    """c_111 and c_222"""
-    return listed([letters.entry("c", i + 1, j + 1, k + 1) for i, j, k in symbols])
 
 
 # -- steps of the checks: both ways to D, C q̇ and g agree, and Ḋ - 2C is skew-symmetric -----------
 
-SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))))
+SKEW = formula("𝐃̇ - 2 𝐂")
 
 ROWS = "Cqd-rows"
 """The label of the rows of C q̇ that are compared."""
@@ -209,133 +187,93 @@ def compared_rows(
 def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
     agreed = context.agreement or agreement(context.robot, context.values)
-    coriolis = Product((letters.C, letters.QD))
     rows = compared_rows(context) if agreed.coriolis else ()
     verdicts = (
-        ((letters.D, Reference(("D", "D_sum"), " in ")), agreed.inertia),
-        ((coriolis, Reference(("Cqd", ROWS if rows else "C"), " in ")), agreed.coriolis),
-        ((letters.G, Reference(("Cqd-2", "g"), " in ")), agreed.gravity),
+        (say("$𝐃${where}", where=Reference(("D", "D_sum"), " in ")), agreed.inertia),
+        (say("$𝐂 𝐪̇${where}", where=Reference(("Cqd", ROWS if rows else "C"), " in ")), agreed.coriolis),
+        (say("$𝐠${where}", where=Reference(("Cqd-2", "g"), " in ")), agreed.gravity),
     )
-    same = [name for name, holds in verdicts if holds]
-    wrong = [name for name, holds in verdicts if not holds]
-    why: Prose = ()  # after the rows that it speaks of
-    if same:
-        why += ("Read off and assembled directly: the same ", *listed(same), ".")
-    if wrong:
-        why += (" The two ways differ in " if same else "The two ways differ in ", *listed(wrong), ".")
+    same = listed([name for name, holds in verdicts if holds])
+    wrong = listed([name for name, holds in verdicts if not holds])
+    agree = say("Read off and assembled directly: the same {same}.", same=same) if same else ()
+    differ = say("The two ways differ in {wrong}.", wrong=wrong) if wrong else ()
+    why = (*agree, *([" "] if same and wrong else []), *differ)  # after the rows that it speaks of
     return Step(
         id="agreement",
         stage=STAGE,
         title="Both ways agree" if not wrong else "The two ways differ",
-        why=("The rows of ", coriolis, ", multiplied out:") if rows else why,
+        why=say("The rows of $𝐂 𝐪̇$, multiplied out:") if rows else why,
         source=spong("7.3"),
         lines=rows,
         concluding=why if rows else (),
         detail=Detail.NORMAL if wrong else Detail.FULL,
-        outcome=("Read off from the forces and assembled directly: the same ", *listed(same), "."),
+        outcome=say("Read off from the forces and assembled directly: the same {same}.", same=same),
         uses=("christoffel", "C"),
         is_task=False,
     )
 
 
-def _by_entries(n: int) -> Prose:
-    """n_ij = -n_ji, where there is more than one entry."""
-    if n == 1:
-        return ()
-    i, j = Symbol("i"), Symbol("j")
-    return (", ", equation(Letter("n", Row((i, j))), Negative(Letter("n", Row((j, i))))))
-
-
 def _in_general(n: int) -> Line:
     """n_kj from the derivatives of D, of which half cancel: what is left changes its sign with k and j."""
-
-    def slope(row: Node, column: Node, by: Node) -> Node:
-        return letters.partial_derivative(Letter("d", Row((row, column))), Letter("q", by))
-
-    def over_rates(factor: Node) -> Node:
-        return counted_sum(Product((factor, Letter("q", _I, dots=1))), _I, n)
-
-    place = Row((_K, _J))
-    spread = Sum((slope(_K, _J, _I), Negative(SLOPES)))
-    left = Sum((slope(_I, _J, _K), Negative(slope(_K, _I, _J))))
-    entry = Sum((Letter("d", place, dots=1), Negative(Product((Number(2), Letter("c", place))))))
-    by: Prose = ("Its entries, with ", Letter("d", place, dots=1), " by the chain rule and ")
-    by += (Letter("c", place), " by the derivatives of ", letters.D, ":")
-    sums = (over_rates(Parenthesized(spread)), over_rates(Parenthesized(left)))
-    return Line(by, (equation(Letter("n", place), entry, *sums),))
-
-
-def _exchanged() -> Prose:
-    """Why the general entry changes its sign."""
-    return (
-        *("With ", _K, " and ", _J, " exchanged, the two derivatives change places, for "),
-        *(letters.D, " is symmetric, and the sum changes its sign:"),
-    )
-
-
-def _nothing_to_check(name: Node) -> Step:
-    """N of a constant D, of which no Christoffel symbol is left."""
-    zero = letters.bold("0")
-    return Step(
-        id="skew",
-        stage=STAGE,
-        title="Check: a matrix that must be skew-symmetric",
-        why=(letters.D, " is constant, and ", equation(letters.C, zero), ": nothing is left to be checked."),
-        formula=equation(name, SKEW),
-        source=spong("7.5.1"),
-        result=(equation(name, zero),),
-        detail=Detail.FULL,
-        outcome=(letters.D, " is constant, and ", equation(letters.C, zero), "."),
-        is_task=False,
-    )
+    sums = [
+        counted_sum(formula("({factor}) q̇_i", factor=factor), _I, n)
+        for factor in (formula("∂d_kj/∂q_i - {slopes}", slopes=SLOPES), formula("∂d_ij/∂q_k - ∂d_ki/∂q_j"))
+    ]
+    by = say("Its entries, with $ḋ_kj$ by the chain rule and $c_kj$ by the derivatives of $𝐃$:")
+    return Line(by, (equation(*(formula(text) for text in ("n_kj", "ḋ_kj - 2 c_kj")), *sums),))
 
 
 def skew_step(context: Context) -> Step:
-    """N = Ḋ - 2C, and N + Nᵀ = 0."""
-    robot = context.robot
+    """N = Ḋ - 2C, and N + Nᵀ = 0; where D is constant nothing is left to be checked."""
+    robot, is_short = context.robot, context.is_short
     ring = robot.ring
     D, C = context.values["D"], context.values["C"]
-    result: tuple[Node, ...] = ()
     rate = inertia_rate(context)
-    if rate or is_small(context.form("D"), context.form("C")):
-        N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
-        result = (equation(letters.bold("N"), context.show(N)),)
-    name = letters.bold("N")
-    if C.is_zero:
-        return _nothing_to_check(name)
-    general = () if result or robot.n == 1 else (_in_general(robot.n),)
-    passive = " Passivity follows from this." if not context.is_short else ""  # of short arms the energy does
-    return Step(
+    step = Step(
         id="skew",
         stage=STAGE,
         title="Check: a matrix that must be skew-symmetric",
-        why=(
-            "With ",
-            *((letters.C, Reference(("C",))) if context.is_short else (letters.C,)),
-            " from the Christoffel symbols",
-            *(() if context.is_short else (Reference(("christoffel",)),)),
-            ", ",
-            name,
-            " must be skew-symmetric",
-            *_by_entries(robot.n),
-            ", so that ",
-            equation(letters.transposed_product(letters.QD, name), Number(0)),
-            f".{passive}",
+        formula=formula("𝐍 = {skew}", skew=SKEW),
+        source=spong("7.5.1"),
+        detail=Detail.FULL,
+    )
+    if C.is_zero:
+        return replace(
+            step,
+            why=say("$𝐃$ is constant, and $𝐂 = 𝟎$: nothing is left to be checked."),
+            result=(formula("𝐍 = 𝟎"),),
+            outcome=say("$𝐃$ is constant, and $𝐂 = 𝟎$."),
+            is_task=False,
+        )
+    result: tuple[Node, ...] = ()
+    if rate or is_small(context.form("D"), context.form("C")):
+        N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
+        result = (equation(letters.bold("N"), context.show(N)),)
+    general = () if result or robot.n == 1 else (_in_general(robot.n),)
+    by_entries = say(", $n_ij = -n_ji$") if robot.n > 1 else ""
+    return replace(
+        step,
+        why=say(
+            "With $𝐂${of_C} from the Christoffel symbols{symbols}, $𝐍$ must be skew-symmetric{entries}, so "
+            "that $𝐪̇ᵀ 𝐍 𝐪̇ = 0$.{passive}",
+            of_C=Reference(("C",)) if is_short else "",
+            symbols="" if is_short else Reference(("christoffel",)),
+            entries=by_entries,
+            passive="" if is_short else " Passivity follows from this.",  # of short arms the energy does
         ),
-        formula=equation(name, SKEW),
         lines=rate or general,
         uses=() if rate or general else ("D",),
-        concluding=_exchanged() if general else (),
+        concluding=say(
+            "With $k$ and $j$ exchanged, the two derivatives change places, for $𝐃$ is symmetric, and the "
+            "sum changes its sign:"
+        )
+        if general
+        else (),
         entries=letters.entries("n", robot.n) if robot.n > 1 else (),
-        source=spong("7.5.1"),
-        result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),
-        detail=Detail.FULL,
-        outcome=(equation(name, SKEW), " is skew-symmetric", *_by_entries(robot.n), "."),
-        hint=(
-            "A check at the end: with ",
-            letters.C,
-            " from the Christoffel symbols, ",
-            name,
-            " plus its transpose must come out as zero.",
+        result=(*result, formula("𝐍 + 𝐍ᵀ = 𝟎")),
+        outcome=say("$𝐍 = {skew}$ is skew-symmetric{entries}.", skew=SKEW, entries=by_entries),
+        hint=say(
+            "A check at the end: with $𝐂$ from the Christoffel symbols, $𝐍$ plus its transpose must come out "
+            "as zero."
         ),
     )

@@ -1,4 +1,7 @@
-"""Steps of constraints: what is kept at 0, A_c and its rate, the multipliers, the equations without them."""
+"""Steps of constraints: what is kept at 0, A_c and its rate, the multipliers, the equations without them.
+
+And of forward dynamics: the accelerations that forces make, and the inertia Λ that a force at the task meets.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +14,9 @@ from dynsolve.algebra.spans import nullspace
 from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.reduced import Reduced, reduced
-from dynsolve.document import Prose
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import Detail, Line, Step, not_derived
 from dynsolve.explain.task import with_letters
 from dynsolve.explain.terms import (
     acting_side,
@@ -23,28 +26,19 @@ from dynsolve.explain.terms import (
     moving_side,
     with_force_letters,
 )
-from dynsolve.explain.writing import is_small, mls, scalar
-from dynsolve.notation.tree import (
-    Derivative,
-    Negative,
-    Node,
-    Number,
-    Parenthesized,
-    Power,
-    Product,
-    Sum,
-    Transpose,
-    column,
-    equation,
-)
+from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small, mls, scalar
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Negative, Node, Number, Parenthesized, Power, Sum, column, equation
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
 STAGE = Stage.CONSTRAINTS
 
-_A, _A_DOT, _L = letters.A_C, letters.rate(letters.A_C), letters.LAMBDA
-_MINUS_ONE = Negative(Number(1))
+_KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 0")
+"""What the constraints ask of the accelerations."""
+
+_INVERSE_IS = say("The inverse of $𝐃$, its adjugate over its determinant:")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -54,7 +48,18 @@ def steps(context: Context) -> Iterator[Step]:
         yield _functions(context)
     yield _matrix(context)
     if "Ac_dot" in wanted:
-        yield _rate(context)
+        yield Step(
+            id="Ac_dot",
+            stage=STAGE,
+            title="Its rate",
+            why=say(
+                "The constraint differentiated once more: {kept}. Every entry by the chain rule.", kept=_KEPT
+            ),
+            formula=formula("𝐀̇_c = d/dt 𝐀_c"),
+            source=mls("6.1.2"),
+            result=(formula("𝐀̇_c = {rate}", rate=context.form("Ac_dot")),),
+            detail=Detail.BRIEF,
+        )
     if "lambda" in wanted:
         yield _multipliers(context)
     has_multipliers = "lambda" in wanted and not isinstance(context.values["lambda"], Skipped)
@@ -65,92 +70,62 @@ def steps(context: Context) -> Iterator[Step]:
 def _functions(context: Context) -> Step:
     entries = [mapped(one.entry, with_letters) for one in holonomic(context.robot)]
     many = len(entries) > 1
+    has_points = bool(context.values.rules["hc"].inputs)
     return Step(
         id="hc",
         stage=STAGE,
         title="What the motion keeps at zero",
-        why=("Each entry" if many else "It", " stays 0 in every motion, with the coordinates of the points "
-             "from the forward kinematics." if _with_points(context) else " stays 0 in every motion."),
+        why=say(
+            "{each} stays 0 in every motion{points}.",
+            each="Each entry" if many else "It",
+            points=", with the coordinates of the points from the forward kinematics" if has_points else "",
+        ),
         formula=equation(letters.H_C, column(*entries) if many else entries[0]),
         source=mls("6.1.1"),
         result=(equation(letters.H_C, scalar(context.form("hc"))),),
         detail=Detail.BRIEF,
-    )  # fmt: skip
-
-
-def _with_points(context: Context) -> bool:
-    return bool(context.values.rules["hc"].inputs)
+    )
 
 
 def _matrix(context: Context) -> Step:
-    rates = any(one.in_rates for one in context.robot.questions.constraints)
     slopes = bool(holonomic(context.robot))
-    why: Prose = ()
-    if slopes:
-        why += ("The functions stay 0, so their rates are 0: a row of partial derivatives each. ",)
-    if rates:
-        why += ("The constraint on the rates is linear in them: a row of their factors. ",)
-    rate = equation(Product((_A, letters.QD)), Number(0))
-    formula = equation(_A, Derivative(letters.H_C, letters.Q)) if slopes else rate
+    of_functions = "The functions stay 0, so their rates are 0: a row of partial derivatives each. "
+    of_rates = "The constraint on the rates is linear in them: a row of their factors. "
+    has_rates = any(one.in_rates for one in context.robot.questions.constraints)
     return Step(
         id="Ac",
         stage=STAGE,
         title="The constraint matrix",
-        why=(*why, rate, "."),
-        formula=formula,
+        why=say(f"{of_functions * slopes}{of_rates * has_rates}$𝐀_c 𝐪̇ = 0$."),
+        formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes else "𝐀_c 𝐪̇ = 0"),
         source=mls("6.1.1"),
-        result=(equation(_A, context.form("Ac")),),
+        result=(equation(letters.A_C, context.form("Ac")),),
         uses=("hc",) if slopes else (),
         detail=Detail.BRIEF,
     )
 
 
-def _rate(context: Context) -> Step:
-    return Step(
-        id="Ac_dot",
-        stage=STAGE,
-        title="Its rate",
-        why=("The constraint differentiated once more: ", _kept(), ". Every entry by the chain rule."),
-        formula=equation(_A_DOT, letters.time_derivative(_A)),
-        source=mls("6.1.2"),
-        result=(equation(_A_DOT, context.form("Ac_dot")),),
-        detail=Detail.BRIEF,
-    )
-
-
-def _kept() -> Node:
-    """A_c q̈ + Ȧ_c q̇ = 0: what the constraints ask of the accelerations."""
-    return equation(Sum((Product((_A, letters.QDD)), Product((_A_DOT, letters.QD)))), Number(0))
-
-
-# -- the multipliers -------------------------------------------------------------------------------
-
-
 def _multipliers(context: Context) -> Step:
-    inverse = Power(letters.D, _MINUS_ONE)
-    square = Product((_A, inverse, Transpose(_A)))
-    inside = Sum((Product((_A, inverse, Parenthesized(acting_side(context)))), Product((_A_DOT, letters.QD))))
-    formula = equation(
-        _L, Negative(Product((Power(Parenthesized(square), _MINUS_ONE), Parenthesized(inside))))
-    )
     lines = _products(context)
+    value = mapped(scalar(context.form("lambda")), with_force_letters(context.robot))
     return Step(
         id="lambda",
         stage=STAGE,
         title="The multipliers",
-        why=(
-            "The forces of constraint do no work, so they are combinations of the rows of ", _A, ": ",
-            equations_of_motion(context),
-            ". Put the accelerations that follow into ", _kept(), ", and solve.",
-            *motors_prose(context),
+        why=say(
+            "The forces of constraint do no work, so they are combinations of the rows of $𝐀_c$: "
+            "{equations}. Put the accelerations that follow into {kept}, and solve.{motors}",
+            equations=equations_of_motion(context),
+            kept=_KEPT,
+            motors=motors_prose(context),
         ),
-        formula=formula,
+        formula=formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting_side(context)),
         source=mls("6.1.2"),
         lines=lines,
         concluding=("Put in, and cancelled:",) if lines else (),
-        result=(equation(_L, mapped(scalar(context.form("lambda")), with_force_letters(context.robot))),),
+        result=(equation(letters.LAMBDA, value),),
         detail=Detail.BRIEF,
-    )  # fmt: skip
+    )
 
 
 def _products(context: Context) -> tuple[Line, ...]:
@@ -159,54 +134,47 @@ def _products(context: Context) -> tuple[Line, ...]:
     inverse, scale = adjugate(D), determinant(D)
     if scale.is_zero:
         return ()
-    square = quotient(A @ inverse @ A.T, scale)
-    shown = scalar(context.forms.of(square))
+    square = scalar(context.forms.of(quotient(A @ inverse @ A.T, scale)))
     over = context.forms.of(quotient(inverse, scale))
-    if not is_small(shown, over):
+    if not is_small(square, over):
         return ()
-    name = Product((_A, Power(letters.D, _MINUS_ONE), Transpose(_A)))
     return (
-        Line(("The inverse of ", letters.D, ", its adjugate over its determinant:",),
-             (equation(Power(letters.D, _MINUS_ONE), over),)),
-        Line(("With it:",), (equation(name, shown),)),
-    )  # fmt: skip
+        Line(_INVERSE_IS, (formula("𝐃⁻¹ = {over}", over=over),)),
+        Line(("With it:",), (formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ = {square}", square=square),)),
+    )
 
 
 def _reduced(context: Context) -> Iterator[Step]:
     """The equations of motion along what the constraints leave free, without the multipliers."""
-    values = context.values
+    values, is_asked = context.values, "reduced" in context.wanted
     loads = (values["Q"],) if context.robot.questions.loads else ()
     found = reduced(context.robot, values["Ac"], values["tau"], *loads)
     Z = nullspace(values["Ac"]) if isinstance(found, Skipped) else found.free
-    if not Z.shape[1]:
-        return
-    name = letters.bold("Z")
-    T = Transpose(name)
-    right = driving_side(context, constrained=False)
-    if isinstance(right, Sum):
-        right = Parenthesized(right)
     shown = context.forms.of(Z)
-    if not is_small(shown) and "reduced" not in context.wanted:
+    if not Z.shape[1] or not (is_small(shown) or is_asked):
         return
-    motion = equation(letters.QD, Product((name, letters.bold("nu"))))
-    free, rows = equation(name, shown), _free_rows(context, found)
+    right = driving_side(context, constrained=False)
+    free, rows = formula("𝐙 = {shown}", shown=shown), _free_rows(context, found)
     yield Step(
         id="reduced",
         stage=STAGE,
         title="The equations without the multipliers",
-        why=(
-            "The columns of ", name, " are the rates that the constraints leave free: ",
-            equation(Product((_A, name)), Number(0)), " and ", motion,
-            ". Multiplied by ", T, " the equations of motion lose the forces of constraint.",
+        why=say(
+            "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 0$ and $𝐪̇ = 𝐙 𝛎$. "
+            "Multiplied by $𝐙ᵀ$ the equations of motion lose the forces of constraint."
         ),
-        formula=equation(Product((T, Parenthesized(moving_side(context)))), Product((T, right))),
+        formula=formula(
+            "𝐙ᵀ ({moving}) = 𝐙ᵀ {right}",
+            moving=moving_side(context),
+            right=Parenthesized(right) if isinstance(right, Sum) else right,
+        ),
         source=mls("6.1.3"),
         lines=(Line(("The free rates:",), (free,)),) if rows else (),
         concluding=("Row by row:",) if rows else (),
         result=rows or (free,),
         uses=("Ac",),
-        is_task="reduced" in context.wanted,
-    )  # fmt: skip
+        is_task=is_asked,
+    )
 
 
 def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:
@@ -218,3 +186,68 @@ def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:
         equation(context.show(left), mapped(context.show(right), named)) for left, right in found.equations
     )
     return rows if "reduced" in context.wanted or is_small(*rows) else ()
+
+
+# -- the accelerations without constraints, and the inertia Λ that a force at the task meets -----------
+
+
+def forward_steps(context: Context) -> Iterator[Step]:
+    """q̈ from the forces, where it is asked for."""
+    if "qdd_forward" not in context.wanted:
+        return
+    value = context.values["qdd_forward"]
+    if isinstance(value, Skipped):
+        yield not_derived("qdd_forward", Stage.FORWARD_DYNAMICS, value.why)
+        return
+    D = context.values["D"]
+    inverse = context.forms.of(quotient(adjugate(D), determinant(D)))
+    lines = (Line(_INVERSE_IS, (formula("𝐃⁻¹ = {inverse}", inverse=inverse),)),) if is_small(inverse) else ()
+    shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
+    yield Step(
+        id="qdd_forward",
+        stage=Stage.FORWARD_DYNAMICS,
+        title="The accelerations that the forces make",
+        why=say(
+            "The equations of motion, {equations}, are linear in the accelerations; $𝐃$ is positive "
+            "definite, so that it has an inverse.{motors}",
+            equations=equations_of_motion(context),
+            motors=motors_prose(context),
+        ),
+        formula=formula("𝐪̈ = 𝐃⁻¹ ({acting})", acting=acting_side(context)),
+        source=LYNCH_PARK.section("8.5"),
+        lines=lines,
+        concluding=("Multiplied out, and cancelled:",) if lines else (),
+        result=(equation(letters.QDD, shown),),
+        detail=Detail.BRIEF,
+    )
+
+
+def task_inertia_steps(context: Context) -> Iterator[Step]:
+    """Λ, where it is asked for."""
+    if "Lambda" not in context.wanted:
+        return
+    value = context.values["Lambda"]
+    if isinstance(value, Skipped):
+        yield not_derived("Lambda", Stage.TASK_INERTIA, value.why)
+        return
+    rows, columns = context.values["Jr"].shape
+    size = context.show(determinant(context.values["D"]))
+    transposed = Power(letters.J_TASK, as_row((Negative(Number(1)), "T")))
+    square = " = {transposed} 𝐃 𝐉_r⁻¹" if rows == columns else ""
+    yield Step(
+        id="Lambda",
+        stage=Stage.TASK_INERTIA,
+        title="The inertia matrix of the task",
+        why=say(
+            "A force $𝐅$ at the task acts on the joints as $𝐉_rᵀ 𝐅$, $𝐃⁻¹$ makes accelerations of that, and "
+            "$𝐉_r$ the acceleration of the task. The matrix between force and acceleration, inverted, is the "
+            "inertia. {square}",
+            square="The Jacobian is square, and has an inverse itself." if rows == columns else "",
+        ),
+        formula=formula(f"𝚲 = (𝐉_r 𝐃⁻¹ 𝐉_rᵀ)⁻¹{square}", transposed=transposed),
+        source=LYNCH_PARK.section("8.6"),
+        working=(formula("det 𝐃 = {size}", size=size),) if is_small(size) else (),
+        result=(equation(letters.TASK_INERTIA, context.form("Lambda")),),
+        notes=(("It exists where the rows of the Jacobian are independent.",),),
+        detail=Detail.BRIEF,
+    )

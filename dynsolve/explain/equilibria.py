@@ -18,33 +18,23 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
 from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, is_small, listed, side_by_side, spong
-from dynsolve.notation import tree
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,
     Negative,
     Node,
     Number,
-    Parenthesized,
-    Power,
-    Product,
     Relation,
-    Row,
-    Sum,
     Symbol,
-    Words,
     equation,
 )
 from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Robot
 
 STAGE = Stage.EQUILIBRIA
 _SOURCE = SLOTINE_LI.section("3.3")
-_INVERSE = Power(letters.D, Negative(Number(1)))
-_F, _S = letters.bold("F"), letters.bold("S")
-_DG = letters.partial_derivative(letters.G, letters.Q)
-_ZERO, _ONE = letters.bold("0"), letters.bold("E")
+_DG = formula("∂𝐠/∂𝐪")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -62,6 +52,9 @@ def steps(context: Context) -> Iterator[Step]:
 
 
 # -- where nothing moves ---------------------------------------------------------------------------
+
+_AT_REST = "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion $𝐠$ is left. "
+_GIVEN = "Of the parameters it is given that {these}. "
 
 
 def _equilibria(context: Context) -> Iterator[Step]:
@@ -99,19 +92,23 @@ def _equilibria(context: Context) -> Iterator[Step]:
         notes.append(("For special values of the parameters there may be others.",))
     steady = bool(robot.questions.model.steady)
     forces: Node = FORCES if steady else letters.G
-    task = equation(forces, Number(0))
-    values = working(context) if steady else _at_rest(context)
+    values = context.show(forces_of_motion(context)) if steady else context.form("g")
+    is_held = robot.questions.model.inputs_given
+    balance = "Motors hold the others; what has none must be in balance: {passive}. "
+    assumed = [*map(shown.inequality, robot.questions.model.assumed)]
+    passive = listed([Symbol(robot.coordinates[k].name) for k in robot.actions.passive])
     yield Step(
         id="equilibria",
         stage=STAGE,
         title="Where nothing else moves" if steady else "Where nothing moves",
-        why=(
-            *(why(context) if steady else _nothing_moves(robot)),
-            *_held(context),
-            *_assumed(context, shown),
+        why=say(
+            "{which}{held}{given}",
+            which=why(context) if steady else say(_AT_REST, idle="" if is_held else ", and no motor drives"),
+            held=say(balance, passive=passive) if is_held else "",
+            given=say(_GIVEN, these=side_by_side(assumed)) if assumed else "",
         ),
-        formula=equation(forces, *values, Number(0)),
-        task=task,
+        formula=equation(forces, *([values] if is_small(values) else []), Number(0)),
+        task=equation(forces, Number(0)),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         lines=lines,
         result=result,
@@ -124,13 +121,6 @@ def _equilibria(context: Context) -> Iterator[Step]:
         yield _stability(context, shown, found)
 
 
-def _nothing_moves(robot: Robot) -> Prose:
-    """What is 0 in an equilibrium, and what is left."""
-    idle = "" if robot.questions.model.inputs_given else ", and no motor drives"
-    told = f"In an equilibrium rates and accelerations are 0{idle}: of the equations of motion "
-    return (told, letters.G, " is left. ")
-
-
 def _special(shown: ConfigurationForms, case: SpecialCase) -> Prose:
     """What is an equilibrium for parameters of which a factor is 0."""
     forces = shown.special_forces(case)
@@ -140,29 +130,6 @@ def _special(shown: ConfigurationForms, case: SpecialCase) -> Prose:
     if not forces:
         return say("Where {where}, every configuration is an equilibrium.", where=where)
     return say("Where {where}, the equilibria are where {zero}.", where=where, zero=vanishing(forces))
-
-
-def _at_rest(context: Context) -> tuple[Node, ...]:
-    """The entries of g, where they are not too long."""
-    shown = context.form("g")
-    return (shown,) if is_small(shown) else ()
-
-
-def _held(context: Context) -> Prose:
-    """Which coordinates must be in balance, where motors hold the others."""
-    robot = context.robot
-    if not robot.questions.model.inputs_given:
-        return ()
-    passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
-    return ("Motors hold the others; what has none must be in balance: ", *listed(passive), ". ")
-
-
-def _assumed(context: Context, shown: ConfigurationForms) -> Prose:
-    """What the problem says of its parameters."""
-    assumed = context.robot.questions.model.assumed
-    if not assumed:
-        return ()
-    return ("Of the parameters it is given that ", side_by_side([*map(shown.inequality, assumed)]), ". ")
 
 
 def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -> Step:
@@ -206,11 +173,7 @@ def _point(context: Context, shown: ConfigurationForms, point: Point, case: tupl
         equation(Symbol(pair.angle.terms[0][0][0][0]), quarters[sine, cosine])
         for pair, sine, cosine in point.values
     ]
-    said: Prose = ({
-        Stability.STABLE: "stable",
-        Stability.UNSTABLE: "not stable",
-        Stability.UNDECIDED: "second derivatives alone do not decide",
-    }[point.stability],)  # fmt: skip
+    said = _VERDICTS[point.stability]
     if point.conditions:
         said = say("stable where {all}", all=listed([*map(shown.inequality, point.conditions)]))
     if point.falls:
@@ -218,15 +181,22 @@ def _point(context: Context, shown: ConfigurationForms, point: Point, case: tupl
         said = say("{stable}, not stable where {fails}", stable=said, fails=listed(fails, "or"))
     steady = dict(context.robot.questions.model.steady)
     names = [context.robot.coordinates[k].name for k in point.neutral]
-    free = [Symbol(name) for name in names if name not in steady]
+    free = listed([Symbol(name) for name in names if name not in steady])
     is_told = point.conditions or point.stability is not Stability.UNDECIDED
-    along: Prose = (", but for ", *listed(free), ", along which nothing changes") if free and is_told else ()
+    along = say(", but for {free}, along which nothing changes", free=free) if free and is_told else ""
     where: Prose = ("In every configuration",)
     if at:
         where = ("At ", side_by_side(at))
     elif case:
         where = ("Where ", vanishing(case))
-    return (*where, ": ", *said, *along, ".")
+    return say("{where}: {said}{along}.", where=where, said=said, along=along)
+
+
+_VERDICTS: dict[Stability, Prose] = {
+    Stability.STABLE: ("stable",),
+    Stability.UNSTABLE: ("not stable",),
+    Stability.UNDECIDED: ("second derivatives alone do not decide",),
+}
 
 
 # -- nowhere to move -------------------------------------------------------------------------------
@@ -238,37 +208,28 @@ def _balance(context: Context) -> Step:
         return _skipped("balance", found)
     shown = ConfigurationForms(context.robot, context.values).balance
     goal: Node = Number(0) if wanted is None else context.show(wanted)
-    notes: list[Prose] = []
-    if not shown:
-        notes.append(("Gravity is what it should be for all values of the parameters.",))
+    g = equation(letters.G, context.form("g"))
     return Step(
         id="balance",
         stage=STAGE,
         title="What balances gravity",
-        why=("Multiplied out, ", letters.G, " is a sum of what moves, each with a coefficient of parameters. "
-             "It is what it should be in every configuration where all the coefficients are. Those that are "
-             "combinations of others are left out, and so are factors that are positive, as masses and "
-             "lengths of the table are."),
+        why=say(
+            "Multiplied out, $𝐠$ is a sum of what moves, each with a coefficient of parameters. It is what "
+            "it should be in every configuration where all the coefficients are. Those that are combinations "
+            "of others are left out, and so are factors that are positive, as masses and lengths of the "
+            "table are."
+        ),
         formula=equation(letters.G, goal),
         source=spong("7.5.3"),
-        working=(equation(letters.G, context.form("g")),) if is_small(context.form("g")) else (),
+        working=(g,) if is_small(context.form("g")) else (),
         result=tuple(equation(value, Number(0)) for value in shown),
         listed=len(shown) > 1,
-        notes=tuple(notes),
+        notes=() if shown else (("Gravity is what it should be for all values of the parameters.",),),
         detail=Detail.BRIEF,
-    )  # fmt: skip
+    )
 
 
 # -- near one of them ------------------------------------------------------------------------------
-
-
-def _at(context: Context) -> Prose:
-    """The equilibrium in words: at q₁ = 0, q₂ = 0."""
-    values = context.robot.questions.model.equilibrium
-    return (
-        "at ",
-        side_by_side([equation(Symbol(name, dots), value) for (name, dots), value in values.items()]),
-    )
 
 
 def _skipped(name: str, value: Skipped) -> Step:
@@ -280,52 +241,44 @@ def _state_matrix(context: Context) -> Step:
     if isinstance(value, Skipped):
         return _skipped("linear_A", value)
     has_friction = "friction" in robot.actions.kinds
-    damped: Node = Negative(Product((_INVERSE, _F))) if has_friction else _ZERO
-    blocks = tree.Matrix(((_ZERO, _ONE), (Negative(Product((_INVERSE, _DG))), damped)))
-    distance = Sum((letters.Q, Negative(letters.bold("q", Words("e")))))
-    why: Prose = (
-        "The state is how far the coordinates are from the equilibrium, ", distance,
-        ", and their rates; the inputs are counted from the forces that hold it. ", *_balanced(context),
-        Product((letters.C, letters.QD)), " is of second order in the rates and falls away; so does every "
-        "change of ", letters.D, ", which stands beside an acceleration. The rest is taken ",
-        *_at(context), ".",
-    )  # fmt: skip
+    passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
+    balanced = "No motor drives {passive}: in the equilibrium gravity and springs do not move {which}. "
+    rests = [
+        equation(Symbol(name, dots), value)
+        for (name, dots), value in robot.questions.model.equilibrium.items()
+    ]
     at = linearization.at_equilibrium(robot)
     D, g = at.matrix(context.values["D"]), linearization.stiffness(robot, context.values["g"])
-    working = [equation(letters.D, context.show(D)), equation(_DG, context.show(g))]
+    working: list[Node] = [equation(letters.D, context.show(D)), equation(_DG, context.show(g))]
     if has_friction:
-        working.append(equation(_F, context.show(linearization.damping(robot, context.values["friction"]))))
-    working.append(equation(Row((Words("det "), letters.D)), context.show(determinant(D))))
+        F = linearization.damping(robot, context.values["friction"])
+        working.append(equation(letters.bold("F"), context.show(F)))
+    working.append(formula("det 𝐃 = {value}", value=context.show(determinant(D))))
+    jumps = "Coulomb friction jumps where a rate changes its sign: it has no part in a linear model."
     return Step(
         id="linear_A",
         stage=STAGE,
         title="The motion near the equilibrium",
-        why=why,
-        formula=equation(letters.LINEAR_A, blocks),
+        why=say(
+            "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
+            "inputs are counted from the forces that hold it. {balanced}$𝐂 𝐪̇$ is of second order in the "
+            "rates and falls away; so does every change of $𝐃$, which stands beside an acceleration. The "
+            "rest is taken at {rests}.",
+            balanced=say(balanced, passive=listed(passive), which="it" if len(passive) == 1 else "them")
+            if passive
+            else "",
+            rests=side_by_side(rests),
+        ),
+        formula=equation(
+            letters.LINEAR_A,
+            formula("[𝟎, 𝐄; -𝐃⁻¹ ∂𝐠/∂𝐪, -𝐃⁻¹ 𝐅]" if has_friction else "[𝟎, 𝐄; -𝐃⁻¹ ∂𝐠/∂𝐪, 𝟎]"),
+        ),
         source=_SOURCE,
         working=tuple(working),
         result=(equation(letters.LINEAR_A, context.form("linear_A")),),
-        notes=_notes(context),
+        notes=((jumps,),) if any(not one.coulomb.is_zero for one in robot.actions.friction) else (),
         detail=Detail.BRIEF,
     )
-
-
-def _balanced(context: Context) -> Prose:
-    passive = [Symbol(context.robot.coordinates[k].name) for k in context.robot.actions.passive]
-    if not passive:
-        return ()
-    which = "it" if len(passive) == 1 else "them"
-    return (
-        "No motor drives ",
-        *listed(passive),
-        f": in the equilibrium gravity and springs do not move {which}. ",
-    )
-
-
-def _notes(context: Context) -> tuple[Prose, ...]:
-    if any(not one.coulomb.is_zero for one in context.robot.actions.friction):
-        return (("Coulomb friction jumps where a rate changes its sign: it has no part in a linear model.",),)
-    return ()
 
 
 def _input_matrix(context: Context) -> Step:
@@ -333,26 +286,24 @@ def _input_matrix(context: Context) -> Step:
     if isinstance(value, Skipped):
         return _skipped("linear_B", value)
     inputs: list[Node] = [letters.force(robot.coordinates[k]) for k in linearization.driven(robot)]
-    column = tree.Matrix(((_ZERO,), (Product((_INVERSE, _S)),)))
-    every = len(inputs) == robot.n
+    ones = "is the identity matrix" if len(inputs) == robot.n else "has a 1 in the row of each, a column each"
     return Step(
         id="linear_B",
         stage=STAGE,
         title="What the inputs do to it",
-        why=("A column for each input: ", *listed(inputs), ". ", _S, " is the identity matrix." if every
-             else " has a 1 in the row of each, a column each."),
-        formula=equation(letters.LINEAR_B, column),
+        why=say("A column for each input: {inputs}. $𝐒$ {ones}.", inputs=listed(inputs), ones=ones),
+        formula=equation(letters.LINEAR_B, formula("[𝟎; 𝐃⁻¹ 𝐒]")),
         source=_SOURCE,
         result=(equation(letters.LINEAR_B, context.form("linear_B")),),
         detail=Detail.BRIEF,
-    )  # fmt: skip
+    )
 
 
 # -- what the step of equilibria says of a steady motion, in which some rates are constant ---------
 
 SOURCE = GOLDSTEIN.section("2.7")
-FORCES = Sum((Product((letters.C, letters.QD)), letters.G))
-SECOND = letters.partial_derivative(Parenthesized(FORCES), letters.Q)
+FORCES = formula("𝐂 𝐪̇ + 𝐠")
+SECOND = formula("∂({forces})/∂𝐪", forces=FORCES)
 
 
 def why(context: Context) -> Prose:
@@ -360,16 +311,16 @@ def why(context: Context) -> Prose:
     robot = context.robot
     rates = robot.questions.model.steady
     passive = {robot.coordinates[k].name for k in robot.actions.passive}
-    free = [Symbol(name) for name, _ in rates if name in passive]
-    driven = [Symbol(name) for name, _ in rates if name not in passive]
-    held = [equation(Symbol(name, 1), value) for name, value in rates]
-    said: Prose = ("In this motion ", side_by_side(held), " all the time; the other rates and all "
-                   "accelerations are 0. ")  # fmt: skip
-    if driven:
-        said = (*said, "Motors keep the rate of ", *listed(driven), ", whatever that takes. ")
-    if free:
-        said = (*said, "No motor drives ", *listed(free), ". ")
-    return (*said, "Of the equations of the others ", FORCES, " is left. ")
+    free = listed([Symbol(name) for name, _ in rates if name in passive])
+    driven = listed([Symbol(name) for name, _ in rates if name not in passive])
+    return say(
+        "In this motion {held} all the time; the other rates and all accelerations are 0. {driven}{free}Of "
+        "the equations of the others {forces} is left. ",
+        held=side_by_side([equation(Symbol(name, 1), value) for name, value in rates]),
+        driven=say("Motors keep the rate of {names}, whatever that takes. ", names=driven) if driven else "",
+        free=say("No motor drives {names}. ", names=free) if free else "",
+        forces=FORCES,
+    )
 
 
 def forces_of_motion(context: Context) -> Matrix:
@@ -377,21 +328,17 @@ def forces_of_motion(context: Context) -> Matrix:
     return steady_forces(context.robot, context.values["C"], context.values["g"])
 
 
-def working(context: Context) -> tuple[Node, ...]:
-    """The values of these forces, where they are not too long."""
-    shown = context.show(forces_of_motion(context))
-    return (shown,) if is_small(shown) else ()
-
-
 def energy_of_motion(context: Context) -> tuple[Prose, Node]:
     """What the stability follows from, and the energy whose derivatives these forces are."""
     value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
-    shown = equation(letters.STEADY_ENERGY, Sum((letters.P, Negative(letters.K))), value)
-    said: Prose = (
-        "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
-        "Where the matrix of its second derivatives is positive definite, the motion is stable",
-    )
+    shown = equation(letters.STEADY_ENERGY, formula("𝒫 - 𝒦"), value)
+    elsewhere = "; where it falls in some direction, it is not. "
     if may_be_held(context.robot, context.values["D"]):
-        return (*said, ". Elsewhere nothing is said: what V alone lets fall may be held by forces of "
-                       "first order in the rates, or by a rate that is free to change. "), shown  # fmt: skip
-    return (*said, "; where it falls in some direction, it is not. "), shown
+        elsewhere = (
+            ". Elsewhere nothing is said: what V alone lets fall may be held by forces of first order in the "
+            "rates, or by a rate that is free to change. "
+        )
+    return (
+        "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
+        f"Where the matrix of its second derivatives is positive definite, the motion is stable{elsewhere}",
+    ), shown

@@ -12,12 +12,13 @@ By the rates, so that it is true of every robot (Spong, Hutchinson, Vidyasagar, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline, Prose, Reference, Table
+from dynsolve.document.sentences import say
 from dynsolve.explain.christoffel import equal_symbols
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import ChristoffelSymbols, collected_coriolis_force, pairs
@@ -25,19 +26,17 @@ from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, spong, sum_of
 from dynsolve.notation.build import cost, times, total
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
-    Letter,
     Negative,
     Node,
     Number,
     Product,
     Relation,
-    Row,
     Sum,
     Symbol,
-    Transpose,
     column,
     equation,
 )
@@ -91,36 +90,30 @@ class Term:
 
 def terms_of(context: Context, k: int) -> Iterator[Term]:
     """The terms of force k, from 0, that are not zero."""
+    return (term for term in _all_terms(context, k) if not term.factor.is_zero)
+
+
+def _all_terms(context: Context, k: int) -> Iterator[Term]:
     n, values = context.robot.n, context.values
     for j in range(n):
         kind = Kind.INERTIAL if j == k else Kind.COUPLING
-        letter = letters.entry("d", k + 1, j + 1)
-        yield from _unless_zero(Term(kind, 1, letter, values["D"][k, j], ((j, 2),)))
+        yield Term(kind, 1, letters.entry("d", k + 1, j + 1), values["D"][k, j], ((j, 2),))
     for i, j in pairs(n):
-        kind = Kind.CENTRIFUGAL if i == j else Kind.CORIOLIS
+        kind, count = (Kind.CENTRIFUGAL, 1) if i == j else (Kind.CORIOLIS, 2)
         letter = letters.entry("c", i + 1, j + 1, k + 1)
-        symbol = values["christoffel"][i, j, k]
-        yield from _unless_zero(Term(kind, 1 if i == j else 2, letter, symbol, ((i, 1), (j, 1))))
+        yield Term(kind, count, letter, values["christoffel"][i, j, k], ((i, 1), (j, 1)))
     if "friction" in values.rules:
-        friction = values["friction"][k, 0]
-        yield from _unless_zero(Term(Kind.FRICTION, 1, letters.friction(k + 1), friction))
-    held = Term(_held_by(context, k), 1, letters.entry("g", k + 1), values["g"][k, 0])
-    yield from _unless_zero(held)
+        yield Term(Kind.FRICTION, 1, letters.friction(k + 1), values["friction"][k, 0])
+    yield Term(_held_by(context, k), 1, letters.entry("g", k + 1), values["g"][k, 0])
 
 
 def _held_by(context: Context, k: int) -> Kind:
     """What a term without rates holds: gravity, a spring, or both."""
-    if not context.robot.actions.springs:
-        return Kind.GRAVITY
-    spring = context.robot.ring.diff(context.values["Ps"], k)
-    if spring.is_zero:
+    springs = context.robot.actions.springs
+    spring = context.robot.ring.diff(context.values["Ps"], k) if springs else None
+    if spring is None or spring.is_zero:
         return Kind.GRAVITY
     return Kind.SPRING if context.values["g"][k, 0] == spring else Kind.HELD
-
-
-def _unless_zero(term: Term) -> Iterator[Term]:
-    if not term.factor.is_zero:
-        yield term
 
 
 def value_of_term(context: Context, term: Term) -> Expr:
@@ -142,47 +135,36 @@ def terms_step(context: Context) -> Iterator[Step]:
         total = sum((value_of_term(context, term) for term in terms), start=robot.ring.zero)
         if total != context.values[f"tau{q.index}"]:
             return
-    kinds = dict.fromkeys(term.kind for _, terms in found for term in terms)
+    kinds = frozenset(term.kind for _, terms in found for term in terms)
+    held = frozenset({Kind.GRAVITY, Kind.SPRING, Kind.HELD})
+    told = kinds - held | {Kind.HELD} if len(held & kinds) > 1 else kinds  # both at once
+    holds = "the joint" if robot.has_table else "the force of the coordinate"
     whole = _written_whole(context, [term for _, terms in found for term in terms])
-    holds = "the joint" if context.robot.has_table else "the force of the coordinate"
-    forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), " of ")
-    why = [_MEANINGS[kind].format(holds=holds) for kind in Kind if kind in _told(kinds)]
-    checked = _said_of_units(robot.coordinates) if _units_fit(context, found) else ()
-    header = (_named(robot), "term", "what it is")
-    rows = [row for q, terms in found for row in _rows(context, q, terms, whole)]
+    types = {q.type for q in robot.coordinates}
+    names = {JointType.REVOLUTE: "torque", JointType.PRISMATIC: "force"}
+    header = ("torque or force" if len(types) > 1 else names[types.pop()], "term", "what it is")
     yield Step(
         id="terms",
         stage=Stage.VECTORIZED,
         title="What the terms of the forces are",
-        why=("A term", forces, " ".join(why), *(_twice(context) if Kind.CORIOLIS in kinds else ()), *checked),
+        why=say(
+            "A term{forces}{meanings}{twice}{units}",
+            forces=Reference(tuple(f"tau{q.index}" for q in robot.coordinates), " of "),
+            meanings=" ".join(_MEANINGS[kind].format(holds=holds) for kind in Kind if kind in told),
+            twice=_twice(context) if Kind.CORIOLIS in kinds else "",
+            units=_said_of_units(robot.coordinates) if _units_fit(context, found) else "",
+        ),
         source=spong("7.3"),
-        table=Table(header, tuple(rows)),
+        table=Table(header, tuple(row for q, terms in found for row in _rows(context, q, terms, whole))),
         detail=Detail.FULL,
         is_task=False,
     )
 
 
-def _named(robot: Robot) -> str:
-    """What the forces are called together."""
-    kinds = {q.type for q in robot.coordinates}
-    if len(kinds) > 1:
-        return "torque or force"
-    return "torque" if JointType.REVOLUTE in kinds else "force"
-
-
-def _told(kinds: Iterable[Kind]) -> frozenset[Kind]:
-    """The kinds whose meaning is told: of gravity and springs, where there are both, once."""
-    held = frozenset({Kind.GRAVITY, Kind.SPRING, Kind.HELD})
-    several = len(held.intersection(kinds)) > 1
-    return frozenset(kinds) - held | {Kind.HELD} if several else frozenset(kinds)
-
-
 def _twice(context: Context) -> Prose:
     """Where the 2 of a Coriolis term comes from."""
-    i, j, k = map(Symbol, "ijk")
-    one, other = (Letter("c", Row(indices)) for indices in ((i, j, k), (j, i, k)))
-    both = equation(Sum((one, other)), Product((Number(2), one)))
-    return (" The 2 of a Coriolis term comes from two equal symbols", equal_symbols(context), ": ", both, ".")
+    text = " The 2 of a Coriolis term comes from two equal symbols{symbols}: $c_ijk + c_jik = 2 c_ijk$."
+    return say(text, symbols=equal_symbols(context))
 
 
 def _rows(
@@ -190,7 +172,8 @@ def _rows(
 ) -> Iterator[tuple[Inline, ...]]:
     for place, term in enumerate(terms):
         name = name_of_term(context, term)
-        form = equation(name, context.show(value_of_term(context, term))) if _order(term) in whole else name
+        is_whole = len(term.rates) in whole
+        form = equation(name, context.show(value_of_term(context, term))) if is_whole else name
         yield (letters.force(q) if place == 0 else "", form, str(term.kind))
 
 
@@ -206,19 +189,10 @@ def name_of_term(context: Context, term: Term) -> Node:
     return times(term.count, [(term.letter, 1), *rates_of(context, term)])
 
 
-def _written_whole(context: Context, terms: Iterable[Term]) -> frozenset[int]:
-    """Terms of which order in the rates have their values beside their names: of an order all, or none."""
-    orders, long = set[int](), set[int]()
-    for term in terms:
-        orders.add(_order(term))
-        if cost(context.show(value_of_term(context, term))) > LONGEST:
-            long.add(_order(term))
-    return frozenset(orders - long)
-
-
-def _order(term: Term) -> int:
-    """1 of a term with an acceleration, 2 of one with two rates, 0 without."""
-    return len(term.rates)
+def _written_whole(context: Context, terms: Sequence[Term]) -> frozenset[int]:
+    """The numbers of rates of which all terms have their values beside their names, being short."""
+    long = {len(term.rates) for term in terms if cost(context.show(value_of_term(context, term))) > LONGEST}
+    return frozenset(len(term.rates) for term in terms) - long
 
 
 # -- units -----------------------------------------------------------------------------------------
@@ -241,7 +215,7 @@ def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
         said.append((units.node("kg m^2/s^2 = N m"), " in a torque (an angle is a number)"))
     if JointType.PRISMATIC in kinds:
         said.append((units.node("kg m/s^2 = N"), " in a force"))
-    return (" Each term has the unit of its force: ", *listed(said), ".")
+    return say(" Each term has the unit of its force: {units}.", units=listed(said))
 
 
 # -- the step that closes a derivation: D q̈ + C q̇ + g = τ, with this robot's matrices where they fit
@@ -251,16 +225,16 @@ ID = "model"
 """The closing step; reports show it in their last section, with what it is made of."""
 
 
+_HELD = formula("𝐀_cᵀ 𝛌")
 WIDEST = 84
 """The characters up to which matrices are written out in the equation; wider ones stand by themselves."""
 
 
 def closing_step(context: Context) -> Step:
     """D q̈ + C q̇ + g = τ, with friction on the left, Q and A_cᵀ λ on the right where there are any."""
-    robot, rubs = context.robot, has_friction(context)
-    parts = [context.matrix(name) for name in ("D", "C", *(("friction",) if rubs else ()), "g")]
-    qd = column(*(Symbol(q.name, 1) for q in robot.coordinates))
-    qdd = column(*(Symbol(q.name, 2) for q in robot.coordinates))
+    robot = context.robot
+    parts = [context.matrix(name) for name in ("D", "C", *(["friction"] * has_friction(context)), "g")]
+    qd, qdd = (column(*(Symbol(q.name, dots) for q in robot.coordinates)) for dots in (1, 2))
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
     result: tuple[Node, ...] = ()
@@ -302,37 +276,33 @@ def has_friction(context: Context) -> bool:
     return "friction" in context.values.rules
 
 
-def _beside_motors(context: Context) -> list[Node]:
+def _beside_motors(context: Context, constrained: bool = True) -> list[Node]:
     """Q and A_cᵀ λ, as far as there are forces from outside and constraints."""
     asked = context.robot.questions
     outside: list[Node] = [letters.Q_FORCES] if asked.loads else []
-    held: list[Node] = [Product((Transpose(letters.A_C), letters.LAMBDA))] if asked.constraints else []
-    return [*outside, *held]
+    return [*outside, _HELD] if constrained and asked.constraints else outside
 
 
 def driving_side(context: Context, constrained: bool = True) -> Node:
     """τ + Q + A_cᵀ λ, or without the last where that is put elsewhere."""
-    beside = _beside_motors(context)
-    if not constrained and context.robot.questions.constraints:
-        beside.pop()
-    return sum_of([letters.TAU, *beside])
+    return sum_of([letters.TAU, *_beside_motors(context, constrained)])
 
 
 def driving_row(context: Context, q: Coordinate) -> Node:
     """τ_k + Q_k + (A_cᵀ λ)_k: what a row of the left side comes to, with everything that acts."""
-    k, asked = Number(q.index), context.robot.questions
+    asked = context.robot.questions
     outside: list[Node] = [letters.entry("Q", q.index)] if asked.loads else []
-    held: list[Node] = []
-    if asked.constraints:
-        held = [Entry(Product((Transpose(letters.A_C), letters.LAMBDA)), k)]
+    held: list[Node] = [Entry(_HELD, Number(q.index))] if asked.constraints else []
     return sum_of([letters.force(q), *outside, *held])
 
 
 def moving_side(context: Context) -> Sum:
     """D q̈ + C q̇ + g, and friction."""
-    rubs = (letters.FRICTION,) if has_friction(context) else ()
-    inertial, coriolis = Product((letters.D, letters.QDD)), Product((letters.C, letters.QD))
-    return Sum((inertial, coriolis, *rubs, letters.G))
+    side = formula(
+        "𝐃 𝐪̈ + 𝐂 𝐪̇ + {friction} + 𝐠" if has_friction(context) else "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠", friction=letters.FRICTION
+    )
+    assert isinstance(side, Sum)
+    return side
 
 
 def acting_side(context: Context) -> Node:
@@ -349,32 +319,31 @@ def equations_of_motion(context: Context) -> Relation:
 
 def _meanings(context: Context) -> Prose:
     """What the terms of the equation are."""
-    asked = context.robot.questions
-    why: Prose = (Product((letters.D, letters.QDD)), " are the inertial terms, ")
-    why += (Product((letters.C, letters.QD)), " the Coriolis and centrifugal ones, ")
-    why += (letters.FRICTION, " those of friction, ") if has_friction(context) else ()
-    why += (letters.G, " those of gravity", " and springs." if context.robot.actions.springs else ".")
-    why += (" ", letters.Q_FORCES, " are the forces from outside.") if asked.loads else ()
-    if asked.constraints:
-        why += (" ", Product((Transpose(letters.A_C), letters.LAMBDA)), " are the forces of the constraints.")
-    if context.robot.actions.passive:
+    robot = context.robot
+    passive: Prose = ()
+    if robot.actions.passive:
         from dynsolve.explain.actions import passive_prose
 
-        why += passive_prose(context)
-    return why
+        passive = passive_prose(context)
+    return say(
+        "$𝐃 𝐪̈$ are the inertial terms, $𝐂 𝐪̇$ the Coriolis and centrifugal ones, {friction}$𝐠$ those of "
+        "gravity{springs}.{outside}{held}{passive}",
+        friction=say("{letter} those of friction, ", letter=letters.FRICTION)
+        if has_friction(context)
+        else "",
+        springs=" and springs" if robot.actions.springs else "",
+        outside=say(" $𝐐$ are the forces from outside.") if robot.questions.loads else "",
+        held=say(" $𝐀_cᵀ 𝛌$ are the forces of the constraints.") if robot.questions.constraints else "",
+        passive=passive,
+    )
 
 
 def motors_prose(context: Context) -> Prose:
     """Which names stand for what the motors do."""
     robot = context.robot
     forces = [letters.force(q) for k, q in enumerate(robot.coordinates) if k not in robot.actions.passive]
-    if not forces:
-        return ()
-    return (
-        " ",
-        *listed(forces),
-        " is what the motor does." if len(forces) == 1 else " are what the motors do.",
-    )
+    what = " {forces} is what the motor does." if len(forces) == 1 else " {forces} are what the motors do."
+    return say(what, forces=listed(forces)) if forces else ()
 
 
 def with_force_letters(robot: Robot) -> Callable[[Node], Node]:

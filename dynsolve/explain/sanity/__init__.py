@@ -4,8 +4,8 @@
                   coordinates on which D cannot depend
     definite      D is positive definite, by its diagonal and its determinants or body by body
     determinant   the determinant of two coupled coordinates, line by line; what makes D diagonal; signs
-    equilibrium   the poses in which g is zero, hanging and upright among them, or that there are none
-    balance       how g = 0 is solved, row by row, what P has there, and the joints that gravity does not load
+    equilibrium   the poses in which g is zero, row by row, hanging and upright among them, or that there are
+                  none; what P has there; the joints that gravity does not load
     poses         D in poses of right angles, and without the moments of inertia of the bodies
 
 Of longer arms those are done that read off a result what its pages hide: a coordinate that is
@@ -21,11 +21,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.balance import unloaded_step
 from dynsolve.explain.sanity.conserved import conserved_step, dependence_step, momenta_step
 from dynsolve.explain.sanity.definite import definite_step
 from dynsolve.explain.sanity.determinant import decoupled_step
-from dynsolve.explain.sanity.equilibrium import equilibrium_step
+from dynsolve.explain.sanity.equilibrium import equilibrium_step, unloaded_step
 from dynsolve.explain.sanity.poses import inertia_poses_step, point_masses_step
 from dynsolve.explain.step import Detail, Step
 

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.document import Prose, Reference
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import pairs
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import driving_row, driving_side, has_friction
 from dynsolve.explain.writing import listed, spong, sum_of, turns
 from dynsolve.notation.build import cost
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
-    Letter,
     Negative,
     Node,
     Number,
     Parenthesized,
     Product,
     Relation,
-    Row,
     Sum,
     Symbol,
-    Transpose,
     equation,
 )
 from dynsolve.quantities import letters
@@ -47,26 +46,23 @@ def _step(context: Context, energy: Line | None) -> Step | None:
     free = _cyclic(context)
     if energy is None and not free:
         return None
-    by: Prose = energy.by if energy else ()
     momenta = [equation(_momentum(q), _written(context, q)) for q in free if not _stands_above(context, q)]
-    of_momenta = (*_of_momenta(context, free), " conserved:") if momenta else _conserved(context, free)
+    said = _of_momenta(context, free) if free else ()
+    conserved = (*said, " conserved.") if free else ()
+    of_momenta = (*said, " conserved:") if momenta else conserved
+    power = _of_power(context) if energy else ()
     return Step(
         id="conserved",
         stage=Stage.VECTORIZED,
         title="Check: what is conserved",
-        why=by or of_momenta,
+        why=energy.by if energy else of_momenta,
         source=spong("7.1"),
         lines=(Line((), energy.formulas),) if energy else (),
-        concluding=(*_of_power(context), *of_momenta) if energy else (),
+        concluding=(*power, *of_momenta) if energy else (),
         result=tuple(momenta),
-        outcome=(*(_of_power(context) if energy else ()), *_conserved(context, free)),
+        outcome=(*power, *conserved),
         is_task=False,
     )
-
-
-def _conserved(context: Context, free: list[Coordinate]) -> Prose:
-    """Which momenta are conserved, without what they are."""
-    return (*_of_momenta(context, free), " conserved.") if free else ()
 
 
 # -- the energy ------------------------------------------------------------------------------------
@@ -77,56 +73,30 @@ def _of_energy(context: Context) -> Line | None:
     asked = context.robot.questions
     if context.robot.given is not None or asked.method is not Method.LAGRANGE or asked.constraints:
         return None
-    half, N, rate_of_inertia = letters.HALF, letters.bold("N"), letters.bold("D", dots=1)
-    inertial, coriolis = Product((letters.D, letters.QDD)), Product((letters.C, letters.QD))
-    acting = sum_of(_acting(context))
-    powers = [
-        Sum((inertial, Product((half, rate_of_inertia, letters.QD)), letters.G)),
-        Sum((inertial, coriolis, letters.G, Product((half, N, letters.QD)))),
-        acting,
-    ]
-    rate = letters.time_derivative(Sum((letters.K, letters.P)))
-    kinetic = equation(letters.K, Product((half, letters.transposed_product(letters.QD, letters.D))))
-    slope = equation(letters.G, letters.partial_derivative(letters.P, letters.Q))
-    splitting = equation(rate_of_inertia, Sum((Product((Number(2), letters.C)), N)))
-    by: Prose = (
-        "The rate of the energy follows from ",
-        kinetic,
-        " (",
-        letters.D,
-        " is symmetric) and ",
-        slope,
-    )
-    by += (", with ", splitting, ", ")
-    by += (equation(Sum((inertial, coriolis, letters.G)), acting), " and ")
-    by += (
-        equation(letters.transposed_product(letters.QD, N), Number(0)),
-        Reference(("skew-2",), " by "),
-        ":",
-    )
-    return Line(by, (equation(rate, *map(_power, powers)),))
-
-
-def _acting(context: Context) -> list[Node]:
-    """τ, the forces from outside and friction, as they stand beside D q̈ + C q̇ + g."""
     driving = driving_side(context)
-    terms: list[Node] = [*(driving.terms if isinstance(driving, Sum) else (driving,))]
-    return [*terms, Negative(letters.FRICTION)] if has_friction(context) else terms
-
-
-def _power(force: Node) -> Product:
-    """q̇ᵀ times a force"""
-    return Product((Transpose(letters.QD), Parenthesized(force) if isinstance(force, Sum) else force))
+    terms = driving.terms if isinstance(driving, Sum) else (driving,)
+    acting = sum_of([*terms, *([Negative(letters.FRICTION)] if has_friction(context) else [])])
+    by = say(
+        "The rate of the energy follows from $𝒦 = ½ {square}$ ($𝐃$ is symmetric) and $𝐠 = ∂𝒫/∂𝐪$, with "
+        "$𝐃̇ = 2 𝐂 + 𝐍$, $𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = {acting}$ and $𝐪̇ᵀ 𝐍 𝐪̇ = 0${skew}:",
+        square=formula("𝐪̇ᵀ 𝐃 𝐪̇"),
+        acting=acting,
+        skew=Reference(("skew-2",), " by "),
+    )
+    powers = formula(
+        "𝐪̇ᵀ (𝐃 𝐪̈ + ½ 𝐃̇ 𝐪̇ + 𝐠) = 𝐪̇ᵀ (𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 + ½ 𝐍 𝐪̇) = 𝐪̇ᵀ {acting}",
+        acting=Parenthesized(acting) if isinstance(acting, Sum) else acting,
+    )
+    assert isinstance(powers, Relation)
+    return Line(by, (equation(letters.time_derivative(formula("𝒦 + 𝒫")), *powers.parts),))
 
 
 def _of_power(context: Context) -> Prose:
     """What changes the energy."""
-    driving = driving_side(context)
-    said: Prose = ("The energy changes by the power of ", driving)
+    rest = " alone: as long as ${driving} = 𝟎$ it is conserved. "
     if has_friction(context):
-        return (*said, " and of friction, which takes energy away. ")
-    zero = equation(driving, letters.bold("0"))
-    return (*said, " alone: as long as ", zero, " it is conserved. ")
+        rest = " and of friction, which takes energy away. "
+    return say(f"The energy changes by the power of {{driving}}{rest}", driving=driving_side(context))
 
 
 # -- momenta ---------------------------------------------------------------------------------------
@@ -149,19 +119,23 @@ def _momentum(q: Coordinate) -> Node:
 
 def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
     """Which momenta stay constant as long as nothing acts on them, and what these are."""
-    one = len(free) == 1
-    why: Prose = (*listed([Symbol(q.name) for q in free]), f" {'does' if one else 'do'} not appear in ")
-    why += (letters.L, f": {'a cyclic coordinate' if one else 'cyclic coordinates'}. As long as ")
-    why += (
-        *listed([equation(driving_row(context, q), Number(0)) for q in free]),
-        ", the Euler-Lagrange equation",
+    text = (
+        "{names} does not appear in $ℒ$: a cyclic coordinate. As long as {zeros}, the Euler-Lagrange "
+        "equation says that the momentum {momenta} is"
     )
-    why += (" says" if one else "s say", f" that the {'momentum' if one else 'momenta'} ")
-    why += (
-        *listed([(_momentum(q), Reference((f"dLdqd{q.index}",), " in "), *_named(context, q)) for q in free]),
-        " is" if one else " are",
+    if len(free) > 1:
+        text = (
+            "{names} do not appear in $ℒ$: cyclic coordinates. As long as {zeros}, the Euler-Lagrange "
+            "equations say that the momenta {momenta} are"
+        )
+    return say(
+        text,
+        names=listed([Symbol(q.name) for q in free]),
+        zeros=listed([equation(driving_row(context, q), Number(0)) for q in free]),
+        momenta=listed(
+            [(_momentum(q), Reference((f"dLdqd{q.index}",), " in "), *_named(context, q)) for q in free]
+        ),
     )
-    return why
 
 
 def _named(context: Context, q: Coordinate) -> Prose:
@@ -178,10 +152,13 @@ def _named(context: Context, q: Coordinate) -> Prose:
     joint = moved[0][0]
     kind, where = ("angular", "about") if turns(q) else ("linear", "along")
     is_first = not robot.is_tree and all(body.link >= joint.index for body in robot.bodies)
-    axis = letters.z(joint_frame(robot, joint))
-    if is_first:
-        return (f" (the {kind} momentum of the {context.machine} {where} ", axis, ")")
-    return (f" (the {kind} momentum {where} ", axis, f" of all that joint {joint.index} moves)")
+    return say(
+        "{of_all} {axis})" if is_first else "{of_some} {axis} of all that joint {joint} moves)",
+        of_all=f" (the {kind} momentum of the {context.machine} {where}",
+        of_some=f" (the {kind} momentum {where}",
+        axis=letters.z(joint_frame(robot, joint)),
+        joint=joint.index,
+    )
 
 
 def _shifts_all(context: Context, q: Coordinate) -> str:
@@ -220,46 +197,34 @@ def dependence_step(context: Context) -> Step | None:
     robot = context.robot
     if not is_carried_along(context) or robot.actions.motors:
         return None
-    last = robot.coordinates[-1]
-    entry = letters.entry("d", last.index, last.index)
-    value = context.values["D"][last.index - 1, last.index - 1]
-    form = context.show(value)
-    why = (*on_carried_links(), *on_last_entry(context))
+    k = robot.coordinates[-1].index
+    form = context.show(context.values["D"][k - 1, k - 1])
+    why = say(
+        "Joint i moves the links from $i$ on like one body. So no $d_jk$ depends on $q_i$ where $i ≤ j$ and "
+        "$i ≤ k$. {last}",
+        last=on_last_entry(context),
+    )
     return Step(
         id="dependence",
         stage=Stage.VECTORIZED,
         title="Check: on what the inertia matrix depends",
         why=why,
         source=spong("7.2"),
-        result=(equation(entry, form),) if cost(form) <= LONGEST else (),
+        result=(equation(letters.entry("d", k, k), form),) if cost(form) <= LONGEST else (),
         outcome=why,
         is_task=False,
-    )
-
-
-def on_carried_links() -> Prose:
-    """Which entries do not depend on which coordinates, and why."""
-    j, k, i = (Symbol(name) for name in "jki")
-    within = (Relation((i, other), ("≤",)) for other in (j, k))
-    return (
-        "Joint i moves the links from ",
-        i,
-        " on like one body. So no ",
-        Letter("d", Row((j, k))),
-        " depends on ",
-        Letter("q", i),
-        " where ",
-        *listed(list(within)),
-        ". ",
     )
 
 
 def on_last_entry(context: Context) -> Prose:
     """What the last entry of the diagonal is."""
     last = context.robot.coordinates[-1]
-    what = "moment of inertia about its axis" if turns(last) else "mass"
-    entry = letters.entry("d", last.index, last.index)
-    return (entry, f" is constant: of all that joint {last.index} moves, it is the {what}.")
+    return say(
+        "{entry} is constant: of all that joint {joint} moves, it is the {what}.",
+        entry=letters.entry("d", last.index, last.index),
+        joint=last.index,
+        what="moment of inertia about its axis" if turns(last) else "mass",
+    )
 
 
 def is_carried_along(context: Context) -> bool:

@@ -10,12 +10,13 @@ and if all of these vanish, the rates vanish one by one.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
+from dynsolve.algebra import minors
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
+from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.sanity.determinant import (
@@ -32,7 +33,6 @@ from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import (
     ZERO,
     Function,
-    Letter,
     Negative,
     Node,
     Number,
@@ -58,80 +58,69 @@ LONGEST_ENTRY = 8
 """The operations of an entry of the diagonal up to which it is written again."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Shown:
-    """Why D is definite, the lines that show it, the words after them, and what these lead to."""
-
-    why: Prose
-    lines: tuple[Line, ...] = ()
-    concluding: Prose = ()
-    result: tuple[Node, ...] = ()
-
-
 def definite_step(context: Context) -> Step | None:
     """What shows that D is positive definite; None where that is not seen."""
     if context.robot.n < 2:
         return None
-    found = _by_entries(context) or _by_bodies(context)
-    if found is None:
-        return None
-    assumed: Prose = ("Let all parameters be positive. ",) if context.robot.parameters else ()
+    return _by_entries(context) or _by_bodies(context)
+
+
+def _step(context: Context, why: Prose, lines: tuple[Line, ...] = (), concluding: Prose = ()) -> Step:
+    has_parameters = bool(context.robot.parameters)
     return Step(
         id="definite",
         stage=Stage.VECTORIZED,
         title="Check: the inertia matrix is positive definite",
-        why=(*assumed, *found.why),
+        why=say("{assumed}{why}", assumed="Let all parameters be positive. " * has_parameters, why=why),
         source=spong("7.5.1"),
-        lines=found.lines,
-        concluding=found.concluding,
-        result=found.result,
-        outcome=(letters.D, " is positive definite", " for positive parameters." if assumed else "."),
+        lines=lines,
+        concluding=concluding,
+        outcome=say(f"$𝐃$ is positive definite{' for positive parameters' * has_parameters}."),
         is_task=False,
     )
 
 
-def _by_entries(context: Context) -> _Shown | None:
+_APART = " $𝐃$ consists of {parts}, not coupled with each other: each counts by itself."
+
+
+def _by_entries(context: Context) -> Step | None:
     """By the entries of the diagonal, and by minors where coordinates are coupled."""
     firsts: list[int] = []
-    first_rows: list[int] = []
     determinants: list[Determinant] = []
-    D = context.values["D"]
-    for block in blocks(D):
+    all_blocks = blocks(context.values["D"])
+    for block in all_blocks:
         first = _first(context, block)
         if first is None:
             return None
         firsts.append(first)
-        first_rows.append(block[0])
         if len(block) > 1:
-            minors = _minors(context, block if first == block[0] else block[::-1])
-            if minors is None:
+            found = _minors(context, block if first == block[0] else block[::-1])
+            if found is None:
                 return None
-            determinants += minors
+            determinants += found
     why = _diagonal(context, firsts)
     if not determinants:
-        return _Shown((*why, " All other entries are zero, so ", letters.D, " is positive definite."))
-    if len(firsts) > 1:
-        parts = listed([_block(context, block) for block in blocks(D)])
-        why += (" ", letters.D, " consists of ", *parts)
-        why += (", not coupled with each other: each counts by itself.",)
-    why += (*_remaining(determinants, from_the_end=any(k not in first_rows for k in firsts)),)
+        return _step(context, say("{why} All other entries are zero, so $𝐃$ is positive definite.", why=why))
+    parts = listed([_block(context, block) for block in all_blocks])
+    from_the_end = any(first != block[0] for first, block in zip(firsts, all_blocks, strict=True))
+    several = len(determinants) > 1
+    why = say(
+        "{why}{apart} By Sylvester's criterion{where} it remains to show that {what} positive.",
+        why=why,
+        apart=say(_APART, parts=parts) if len(firsts) > 1 else "",
+        where=", which may start from either end of the diagonal," if from_the_end else "",
+        what="the determinants below are" if several else "the determinant below is",
+    )
     lines = [each.differences for each in determinants if each.differences is not None]
-    by = _begun(said_of(determinants)) if not lines else ("With these, ", *said_of(determinants))
+    by = said_of(determinants)
+    by = ("With these, ", *by) if lines else (f"{str(by[0])[0].upper()}{str(by[0])[1:]}", *by[1:])
     lines.append(Line((*by, ":"), tuple(each.line for each in determinants)))
-    return _Shown(why, tuple(lines), _of_determinants(context, determinants))
-
-
-def _remaining(determinants: Sequence[Determinant], *, from_the_end: bool) -> Prose:
-    """What is left to show beside the entries of the diagonal."""
-    what = "the determinants below are" if len(determinants) > 1 else "the determinant below is"
-    where = ", which may start from either end of the diagonal," if from_the_end else ""
-    return (f" By Sylvester's criterion{where} it remains to show that {what} positive.",)
-
-
-def _begun(by: Prose) -> Prose:
-    """Words as the beginning of a sentence."""
-    first, *rest = by
-    return (f"{str(first)[0].upper()}{str(first)[1:]}", *rest)
+    concluding = say(
+        "In {last} no term is negative, and {least}. So $𝐃$ is positive definite.",
+        last="the last expression of each" if several else "the last expression",
+        least=listed([_never_zero(context, each.form) for each in determinants]),
+    )
+    return _step(context, why, tuple(lines), concluding)
 
 
 def _first(context: Context, block: Sequence[int]) -> int | None:
@@ -139,13 +128,6 @@ def _first(context: Context, block: Sequence[int]) -> int | None:
     ends = (block[0], block[-1])
     seen = (k for k in ends if _is_positive(context, context.show(context.values["D"][k, k])))
     return next(seen, next((k for k in ends if _own_part(context, k) is not None), None))
-
-
-def _of_determinants(context: Context, determinants: Sequence[Determinant]) -> Prose:
-    """Why determinants are positive: no term takes anything away, and one is never 0."""
-    last = "the last expression of each" if len(determinants) > 1 else "the last expression"
-    least = listed([_never_zero(context, each.form) for each in determinants])
-    return (f"In {last} no term is negative, and ", *least, ". So ", letters.D, " is positive definite.")
 
 
 def _never_zero(context: Context, form: Node) -> Node:
@@ -167,21 +149,24 @@ def _sure(context: Context, form: Node) -> list[Node]:
 
 def _diagonal(context: Context, places: Sequence[int]) -> Prose:
     """Why entries of the diagonal are positive: seen from them, or from what one body adds to them."""
-    entries = [(k, context.show(context.values["D"][k, k])) for k in places]
-    seen = [_least(context, k) for k, form in entries if _is_positive(context, form)]
-    by_body = [k for k, form in entries if not _is_positive(context, form)]
-    where: Prose = (letters.D, Reference(("D",), " in "))
-    why: Prose = ("On the diagonal of ", *where, ", ", *listed(seen), ".") if seen else ()
+    is_seen = {k: _is_positive(context, context.show(context.values["D"][k, k])) for k in places}
+    seen = listed([_least(context, k) for k in places if is_seen[k]])
+    by_body = {k: _own_part(context, k) for k in places if not is_seen[k]}
+    names = {k: letters.entry("d", k + 1, k + 1) for k in by_body}
+    where = Reference(("D",), " in ")
+    why = say("On the diagonal of $𝐃${where}, {seen}.", where=where, seen=seen) if seen else ()
     if not by_body:
         return why
-    names: list[Node] = [letters.entry("d", k + 1, k + 1) for k in by_body]
-    i = Symbol("i")
-    rate, entry = Letter("q", i, dots=1), Letter("d", Row((i, i)))
-    why += (" " if seen else "", "No body adds anything negative to ", entry, ", which is ")
-    why += (Product((Number(2), letters.K)), " where ", equation(rate, Number(1)))
-    why += (" and the other rates are 0. ", *listed(names), *(() if seen else where[1:]))
-    why += (f" {'is' if len(by_body) == 1 else 'are'} positive: ",)
-    return (*why, *listed(tuple(_adding(context, k) for k in by_body)), ".")
+    return say(
+        "{why}{space}No body adds anything negative to $d_ii$, which is $2 𝒦$ where $q̇_i = 1$ and the other "
+        "rates are 0. {names}{where} {are} positive: {adding}.",
+        why=why,
+        space=" " if seen else "",
+        names=listed([*names.values()]),
+        where="" if seen else where,
+        are="is" if len(by_body) == 1 else "are",
+        adding=listed([(*part, " to ", names[k]) for k, part in by_body.items() if part is not None]),
+    )
 
 
 def _least(context: Context, k: int) -> Node:
@@ -201,20 +186,11 @@ def _block(context: Context, block: Sequence[int]) -> Prose:
     """d₁₁, or the 2×2 block of θ₂ and θ₃"""
     if len(block) == 1:
         return (letters.entry("d", block[0] + 1, block[0] + 1),)
-    size = len(block)
     names = [Symbol(context.robot.coordinates[k].name) for k in block]
-    return (f"the {size}×{size} block of ", *listed(names))
+    return (f"the {len(block)}×{len(block)} block of ", *listed(names))
 
 
-def _adding(context: Context, k: int) -> Prose:
-    """Which body or rotor surely adds something to d_kk, and what."""
-    part = _own_part(context, k)
-    assert part is not None
-    who, form = part
-    return (who, " ", form, " to ", letters.entry("d", k + 1, k + 1))
-
-
-def _by_bodies(context: Context) -> _Shown | None:
+def _by_bodies(context: Context) -> Step | None:
     """Body by body: its energy vanishes only where one rate more does."""
     robot, resting, lines = context.robot, set[int](), list[Node]()
     for body in sorted(robot.bodies, key=lambda body: body.link):
@@ -232,21 +208,14 @@ def _by_bodies(context: Context) -> _Shown | None:
             resting.add(k)
     if len(resting) < robot.n:
         return None
-    power = letters.transposed_product(letters.QD, letters.D)
-    has = " and no rotor has" if robot.actions.motors else " has"
-    why: Prose = (
-        equation(power, Product((Number(2), letters.K))),
-        f", and no body{has} a negative kinetic energy: where their sum is 0, each of them is 0. ",
+    why = say(
+        "$𝐪̇ᵀ 𝐃 𝐪̇ = 2 𝒦$, and no body{rotor} has a negative kinetic energy: where their sum is 0, each of "
+        "them is 0. In each line the rates of the lines before are 0, so that it is 0 only where its own "
+        "rate is:",
+        rotor=" and no rotor" if robot.actions.motors else "",
     )
-    why += ("In each line the rates of the lines before are 0, so that it is 0 only where its own rate is:",)
-    concluding: Prose = (
-        "So ",
-        equation(power, ZERO),
-        " at rest alone: ",
-        letters.D,
-        " is positive definite.",
-    )
-    return _Shown(why, (Line((), tuple(lines)),), concluding)
+    concluding = say("So $𝐪̇ᵀ 𝐃 𝐪̇ = 0$ at rest alone: $𝐃$ is positive definite.")
+    return _step(context, why, (Line((), tuple(lines)),), concluding)
 
 
 def blocks(D: Matrix) -> list[list[int]]:
@@ -262,10 +231,10 @@ def blocks(D: Matrix) -> list[list[int]]:
 def _own_part(context: Context, k: int) -> tuple[str, Node] | None:
     """A body, or the rotors, that surely add something to d_kk, and what; nothing takes anything away."""
     parts = [
-        (f"body {body.name} adds", context.values[f"Dv{body.name}"] + context.values[f"Dw{body.name}"])
+        (f"body {body.name} adds ", context.values[f"Dv{body.name}"] + context.values[f"Dw{body.name}"])
         for body in context.robot.bodies
     ]
-    parts += [("the rotors add", context.values["Dm"])] if context.robot.actions.motors else []
+    parts += [("the rotors add ", context.values["Dm"])] if context.robot.actions.motors else []
     shown = ((who, context.show(added[k, k])) for who, added in parts)
     return next(((who, form) for who, form in shown if _is_positive(context, form)), None)
 
@@ -311,11 +280,5 @@ def _by_sine(form: Node) -> Node:
 
 
 def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
-    """The determinant of a square matrix, by its first row."""
-    if len(rows) == 1:
-        return rows[0][0]
-    total = rows[0][0].ring.zero
-    for j, entry in enumerate(rows[0]):
-        rest = [[*row[:j], *row[j + 1 :]] for row in rows[1:]]
-        total = total + entry * determinant(rest) * (-1) ** j
-    return total
+    """The determinant of a square matrix, by its rows."""
+    return minors.determinant(Matrix.of(rows[0][0].ring, rows))

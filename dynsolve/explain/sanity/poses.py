@@ -14,6 +14,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.document import Inline, Prose, Reference, Table
+from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import linear_name
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
@@ -48,19 +49,26 @@ def inertia_poses_step(context: Context) -> Step | None:
     shown = {q: rows for q in context.robot.coordinates if (rows := list(_rows(context, q)))}
     if not shown:
         return None
-    names = [letters.entry("d", q.index, q.index) for q in shown]
-    joints = [letters.z(joint_frame(context.robot, _joint(context, q))) for q in shown]
+    names = listed([letters.entry("d", q.index, q.index) for q in shown])
+    moved = [_joint(context, q) for q in shown]
+    after = [j.index for j in context.robot.joints if j.type and j.index > moved[0].index]
+    following = f"joint {after[0]}" if len(after) == 1 else "the joints after it"
     one = len(shown) == 1
-    why: Prose = (*listed(names), f" {'is the moment' if one else 'are the moments'} of inertia about ")
-    numbers = [str(_joint(context, q).index) for q in shown]
-    moved = f"joint {numbers[0]} moves, {_after(context, next(iter(shown)))} held: "
-    if not one:
-        moved = f"joints {and_joined(numbers)} move, respectively, the joints after them held: "
-    why += (*listed(joints), f" of all that {moved}")
-    why += ("each mass times the square of its distance from the axis, and each body's moment of inertia ",)
-    why += ("about the parallel axis through its mass centre",)
-    why += (", and those of the rotors. " if context.robot.actions.motors else ". ",)
-    why += ("In simple poses this gives what ", letters.D, Reference(("D",), " in "), " has there:")
+    numbers = and_joined([str(joint.index) for joint in moved])
+    are = "is the moment" if one else "are the moments"
+    why = say(
+        "{names} {are} of inertia about {axes} of all that {moved} held: each mass times the square of its "
+        "distance from the axis, and each body's moment of inertia about the parallel axis through its mass "
+        "centre{rotors}. In simple poses this gives what $𝐃${where} has there:",
+        names=names,
+        are=are,
+        axes=listed([letters.z(joint_frame(context.robot, joint)) for joint in moved]),
+        moved=f"joint {numbers} moves, {following}"
+        if one
+        else f"joints {numbers} move, respectively, the joints after them",
+        rotors=", and those of the rotors" if context.robot.actions.motors else "",
+        where=Reference(("D",), " in "),
+    )
     return Step(
         id="inertia_poses",
         stage=Stage.VECTORIZED,
@@ -68,20 +76,14 @@ def inertia_poses_step(context: Context) -> Step | None:
         why=why,
         source=spong("7.2"),
         table=Table(("pose", "moment of inertia"), tuple(chain(*shown.values()))),
-        outcome=(
-            *listed(names),
-            f" {'is the moment' if one else 'are the moments'} of inertia of all that the joint moves: ",
-            "in simple poses the parallel-axis theorem gives the same.",
+        outcome=say(
+            "{names} {are} of inertia of all that the joint moves: in simple poses the parallel-axis theorem "
+            "gives the same.",
+            names=names,
+            are=are,
         ),
         is_task=False,
     )
-
-
-def _after(context: Context, q: Coordinate) -> str:
-    """joint 2, or the joints after it"""
-    first = _joint(context, q).index
-    others = [joint.index for joint in context.robot.joints if joint.type and joint.index > first]
-    return f"joint {others[0]}" if len(others) == 1 else "the joints after it"
 
 
 def _joint(context: Context, q: Coordinate) -> Joint:
@@ -90,12 +92,8 @@ def _joint(context: Context, q: Coordinate) -> Joint:
 
 
 def _turns_one_joint(context: Context, q: Coordinate) -> bool:
-    moved = [j for j in context.robot.joints if any(k == q.index - 1 for k, _ in j.rates)]
-    return (
-        len(moved) == 1
-        and moved[0].type is JointType.REVOLUTE
-        and [abs(rate) for _, rate in moved[0].rates] == [1]
-    )
+    moved = context.robot.joints_of(q)
+    return len(moved) == 1 and moved[0][0].type is JointType.REVOLUTE and abs(moved[0][1]) == 1
 
 
 def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
@@ -112,22 +110,22 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
     forms = [context.show(there) for there, _ in found]
     if max(map(cost, forms)) > LONGEST:
         return
+    name = letters.entry("d", q.index, q.index)
     for form, (there, pose) in zip(forms, found, strict=True):
-        name = letters.entry("d", q.index, q.index)
         if there.is_number and not context.robot.parameters:
-            entry = equation(name, _summed(context, q, pose), measured(form, "kg m²"))
+            values = [_summed(context, q, pose), measured(form, "kg m²")]
         else:
-            entry = equation(name, *_body_by_body(context, q, pose, form))
-        yield side_by_side(written_pose(pose)), entry
+            values = _body_by_body(context, q, pose, form)
+        yield side_by_side(written_pose(pose)), equation(name, *values)
 
 
-def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> tuple[Node, ...]:
+def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> list[Node]:
     """An entry in letters as what each body adds to it, and collected where that adds numbers up."""
     terms = _summed(context, q, pose)
     alike = [Counter(form.terms if isinstance(form, Sum) else (form,)) for form in (terms, collected)]
     if alike[0] == alike[1] or cost(terms) > LONGEST:
-        return (collected,)
-    return (terms,) if numbers_in(collected) <= numbers_in(terms) else (terms, collected)
+        return [collected]
+    return [terms] if numbers_in(collected) <= numbers_in(terms) else [terms, collected]
 
 
 def _summed(context: Context, q: Coordinate, pose: Pose) -> Node:
@@ -217,8 +215,7 @@ def _stands_bare(ring: Ring, value: Expr, name: str) -> bool:
 def poses(names: Iterable[str], values: tuple[int, ...]) -> Iterator[Pose]:
     """Every choice of values for the angles."""
     names = list(names)
-    for chosen in product(values, repeat=len(names)):
-        yield dict(zip(names, chosen, strict=True))
+    return (dict(zip(names, chosen, strict=True)) for chosen in product(values, repeat=len(names)))
 
 
 def written_pose(pose: Pose) -> list[Node]:
@@ -255,64 +252,45 @@ def point_masses_step(context: Context) -> Step | None:
     mass, rest = context.show(points), context.show(left_over)
     if not is_small(rest) or (not varies and inertia_poses_step(context) is not None):
         return None
-    linear = [linear_name(context, body) for body in _with_linear_part(context)]
+    moving = [body for body in robot.bodies if not values[f"Dv{body.name}"].is_zero]
     return Step(
         id="point_masses",
         stage=Stage.VECTORIZED,
         title="Check: point masses",
-        why=_why(context),
-        formula=equation(letters.D_POINTS, sum_of(linear)),
+        why=_why(context, moving),
+        formula=equation(letters.D_POINTS, sum_of([linear_name(context, body) for body in moving])),
         source=spong("7.2.2"),
         result=(
             equation(letters.D_POINTS, mass),
             equation(Sum((letters.D, Negative(letters.D_POINTS))), rest),
         ),
-        uses=(*(f"D_direct{body.name}" for body in _with_linear_part(context)), "D"),
+        uses=(*(f"D_direct{body.name}" for body in moving), "D"),
         is_task=False,
     )
 
 
-def _with_linear_part(context: Context) -> list[Body]:
-    """The bodies whose mass centres move."""
-    return [body for body in context.robot.bodies if not context.values[f"Dv{body.name}"].is_zero]
-
-
-def _left_out(context: Context) -> Prose:
-    """That the linear part of body 1 is zero, where the mass centre of some body does not move."""
-    moving = _with_linear_part(context)
-    still = [body.name for body in context.robot.bodies if body not in moving]
-    if not still:
-        return ()
-    zero = f"those of bodies {and_joined(still)} are" if len(still) > 1 else f"that of body {still[0]} is"
-    return (f" ({zero} zero)",)
-
-
-def _why(context: Context) -> Prose:
-    """What is left of D, and which entries the rest cannot have."""
-    robot = context.robot
-    rotors = " and of the rotors" if robot.actions.motors else ""
-    why: Prose = (
-        f"Without the moments of inertia of the bodies{rotors} each body is a point at its mass centre, and ",
-        letters.D,
-        " is ",
-        letters.D_POINTS,
-        ", the sum of the linear parts",
-        *_left_out(context),
-        ". What is left over of ",
-        letters.D,
-        Reference(("D",), " in "),
-        f" is what the turning of the bodies{rotors} adds: the rotational parts",
-        Reference(tuple(_rotational(context)), " in "),
-    )
+def _why(context: Context, moving: Sequence[Body]) -> Prose:
+    """What is left of D where these mass centres move, and which entries the rest cannot have."""
+    robot, values = context.robot, context.values
+    still = [body.name for body in robot.bodies if body not in moving]
+    zero = "those of bodies {these} are" if len(still) > 1 else "that of body {these} is"
+    rotational = [
+        f"Dw{body.name}" if body in moving else f"D_direct{body.name}"  # beside a linear part that is zero
+        for body in robot.bodies
+        if not values[f"Dw{body.name}"].is_zero
+    ]
     sliding = [Symbol(q.name) for q in robot.coordinates if q.type is JointType.PRISMATIC]
-    if robot.has_table and sliding and not robot.actions.motors:
-        why += ("; nothing for ", *listed(sliding), f", which turn{'s' * (len(sliding) == 1)} no body")
-    return (*why, ".")
-
-
-def _rotational(context: Context) -> Iterator[str]:
-    """The labels of the rotational parts of D: by themselves, or beside a linear part that is zero."""
-    values = context.values
-    for body in context.robot.bodies:
-        if not values[f"Dw{body.name}"].is_zero:
-            yield f"Dw{body.name}" if body in _with_linear_part(context) else f"D_direct{body.name}"
+    turn_none = "; nothing for {names}, which turn{s} no body"
+    return say(
+        "Without the moments of inertia of the bodies{rotors} each body is a point at its mass centre, and "
+        "$𝐃$ is {points}, the sum of the linear parts{zero}. What is left over of $𝐃${where} is what the "
+        "turning of the bodies{rotors} adds: the rotational parts{parts}{sliding}.",
+        rotors=" and of the rotors" if robot.actions.motors else "",
+        points=letters.D_POINTS,
+        zero=say(f" ({zero} zero)", these=and_joined(still)) if still else "",
+        where=Reference(("D",), " in "),
+        parts=Reference(tuple(rotational), " in "),
+        sliding=say(turn_none, names=listed(sliding), s="s" * (len(sliding) == 1))
+        if robot.has_table and sliding and not robot.actions.motors
+        else "",
+    )

@@ -10,9 +10,15 @@ from hypothesis import given, settings
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.balance import Kind, kind_of, leading_minors, signs_of, zeros
 from dynsolve.explain.sanity.determinant import cases
-from dynsolve.explain.sanity.equilibrium import QUARTER_TURNS
+from dynsolve.explain.sanity.equilibrium import (
+    QUARTER_TURNS,
+    Kind,
+    kind_of,
+    leading_minors,
+    signs_of,
+    zeros,
+)
 from dynsolve.explain.sanity.poses import Pose, poses, turning_in
 from tests.robots import robots
 from tests.unit.explain.sanity.checks import check, context, lines, rows, said, values_of, words
