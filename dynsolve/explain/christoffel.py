@@ -25,9 +25,6 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
-
-STAGE = Stage.VECTORIZED
 
 MOST_ZEROS = 20
 """Up to this number Christoffel symbols that are zero are named one by one."""
@@ -52,7 +49,6 @@ def christoffel_step(context: Context) -> Step:
     )
     return Step(
         id="christoffel",
-        stage=STAGE,
         title="Christoffel symbols",
         why=why if nonzero else say("$𝐃$ is constant, so every Christoffel symbol is zero."),
         formula=formula("c_ijk = ½ {slopes}", slopes=SLOPES),
@@ -200,7 +196,6 @@ def agreement_step(context: Context) -> Step:
     why = (*agree, *([" "] if same and wrong else []), *differ)  # after the rows that it speaks of
     return Step(
         id="agreement",
-        stage=STAGE,
         title="Both ways agree" if not wrong else "The two ways differ",
         why=say("The rows of $𝐂 𝐪̇$, multiplied out:") if rows else why,
         source=spong("7.3"),
@@ -231,7 +226,6 @@ def skew_step(context: Context) -> Step:
     rate = inertia_rate(context)
     step = Step(
         id="skew",
-        stage=STAGE,
         title="Check: a matrix that must be skew-symmetric",
         formula=formula("𝐍 = {skew}", skew=SKEW),
         source=spong("7.5.1"),

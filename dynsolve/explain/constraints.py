@@ -33,8 +33,6 @@ from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
-STAGE = Stage.CONSTRAINTS
-
 _KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 0")
 """What the constraints ask of the accelerations."""
 
@@ -50,7 +48,6 @@ def steps(context: Context) -> Iterator[Step]:
     if "Ac_dot" in wanted:
         yield Step(
             id="Ac_dot",
-            stage=STAGE,
             title="Its rate",
             why=say(
                 "The constraint differentiated once more: {kept}. Every entry by the chain rule.", kept=_KEPT
@@ -73,7 +70,6 @@ def _functions(context: Context) -> Step:
     has_points = bool(context.values.rules["hc"].inputs)
     return Step(
         id="hc",
-        stage=STAGE,
         title="What the motion keeps at zero",
         why=say(
             "{each} stays 0 in every motion{points}.",
@@ -94,7 +90,6 @@ def _matrix(context: Context) -> Step:
     has_rates = any(one.in_rates for one in context.robot.questions.constraints)
     return Step(
         id="Ac",
-        stage=STAGE,
         title="The constraint matrix",
         why=say(f"{of_functions * slopes}{of_rates * has_rates}$𝐀_c 𝐪̇ = 0$."),
         formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes else "𝐀_c 𝐪̇ = 0"),
@@ -110,7 +105,6 @@ def _multipliers(context: Context) -> Step:
     value = mapped(scalar(context.form("lambda")), with_force_letters(context.robot))
     return Step(
         id="lambda",
-        stage=STAGE,
         title="The multipliers",
         why=say(
             "The forces of constraint do no work, so they are combinations of the rows of $𝐀_c$: "
@@ -157,7 +151,6 @@ def _reduced(context: Context) -> Iterator[Step]:
     free, rows = formula("𝐙 = {shown}", shown=shown), _free_rows(context, found)
     yield Step(
         id="reduced",
-        stage=STAGE,
         title="The equations without the multipliers",
         why=say(
             "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 0$ and $𝐪̇ = 𝐙 𝛎$. "
@@ -205,7 +198,6 @@ def forward_steps(context: Context) -> Iterator[Step]:
     shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
     yield Step(
         id="qdd_forward",
-        stage=Stage.FORWARD_DYNAMICS,
         title="The accelerations that the forces make",
         why=say(
             "The equations of motion, {equations}, are linear in the accelerations; $𝐃$ is positive "
@@ -236,7 +228,6 @@ def task_inertia_steps(context: Context) -> Iterator[Step]:
     square = " = {transposed} 𝐃 𝐉_r⁻¹" if rows == columns else ""
     yield Step(
         id="Lambda",
-        stage=Stage.TASK_INERTIA,
         title="The inertia matrix of the task",
         why=say(
             "A force $𝐅$ at the task acts on the joints as $𝐉_rᵀ 𝐅$, $𝐃⁻¹$ makes accelerations of that, and "

@@ -30,9 +30,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 
-STAGE = Stage.EQUILIBRIA
 _SOURCE = SLOTINE_LI.section("3.3")
 _DG = formula("∂𝐠/∂𝐪")
 
@@ -99,7 +97,6 @@ def _equilibria(context: Context) -> Iterator[Step]:
     passive = listed([Symbol(robot.coordinates[k].name) for k in robot.actions.passive])
     yield Step(
         id="equilibria",
-        stage=STAGE,
         title="Where nothing else moves" if steady else "Where nothing moves",
         why=say(
             "{which}{held}{given}",
@@ -156,7 +153,6 @@ def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -
     ]
     return Step(
         id="equilibria_stability",
-        stage=STAGE,
         title="How stable they are",
         why=why,
         source=SOURCE if steady else SLOTINE_LI.section("3.4"),
@@ -211,7 +207,6 @@ def _balance(context: Context) -> Step:
     g = equation(letters.G, context.form("g"))
     return Step(
         id="balance",
-        stage=STAGE,
         title="What balances gravity",
         why=say(
             "Multiplied out, $𝐠$ is a sum of what moves, each with a coefficient of parameters. It is what "
@@ -233,7 +228,9 @@ def _balance(context: Context) -> Step:
 
 
 def _skipped(name: str, value: Skipped) -> Step:
-    return Step(name, STAGE, "Not derived", (f"{value.why[0].upper()}{value.why[1:]}.",), detail=Detail.BRIEF)
+    return Step(
+        name, title="Not derived", why=(f"{value.why[0].upper()}{value.why[1:]}.",), detail=Detail.BRIEF
+    )
 
 
 def _state_matrix(context: Context) -> Step:
@@ -257,7 +254,6 @@ def _state_matrix(context: Context) -> Step:
     jumps = "Coulomb friction jumps where a rate changes its sign: it has no part in a linear model."
     return Step(
         id="linear_A",
-        stage=STAGE,
         title="The motion near the equilibrium",
         why=say(
             "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
@@ -289,7 +285,6 @@ def _input_matrix(context: Context) -> Step:
     ones = "is the identity matrix" if len(inputs) == robot.n else "has a 1 in the row of each, a column each"
     return Step(
         id="linear_B",
-        stage=STAGE,
         title="What the inputs do to it",
         why=say("A column for each input: {inputs}. $𝐒$ {ones}.", inputs=listed(inputs), ones=ones),
         formula=equation(letters.LINEAR_B, formula("[𝟎; 𝐃⁻¹ 𝐒]")),

@@ -41,7 +41,6 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Coordinate, JointType, Robot
@@ -145,7 +144,6 @@ def terms_step(context: Context) -> Iterator[Step]:
     header = ("torque or force" if len(types) > 1 else names[types.pop()], "term", "what it is")
     yield Step(
         id="terms",
-        stage=Stage.VECTORIZED,
         title="What the terms of the forces are",
         why=say(
             "A term{forces}{meanings}{twice}{units}",
@@ -243,7 +241,6 @@ def closing_step(context: Context) -> Step:
         result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
     return Step(
         id=ID,
-        stage=Stage.VECTORIZED,
         title="The dynamical model",
         why=_meanings(context),
         formula=equations_of_motion(context),

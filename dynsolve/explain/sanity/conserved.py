@@ -24,7 +24,6 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
 from dynsolve.robot.questions import Method
 
@@ -53,7 +52,6 @@ def _step(context: Context, energy: Line | None) -> Step | None:
     power = _of_power(context) if energy else ()
     return Step(
         id="conserved",
-        stage=Stage.VECTORIZED,
         title="Check: what is conserved",
         why=energy.by if energy else of_momenta,
         source=spong("7.1"),
@@ -206,7 +204,6 @@ def dependence_step(context: Context) -> Step | None:
     )
     return Step(
         id="dependence",
-        stage=Stage.VECTORIZED,
         title="Check: on what the inertia matrix depends",
         why=why,
         source=spong("7.2"),

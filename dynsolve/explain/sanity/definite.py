@@ -48,7 +48,6 @@ from dynsolve.notation.tree import (
     number,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 
 LONGEST = 60
 """The operations of a determinant up to which it is of use to a reader."""
@@ -69,7 +68,6 @@ def _step(context: Context, why: Prose, lines: tuple[Line, ...] = (), concluding
     has_parameters = bool(context.robot.parameters)
     return Step(
         id="definite",
-        stage=Stage.VECTORIZED,
         title="Check: the inertia matrix is positive definite",
         why=say("{assumed}{why}", assumed="Let all parameters be positive. " * has_parameters, why=why),
         source=spong("7.5.1"),

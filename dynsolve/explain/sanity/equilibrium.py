@@ -49,7 +49,6 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType
 
 
@@ -128,7 +127,6 @@ def told(
     """The step, by what is said before its lines and after them; its `outcome` may be what it says itself."""
     return Step(
         id="equilibrium",
-        stage=Stage.VECTORIZED,
         title="Check: where gravity is balanced",
         why=why,
         source=spong("7.2.3"),
@@ -611,7 +609,6 @@ def unloaded_step(context: Context) -> Step | None:
         why += say("{none}: {motion} changes no height. ", none=none, motion=motion) if none else ()
     return Step(
         id="unloaded",
-        stage=Stage.VECTORIZED,
         title=f"Check: {'a joint' if len(free) == 1 else 'joints'} that gravity does not load",
         why=why,
         source=spong("7.2.3"),

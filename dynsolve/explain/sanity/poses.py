@@ -34,7 +34,6 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Coordinate, Joint, JointType, Robot
 
 LONGEST = 40
@@ -71,7 +70,6 @@ def inertia_poses_step(context: Context) -> Step | None:
     )
     return Step(
         id="inertia_poses",
-        stage=Stage.VECTORIZED,
         title="Check: moments of inertia in simple poses",
         why=why,
         source=spong("7.2"),
@@ -255,7 +253,6 @@ def point_masses_step(context: Context) -> Step | None:
     moving = [body for body in robot.bodies if not values[f"Dv{body.name}"].is_zero]
     return Step(
         id="point_masses",
-        stage=Stage.VECTORIZED,
         title="Check: point masses",
         why=_why(context, moving),
         formula=equation(letters.D_POINTS, sum_of([linear_name(context, body) for body in moving])),
