@@ -75,6 +75,8 @@ _MEANINGS: dict[Kind, str] = {
     "springs.",
 }
 
+_TWICE = " The 2 of a Coriolis term comes from two equal symbols{symbols}: $c_ijk + c_jik = 2 c_ijk$."
+
 
 @dataclass(frozen=True, slots=True)
 class Term:
@@ -149,20 +151,14 @@ def terms_step(context: Context) -> Iterator[Step]:
             "A term{forces}{meanings}{twice}{units}",
             forces=Reference(tuple(f"tau{q.index}" for q in robot.coordinates), " of "),
             meanings=" ".join(_MEANINGS[kind].format(holds=holds) for kind in Kind if kind in told),
-            twice=_twice(context) if Kind.CORIOLIS in kinds else "",
-            units=_said_of_units(robot.coordinates) if _units_fit(context, found) else "",
+            twice=say(_TWICE, symbols=equal_symbols(context)) if Kind.CORIOLIS in kinds else "",
+            units=_said_of_units(context, found),
         ),
         source=spong("7.3"),
         table=Table(header, tuple(row for q, terms in found for row in _rows(context, q, terms, whole))),
         detail=Detail.FULL,
         is_task=False,
     )
-
-
-def _twice(context: Context) -> Prose:
-    """Where the 2 of a Coriolis term comes from."""
-    text = " The 2 of a Coriolis term comes from two equal symbols{symbols}: $c_ijk + c_jik = 2 c_ijk$."
-    return say(text, symbols=equal_symbols(context))
 
 
 def _rows(
@@ -196,23 +192,18 @@ def _written_whole(context: Context, terms: Sequence[Term]) -> frozenset[int]:
 # -- units -----------------------------------------------------------------------------------------
 
 
-def _units_fit(context: Context, found: list[tuple[Coordinate, list[Term]]]) -> bool:
-    """Whether every term is known to have the unit of its force."""
+def _said_of_units(context: Context, found: list[tuple[Coordinate, list[Term]]]) -> Prose:
+    """That every term has the unit of its force, where all units are known."""
     known = Dimensions(context.robot.ring, context.robot)
-    for q, terms in found:
-        wanted = units.ENERGY if q.type is JointType.REVOLUTE else units.FORCE
-        if any(known.of(value_of_term(context, term)) != wanted for term in terms):
-            return False
-    return True
-
-
-def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
-    kinds = {q.type for q in coordinates}
-    said: list[Prose] = []
-    if JointType.REVOLUTE in kinds:
-        said.append((units.node("kg m^2/s^2 = N m"), " in a torque (an angle is a number)"))
-    if JointType.PRISMATIC in kinds:
-        said.append((units.node("kg m/s^2 = N"), " in a force"))
+    of_type = {JointType.REVOLUTE: units.ENERGY, JointType.PRISMATIC: units.FORCE}
+    if any(known.of(value_of_term(context, term)) != of_type[q.type] for q, terms in found for term in terms):
+        return ()
+    written = {
+        JointType.REVOLUTE: ("kg m^2/s^2 = N m", " in a torque (an angle is a number)"),
+        JointType.PRISMATIC: ("kg m/s^2 = N", " in a force"),
+    }
+    types = {q.type for q, _ in found}
+    said = [(units.node(unit), where) for kind, (unit, where) in written.items() if kind in types]
     return say(" Each term has the unit of its force: {units}.", units=listed(said))
 
 
@@ -222,10 +213,10 @@ def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
 ID = "model"
 """The closing step; reports show it in their last section, with what it is made of."""
 
-
-_HELD = formula("𝐀_cᵀ 𝛌")
 WIDEST = 84
 """The characters up to which matrices are written out in the equation; wider ones stand by themselves."""
+
+_HELD = formula("𝐀_cᵀ 𝛌")
 
 
 def closing_step(context: Context) -> Step:
@@ -295,9 +286,7 @@ def driving_row(context: Context, q: Coordinate) -> Node:
 
 def moving_side(context: Context) -> Sum:
     """D q̈ + C q̇ + g, and friction."""
-    side = formula(
-        "𝐃 𝐪̈ + 𝐂 𝐪̇ + {friction} + 𝐠" if has_friction(context) else "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠", friction=letters.FRICTION
-    )
+    side = formula("𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝛕_f + 𝐠" if has_friction(context) else "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠")
     assert isinstance(side, Sum)
     return side
 
@@ -325,9 +314,7 @@ def _meanings(context: Context) -> Prose:
     return say(
         "$𝐃 𝐪̈$ are the inertial terms, $𝐂 𝐪̇$ the Coriolis and centrifugal ones, {friction}$𝐠$ those of "
         "gravity{springs}.{outside}{held}{passive}",
-        friction=say("{letter} those of friction, ", letter=letters.FRICTION)
-        if has_friction(context)
-        else "",
+        friction=say("$𝛕_f$ those of friction, ") if has_friction(context) else "",
         springs=" and springs" if robot.actions.springs else "",
         outside=say(" $𝐐$ are the forces from outside.") if robot.questions.loads else "",
         held=say(" $𝐀_cᵀ 𝛌$ are the forces of the constraints.") if robot.questions.constraints else "",

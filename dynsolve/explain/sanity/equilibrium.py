@@ -400,7 +400,8 @@ def equilibrium_step(context: Context) -> Step | None:
         return told(_everywhere(context))
     if (nowhere := rests_nowhere(context)) is not None:
         return nowhere
-    if _slides(context):
+    lengths = (k for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC)
+    if any(not robot.ring.diff(context.values["P"], k).is_zero for k in lengths):
         return at_one_length(context)
     zero = _balanced(context)
     return (_all_poses(context, zero) or _extrema(context, zero)) if zero else None
@@ -557,7 +558,12 @@ def _is_vertical(context: Context, pose: Pose) -> bool:
 
 def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
     """The poses in which P surely has a minimum or a maximum."""
-    found = [(pose, kind) for pose in zero if (kind := _kind(context, pose)) in (Kind.MINIMUM, Kind.MAXIMUM)]
+    found = [
+        (pose, kind)
+        for pose in zero
+        if (kind := kind_of(signs_of(context, leading_minors(context, list(pose)), pose)))
+        in (Kind.MINIMUM, Kind.MAXIMUM)
+    ]
     if not found:
         return None
     rows = [(side_by_side(written_pose(pose)), *_told(context, pose, kind)) for pose, kind in found]
@@ -571,11 +577,6 @@ def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
     return told(why, table=Table(("pose", *_HEADER), tuple(rows)), outcome=outcome)
 
 
-def _kind(context: Context, pose: Pose) -> Kind | None:
-    """What P has in a pose of quarter turns."""
-    return kind_of(signs_of(context, leading_minors(context, list(pose)), pose))
-
-
 def _balanced(context: Context) -> list[Pose]:
     """The poses of quarter turns in which g is zero."""
     g = context.values["g"].entries
@@ -583,13 +584,6 @@ def _balanced(context: Context) -> list[Pose]:
     if not names:
         return []
     return [pose for pose in poses(names, QUARTER_TURNS) if all(at(x.ring, x, pose).is_zero for x in g)]
-
-
-def _slides(context: Context) -> bool:
-    """Whether a length among the coordinates changes the potential energy."""
-    robot, P = context.robot, context.values["P"]
-    lengths = (k for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC)
-    return any(not robot.ring.diff(P, k).is_zero for k in lengths)
 
 
 # -- joints that gravity does not load: their axes are vertical, or they slide level ---------------

@@ -34,7 +34,7 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body, Coordinate, Joint, JointType, Robot
+from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 
 LONGEST = 40
 """The operations up to which a moment of inertia is of use to a reader."""
@@ -49,7 +49,7 @@ def inertia_poses_step(context: Context) -> Step | None:
     if not shown:
         return None
     names = listed([letters.entry("d", q.index, q.index) for q in shown])
-    moved = [_joint(context, q) for q in shown]
+    moved = [context.robot.joints_of(q)[0][0] for q in shown]
     after = [j.index for j in context.robot.joints if j.type and j.index > moved[0].index]
     following = f"joint {after[0]}" if len(after) == 1 else "the joints after it"
     one = len(shown) == 1
@@ -84,32 +84,23 @@ def inertia_poses_step(context: Context) -> Step | None:
     )
 
 
-def _joint(context: Context, q: Coordinate) -> Joint:
-    """The first joint that a coordinate moves."""
-    return next(j for j in context.robot.joints if any(k == q.index - 1 for k, _ in j.rates))
-
-
-def _turns_one_joint(context: Context, q: Coordinate) -> bool:
-    moved = context.robot.joints_of(q)
-    return len(moved) == 1 and moved[0][0].type is JointType.REVOLUTE and abs(moved[0][1]) == 1
-
-
 def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
     """The poses that differ, each with the entry of the diagonal; none where one is too long."""
     value, ring = context.values["D"][q.index - 1, q.index - 1], context.robot.ring
     names = turning_in(context.robot, value)
-    if not names or len(names) > MOST_ANGLES or not _turns_one_joint(context, q):
+    moved = context.robot.joints_of(q)
+    turns_one = len(moved) == 1 and moved[0][0].type is JointType.REVOLUTE and abs(moved[0][1]) == 1
+    if not names or len(names) > MOST_ANGLES or not turns_one:
         return
-    found: list[tuple[Expr, Pose]] = []
-    for pose in _simple(names):
-        there = at(ring, value, pose)
-        if there not in [known for known, _ in found]:
-            found.append((there, pose))
-    forms = [context.show(there) for there, _ in found]
+    straight: Pose = dict.fromkeys(names, 0)
+    found: dict[Expr, Pose] = {}
+    for simple in (straight, *({**straight, name: angle} for name in names for angle in (90, 180))):
+        found.setdefault(at(ring, value, simple), simple)
+    forms = [context.show(there) for there in found]
     if max(map(cost, forms)) > LONGEST:
         return
     name = letters.entry("d", q.index, q.index)
-    for form, (there, pose) in zip(forms, found, strict=True):
+    for form, (there, pose) in zip(forms, found.items(), strict=True):
         if there.is_number and not context.robot.parameters:
             values = [_summed(context, q, pose), measured(form, "kg m²")]
         else:
@@ -155,14 +146,6 @@ def _mass_at_a_distance(context: Context, body: Body, k: int, pose: Pose) -> Nod
         Power(context.show(ring.constant(abs(part.number))), Number(2)) for part in along if not part.is_zero
     ]
     return Product((context.show(body.mass), sum_of(squares)))
-
-
-def _simple(names: Sequence[str]) -> Iterator[Pose]:
-    """All angles 0; one of them at 90° or 180°, the others 0."""
-    rest = dict.fromkeys(names, 0)
-    yield rest
-    for name in names:
-        yield from ({**rest, name: value} for value in (90, 180))
 
 
 # -- poses: some joint angles at so many degrees, mostly quarter turns, everything else as it was --
