@@ -5,10 +5,12 @@ Nothing is collected or simplified afterwards; that is the next line's work.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from itertools import product
+from math import prod
 
 from dynsolve.notation.build import factors_of, negated, split_sign, times, total
 from dynsolve.notation.tree import (
@@ -66,6 +68,7 @@ def differentiated(node: Node, rule: Rule, *, decimal: bool = False) -> Differen
 class _Worker:
     def __init__(self, rule: Rule, decimal: bool) -> None:
         self.rule = rule
+        self.times = partial(product_of, decimal=decimal)
         self.decimal = decimal
         self.by_product_rule = False
 
@@ -81,19 +84,16 @@ class _Worker:
                 return self.derivative(argument)
             case Product(factors):
                 return self._product(factors)
-            case Quotient(numerator, denominator):
-                if self._is_fixed(denominator):
-                    slope = self.derivative(numerator)
-                    cancelled = divided(slope, denominator)
-                    return cancelled or self._times(1, (slope, 1), (denominator, -1))
+            case Quotient(numerator, denominator) if self._is_fixed(denominator):
+                slope = self.derivative(numerator)
+                return divided(slope, denominator) or self.times(1, [(slope, 1), (denominator, -1)])
             case Power(base, Number(p, 1)):
                 slope = self.derivative(base)
                 self.by_product_rule |= slope not in (ZERO, ONE) and not isinstance(base, Symbol)
-                return ZERO if slope == ZERO else self._times(p, (base, p - 1), (slope, 1))
-            case Function("sin", argument):
-                return self._times(1, (Function("cos", argument), 1), (self.derivative(argument), 1))
-            case Function("cos", argument):
-                return self._times(-1, (Function("sin", argument), 1), (self.derivative(argument), 1))
+                return ZERO if slope == ZERO else self.times(p, [(base, p - 1), (slope, 1)])
+            case Function("sin" | "cos" as name, argument):
+                other, sign = ("cos", 1) if name == "sin" else ("sin", -1)
+                return self.times(sign, [(Function(other, argument), 1), (self.derivative(argument), 1)])
         if self._is_fixed(node):
             return ZERO
         raise TypeError(f"no derivative of {type(node).__name__}")
@@ -109,10 +109,8 @@ class _Worker:
             cancelled = self._divided(slopes[1], denominator)
             if cancelled is not None:
                 return cancelled
-        return total([
-            self._times(1, *((slopes[k] if j == k else factor, 1) for j, factor in enumerate(factors)))
-            for k in varying
-        ])  # fmt: skip
+        changed = [[*factors[:k], slopes[k], *factors[k + 1 :]] for k in varying]
+        return total([self.times(1, [(factor, 1) for factor in each]) for each in changed])
 
     def _divided(self, slope: Node, denominator: Node) -> Node | None:
         """A slope over a number: of decimals each term, 0.48 s₂ as 0.24 s₂."""
@@ -121,9 +119,6 @@ class _Worker:
         part = 1 / Fraction(denominator.p, denominator.q)
         terms = slope.terms if isinstance(slope, Sum) else (slope,)
         return total([times(part, [(term, 1)], decimal=True) for term in terms])
-
-    def _times(self, coefficient: int, *factors: tuple[Node, int]) -> Node:
-        return product_of(coefficient, factors, decimal=self.decimal)
 
 
 def product_of(
@@ -233,19 +228,18 @@ def _expanded(node: Product, decimal: bool) -> Node:
     sums = [factor for factor in node.factors if isinstance(factor, Sum) and is_trigonometric(factor)]
     if len(sums) < 2:
         return node
-    terms = [in_order(chosen, decimal) for chosen in product(*(each.terms for each in sums))]
+    whole = total([_in_order(chosen, decimal) for chosen in product(*(each.terms for each in sums))])
     first = node.factors.index(sums[0])
-    before = tuple(factor for factor in node.factors[:first])
-    after = tuple(factor for factor in node.factors[first:] if factor not in sums)
-    return Product((*before, total(terms), *after)) if before or after else total(terms)
+    others = [factor for factor in node.factors[first:] if factor not in sums]
+    factors = (*node.factors[:first], whole, *others)
+    return Product(factors) if len(factors) > 1 else whole
 
 
-def in_order(terms: tuple[Node, ...], decimal: bool) -> Node:
+def _in_order(terms: tuple[Node, ...], decimal: bool) -> Node:
     """The product of some terms, its sign in front: symbols, then sines, then cosines, then sums."""
     signs, bare = zip(*map(split_sign, terms), strict=True)
-    factors = [factor for term in bare for factor in (term.factors if isinstance(term, Product) else (term,))]
-    found = product_of(1, [(factor, 1) for factor in sorted(factors, key=_place_in_term)], decimal=decimal)
-    return negated(found) if signs.count(-1) % 2 else found
+    factors = sorted((factor for term in bare for factor in factors_of(term)), key=_place_in_term)
+    return product_of(prod(signs), [(factor, 1) for factor in factors], decimal=decimal)
 
 
 def _place_in_term(factor: Node) -> tuple[int, str]:
@@ -272,28 +266,23 @@ def by_rates(node: Node, *, decimal: bool = False) -> Node:
     beside: dict[tuple[Node, ...], dict[Factors, Fraction]] = {}
     for term in _terms_of_rates(node):
         sign, bare = split_sign(term)
-        factors = [pair for factor in factors_of(bare) for pair in _over_its_denominator(factor)]
-        moving = tuple(sorted((factor for factor, _ in factors if has_rates(factor)), key=_place_of_rate))
-        number, still = _number_and_factors(pair for pair in factors if not has_rates(pair[0]))
-        counts = beside.setdefault(moving, {})
-        counts[still] = counts.get(still, Fraction(0)) + sign * number
-    ordered = sorted(beside, key=lambda moving: not any(_is_acceleration(part) for part in moving))
-    brackets = {
-        key: total([product_of(n, still, decimal=decimal) for still, n in beside[key].items() if n])
-        for key in ordered
-    }
-    return total([product_of(1, [(brackets[key], 1), *((part, 1) for part in key)]) for key in ordered])
-
-
-def _number_and_factors(pairs: Iterable[tuple[Node, int]]) -> tuple[Fraction, Factors]:
-    """The numbers among some factors as one, and the others."""
-    number, others = Fraction(1), []
-    for node, exponent in pairs:
-        if isinstance(node, Number):
-            number *= Fraction(node.p, node.q) ** exponent
-        else:
-            others.append((node, exponent))
-    return number, tuple(others)
+        number, moving, still = Fraction(sign), list[Node](), list[tuple[Node, int]]()
+        for factor, exponent in _flattened(bare, 1):
+            if isinstance(factor, Number):
+                number *= Fraction(factor.p, factor.q) ** exponent
+            elif has_rates(factor):
+                moving += [factor] * exponent
+            else:
+                still.append((factor, exponent))
+        counts = beside.setdefault(tuple(sorted(moving, key=_place_of_rate)), {})
+        counts[tuple(still)] = counts.get(tuple(still), Fraction(0)) + number
+    times = partial(product_of, decimal=decimal)
+    in_order = sorted(beside, key=lambda moving: not any(_place_of_rate(part)[0] > 1 for part in moving))
+    sums = []
+    for key in in_order:
+        bracket = total([times(n, still) for still, n in beside[key].items() if n])
+        sums.append(times(1, [(bracket, 1), *((part, 1) for part in key)]))
+    return total(sums)
 
 
 def _terms_of_rates(node: Node) -> Iterator[Node]:
@@ -314,19 +303,9 @@ def _terms_of_rates(node: Node) -> Iterator[Node]:
         case Product(factors):
             parts = [list(_terms_of_rates(factor)) if has_rates(factor) else [factor] for factor in factors]
             for chosen in product(*parts):
-                signs, bare = zip(*map(split_sign, chosen), strict=True)
-                merged = product_of(1, [(factor, 1) for factor in bare])
-                yield negated(merged) if signs.count(-1) % 2 else merged
+                yield product_of(1, [(factor, 1) for factor in chosen])
         case _:
             yield node
-
-
-def _over_its_denominator(factor: Node) -> list[tuple[Node, int]]:
-    """The factors of a fraction with their exponents, so that rates above its line stand for themselves."""
-    match factor:
-        case Quotient(numerator, denominator):
-            return [*((each, 1) for each in factors_of(numerator)), (denominator, -1)]
-    return [(factor, 1)]
 
 
 def sums_of_rates(node: Node) -> set[Node]:
@@ -344,10 +323,6 @@ def brackets(node: Node) -> set[Node]:
 def has_rates(node: Node) -> bool:
     """Whether a rate or an acceleration stands in a tree."""
     return any(isinstance(part, Symbol) and part.dots for part in walk(node))
-
-
-def _is_acceleration(node: Node) -> bool:
-    return any(isinstance(part, Symbol) and part.dots > 1 for part in walk(node))
 
 
 def _place_of_rate(factor: Node) -> tuple[int, str]:
