@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
@@ -27,23 +26,15 @@ from dynsolve.explain.writing import (
     turns,
 )
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import (
-    Node,
-    Product,
-    Sum,
-    Symbol,
-)
+from dynsolve.notation.tree import Node, Product, Sum, Symbol
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Method
 
 STAGE = Stage.VECTORIZED
 
 LONGEST_IN_PARTS = 150
 """Up to this number of terms in D its parts are shown too."""
-
-_I = Symbol("i")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -74,11 +65,10 @@ def steps(context: Context) -> Iterator[Step]:
     yield closing_step(context)
 
 
-def _names(context: Context, letter: str) -> tuple[tuple[Node, ...], ...]:
-    return letters.entries(letter, context.robot.n)
-
-
 def _inertia(context: Context) -> Step:
+    robot, n, D = context.robot, context.robot.n, context.values["D"]
+    is_diagonal = n > 1 and all(D[i, j].is_zero for i in range(n) for j in range(n) if i != j)
+    forces = listed([letters.force(q) for q in robot.coordinates])
     return Step(
         id="D",
         stage=STAGE,
@@ -86,31 +76,20 @@ def _inertia(context: Context) -> Step:
         why=say(
             "Entry $d_ij$ is the factor of the acceleration $q̈_j$ in the generalized force $τ_i${entries}. "
             "$𝐃$ is symmetric, and may depend on the coordinates, but on no rate.{diagonal}",
-            entries=_entries_of_forces(context.robot),
+            entries=()
+            if all(map(turns, robot.coordinates))
+            else say(", entry $i$ of $𝛕$ ({forces})", forces=forces),
             diagonal=" Here it is diagonal: no acceleration enters the force of another coordinate."
-            if _is_diagonal(context)
+            if is_diagonal
             else "",
         ),
         formula=formula("d_ij = ∂τ_i/∂q̈_j"),
         source=f"from {spong('7.3')}",
         result=(formula("𝐃 = {D}", D=context.form("D")),),
         uses=_forces(context),
-        entries=_names(context, "d"),
+        entries=letters.entries("d", n),
         detail=Detail.BRIEF,
     )
-
-
-def _is_diagonal(context: Context) -> bool:
-    """Whether several coordinates move, none of which is coupled with another."""
-    n, D = context.robot.n, context.values["D"]
-    return n > 1 and all(D[i, j].is_zero for i in range(n) for j in range(n) if i != j)
-
-
-def _entries_of_forces(robot: Robot) -> Prose:
-    """What τ_i is where some generalized forces are called f_i."""
-    if all(turns(q) for q in robot.coordinates):
-        return ()
-    return say(", entry $i$ of $𝛕$ ({names})", names=listed([letters.force(q) for q in robot.coordinates]))
 
 
 def _from_energies(context: Context) -> bool:
@@ -125,17 +104,21 @@ def _forces(context: Context) -> tuple[str, ...]:
 
 def _rest(context: Context) -> Step:
     """The forces without the terms of accelerations: C q̇ + g."""
-    values = context.values
+    values, from_energies = context.values, _from_energies(context)
     has_friction = "friction" in values.rules
     acting = driving_side(context)
     left = [*(acting.terms if isinstance(acting, Sum) else (acting,)), formula("-𝐃 𝐪̈")]
+    what_is_left = (
+        "What is left of the forces without the accelerations: the terms with rates {are_C}; the others, "
+        "which remain when the {machine} is at rest, are $𝐠$.{no_rates}{no_rest}{friction}"
+    )
     return Step(
         id="Cqd",
         stage=STAGE,
         title="Coriolis, centrifugal and gravity terms, read off",
         why=say(
-            "What is left of the forces without the accelerations: the terms with rates are $𝐂 𝐪̇$; the "
-            "others, which remain when the {machine} is at rest, are $𝐠$.{no_rates}{no_rest}{friction}",
+            what_is_left,
+            are_C=say("are $𝐂 𝐪̇$"),
             machine=context.machine,
             no_rates=" No term has rates here." if values["Cqd"].is_zero else "",
             no_rest=" No term remains at rest here." if values["g"].is_zero else "",
@@ -144,13 +127,11 @@ def _rest(context: Context) -> Step:
         formula=formula("𝐂 𝐪̇ + 𝐠 = {left}", left=sum_of([*left, *([formula("-𝛕_f")] * has_friction)])),
         source=spong("7.3"),
         result=(formula("𝐂 𝐪̇ = {Cqd}", Cqd=context.form("Cqd")), formula("𝐠 = {g}", g=context.form("g"))),
-        also=() if _from_energies(context) else ("g",),  # from the energies a step of its own gives g
+        also=() if from_energies else ("g",),  # from the energies a step of its own gives g
         uses=(*_forces(context), "D"),
-        detail=Detail.FULL if _from_energies(context) else Detail.NORMAL,
+        detail=Detail.FULL if from_energies else Detail.NORMAL,
         hint=say(
-            "What is left of the forces without the accelerations: the terms with rates belong to C, the "
-            "others, which remain when the {machine} is at rest, are $𝐠$.",
-            machine=context.machine,
+            what_is_left, are_C="belong to C", machine=context.machine, no_rates="", no_rest="", friction=""
         ),
     )
 
@@ -159,11 +140,12 @@ def _inertia_direct(context: Context) -> Step:
     robot = context.robot
     added = counted_sum(
         formula("(m_i 𝐉_v_iᵀ 𝐉_v_i + 𝐉_ω_iᵀ 𝓘_i 𝐉_ω_i)"),
-        _I,
+        Symbol("i"),
         len(robot.bodies),
         {formula("m_i"): context.mass(body) for body in robot.bodies[:1]},
     )
     same = context.values["D"] == context.values["D_direct"]
+    names = and_joined([body.name for body in robot.bodies])
     terms: list[Node] = []
     for body in robot.bodies:
         terms += [linear_name(context, body), *(() if body.is_point else (angular_name(body),))]
@@ -175,13 +157,15 @@ def _inertia_direct(context: Context) -> Step:
         why=say(
             "Without the Lagrangian: with $𝐯_i = 𝐉_v_i 𝐪̇$ and $𝛚_i = 𝐉_ω_i 𝐪̇$ the kinetic energy is "
             "$𝒦 = ½ 𝐪̇ᵀ 𝐃 𝐪̇$, where $𝐃$ is a sum over the bodies{names}.{points}{rotors}{same}",
-            names=_named_otherwise(robot),
+            names="" if are_counted(robot.bodies) else f" {names}, counted in this order",
             points=" A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             rotors=say(" The rotors add $𝐃_m$.") if rotors else "",
             same=""
             if _sum(context)
             else say(
-                " The sum is the same $𝐃$, entry by entry." if same else " The sum is not the same $𝐃$."
+                " The sum is {the} $𝐃${each}.",
+                the="the same" if same else "not the same",
+                each=", entry by entry" if same else "",
             ),
         ),
         formula=formula("𝐃 = {sum}", sum=sum_of([added, *rotors])),
@@ -202,12 +186,6 @@ def _sum(context: Context) -> tuple[Step, ...]:
     return () if step is None else (step,)
 
 
-def _named_otherwise(robot: Robot) -> str:
-    """Which bodies there are, where they are not called 1, 2, ..., as a sum counts them."""
-    names = [body.name for body in robot.bodies]
-    return "" if are_counted(robot.bodies) else f" {and_joined(names)}, counted in this order"
-
-
 def _is_short(context: Context) -> bool:
     """Whether D is short enough for its parts to be of use to a reader."""
     return sum(len(entry) for entry in context.values["D"].entries) <= LONGEST_IN_PARTS
@@ -218,10 +196,16 @@ def _is_short(context: Context) -> bool:
 
 def _coriolis(context: Context) -> Step:
     rate = formula("q̇_i")
-    by_symbols = sum_over_coordinates(formula("c_ijk {rate}", rate=rate), _I, context.robot)
-    by_slopes = sum_over_coordinates(Product((SLOPES, rate)), _I, context.robot)
+    by_symbols = sum_over_coordinates(formula("c_ijk {rate}", rate=rate), Symbol("i"), context.robot)
+    by_slopes = sum_over_coordinates(Product((SLOPES, rate)), Symbol("i"), context.robot)
     n, is_none = context.robot.n, context.values["C"].is_zero
-    compared = _from_energies(context) and coriolis_rows(context)  # row by row, in a step of its own
+    others = (
+        "Other matrices $𝐂$ give the same $𝐂 𝐪̇$, which is all that the equations of motion fix. This choice "
+        "makes {skew} skew-symmetric."
+    )
+    outcome = " There are none here." if is_none else " Multiplied out, it is the one read off above."
+    if not is_none and _from_energies(context) and coriolis_rows(context):
+        outcome = ""  # they are compared row by row, in a step of its own
     return Step(
         id="C",
         stage=STAGE,
@@ -229,11 +213,7 @@ def _coriolis(context: Context) -> Step:
         why=say(
             "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
             coriolis=" and the Coriolis terms (a product of two rates)" if n > 1 else "",
-            outcome=" There are none here."
-            if is_none
-            else ""
-            if compared
-            else " Multiplied out, it is the one read off above.",
+            outcome=outcome,
         ),
         formula=formula("c_kj = {symbols} = ½ {slopes}", symbols=by_symbols, slopes=by_slopes),
         source=spong("7.3"),
@@ -243,16 +223,8 @@ def _coriolis(context: Context) -> Step:
             "Row $k$, column $j$: a sum over $i$. Multiplied by the rates it must give what you read off "
             "from the forces."
         ),
-        entries=_names(context, "c"),
-        notes=()
-        if is_none or n == 1
-        else (
-            say(
-                "Other matrices $𝐂$ give the same $𝐂 𝐪̇$, which is all that the equations of motion fix. This "
-                "choice makes {skew} skew-symmetric.",
-                skew=SKEW,
-            ),
-        ),
+        entries=letters.entries("c", n),
+        notes=() if is_none or n == 1 else (say(others, skew=SKEW),),
         detail=Detail.BRIEF,
     )
 
