@@ -51,10 +51,7 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
-
-STAGE = Stage.ENERGY
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -106,7 +103,6 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     way = summed(context, [*(name + body.name for body in bodies), *acting], name, letter)
     return Step(
         id=name,
-        stage=STAGE,
         title=f"Total {kind} energy",
         why=say(
             "{bodies}{others}.{points}",
@@ -155,7 +151,6 @@ def _jacobians(context: Context, body: Body) -> Step:
     results += [] if body.is_point else [equation(J_w, context.form(f"Jw{b}"))]
     step = Step(
         id=f"Jv{b}",
-        stage=STAGE,
         title=f"Jacobian{'s' * bool(turning)} of the mass centre of {name_of(body)}",
         why=say(
             "As for {end}, but for the mass centre{late}.{zero}",
@@ -235,7 +230,6 @@ def _velocities(context: Context, body: Body) -> Step:
     moves = not context.values[f"Jv{b}"].is_zero
     return Step(
         id=f"v{b}",
-        stage=STAGE,
         title=f"Velocity of {name_of(body)}",
         why=(f"The Jacobian{'s' * (not body.is_point)} times the rates of the coordinates.",),
         formula=side_by_side(formulas),
@@ -263,7 +257,6 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
     afresh = way.frame is not None
     return Step(
         id=f"Kv{b}",
-        stage=STAGE,
         title=f"Translational kinetic energy of {name_of(body)}",
         why=(why,),
         formula=formula(
@@ -302,7 +295,6 @@ def _kinetic(context: Context, body: Body) -> Step:
     way = summed(context, (f"Kv{b}", f"Kw{b}"), f"K{b}", K, stand_above=True)
     return Step(
         id=f"K{b}",
-        stage=STAGE,
         title=f"Kinetic energy of {name_of(body)}",
         why=("The sum of the translational and the rotational part.",),
         formula=formula("K_{i} = K_v_{i} + K_ω_{i}", i=letters.index_of(b)),
@@ -319,7 +311,6 @@ def _rotational(context: Context, body: Body) -> Step:
     Kw, w = letters.energy_part("omega", body), letters.of_body("omega", body, "bold")
     step = Step(
         id=f"Kw{b}",
-        stage=STAGE,
         title=f"Rotational kinetic energy of {name_of(body)}",
         source=spong("7.2"),
         normal=STATED,

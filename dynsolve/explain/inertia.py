@@ -44,11 +44,8 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body
 from dynsolve.robot.shapes import MASS
-
-STAGE = Stage.INERTIA
 
 _SOURCES = {
     "box": spong("7.2.1"),
@@ -82,7 +79,6 @@ def _of_extent(context: Context, body: Body, tells: bool) -> Iterator[Step]:
     if body.is_point:
         yield Step(
             id=f"I{body.name}",
-            stage=STAGE,
             title=f"Inertia of {name_of(body)}",
             why=(
                 "A point mass has no extent, so its tensor about its own mass centre is zero and it has no "
@@ -123,7 +119,6 @@ def _tensor(context: Context, body: Body) -> Step:
         )
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
-        stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in its own frame",
         why=why,
         formula=moments,
@@ -266,7 +261,6 @@ def _parallel_axis(context: Context, body: Body) -> Step:
     offset = relative.T @ (body.center - body.about_point)
     return Step(
         id=f"I_body{b}",
-        stage=STAGE,
         title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
         why=(
             "The given tensor is about another point, but the kinetic energy needs the one about the mass "
@@ -300,7 +294,6 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
     is_unneeded = _is_kept(context, body) and f"R{body.name}" not in context.wanted
     return Step(
         id=f"R{body.name}",
-        stage=STAGE,
         title=f"Orientation of {name_of(body)}",
         why=why,
         formula=None if product is None else equation(R, product),
@@ -380,7 +373,6 @@ def _base_tensor(context: Context, body: Body) -> Step:
         why = f"{{leads}} {below}{{turning}}"
     return Step(
         id=f"I{b}",
-        stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=say(
             why,

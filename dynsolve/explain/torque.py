@@ -15,10 +15,7 @@ from dynsolve.explain.writing import listed, spong, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Negative, Symbol, equation, number
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType
-
-STAGE = Stage.TORQUE
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -42,7 +39,7 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     if i - 1 in context.robot.actions.passive:
         why = say("{why}{gap}{driven}", why=why, gap=" " if why else "", driven=driven)
     group = Group(f"tau{i}", f"Coordinate {i}", why)
-    step = partial(Step, stage=STAGE, source=spong("7.1"), group=group, normal=STATED)
+    step = partial(Step, source=spong("7.1"), group=group, normal=STATED)
     by_rate = formula("∂ℒ/∂{rate}", rate=letters.velocity(q))
     by_coordinate = formula("∂ℒ/∂{q}", q=Symbol(q.name))
     yield step(
@@ -153,14 +150,11 @@ def _driven_by(context: Context, q: Coordinate) -> Prose:
 
 # -- the step to the Lagrangian --------------------------------------------------------------------
 
-STAGE_OF_LAGRANGIAN = Stage.LAGRANGIAN
-
 
 def lagrangian_steps(context: Context) -> Iterator[Step]:
     """L = K - P"""
     yield Step(
         id="L",
-        stage=STAGE_OF_LAGRANGIAN,
         title="Kinetic minus potential energy",
         why=("The one function from which every equation of motion follows.",),
         formula=formula("ℒ = 𝒦 - 𝒫"),

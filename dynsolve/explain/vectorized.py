@@ -28,10 +28,7 @@ from dynsolve.explain.writing import (
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Product, Sum, Symbol
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.questions import Method
-
-STAGE = Stage.VECTORIZED
 
 LONGEST_IN_PARTS = 150
 """Up to this number of terms in D its parts are shown too."""
@@ -71,7 +68,6 @@ def _inertia(context: Context) -> Step:
     forces = listed([letters.force(q) for q in robot.coordinates])
     return Step(
         id="D",
-        stage=STAGE,
         title="The inertia matrix, read off from the forces",
         why=say(
             "Entry $d_ij$ is the factor of the acceleration $q̈_j$ in the generalized force $τ_i${entries}. "
@@ -114,7 +110,6 @@ def _rest(context: Context) -> Step:
     )
     return Step(
         id="Cqd",
-        stage=STAGE,
         title="Coriolis, centrifugal and gravity terms, read off",
         why=say(
             what_is_left,
@@ -152,7 +147,6 @@ def _inertia_direct(context: Context) -> Step:
     rotors = (letters.DM,) if robot.actions.motors else ()
     return Step(
         id="D_direct",
-        stage=STAGE,
         title="The inertia matrix, assembled from the Jacobians",
         why=say(
             "Without the Lagrangian: with $𝐯_i = 𝐉_v_i 𝐪̇$ and $𝛚_i = 𝐉_ω_i 𝐪̇$ the kinetic energy is "
@@ -208,7 +202,6 @@ def _coriolis(context: Context) -> Step:
         outcome = ""  # they are compared row by row, in a step of its own
     return Step(
         id="C",
-        stage=STAGE,
         title="The Coriolis matrix, from the Christoffel symbols",
         why=say(
             "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
@@ -234,7 +227,6 @@ def _gravity(context: Context) -> Step:
     way = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
     return Step(
         id="g",
-        stage=STAGE,
         title=f"The {'gravity and spring' if springs else 'gravity'} terms, from the potential energy",
         why=say(
             "{way}{springs}{still}",

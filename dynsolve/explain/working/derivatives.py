@@ -38,6 +38,7 @@ from dynsolve.explain.working.identities import (
     identities,
     said,
 )
+from dynsolve.explain.working.squares import products_of_rates, rates_named
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
@@ -123,19 +124,10 @@ def cancelling(context: Context, q: Coordinate) -> Prose:
         return ()
     ring = context.robot.ring
     rate, slope = context.values[f"ddt{q.index}"], context.values[f"dLdq{q.index}"]
-    gone = (_rates(rate) & _rates(slope)) - _rates(rate - slope)
-    named = [
-        times(1, [(Symbol(name, 1), power) for name, power in sorted(rates)])
-        for first, second in combinations_with_replacement(ring.names, 2)
-        if (rates := frozenset({(first, 1), (second, 1)} if first != second else {(first, 2)})) in gone
-    ]
+    both = products_of_rates(ring, rate.poly) & products_of_rates(ring, slope.poly)
+    gone = both - products_of_rates(ring, (rate - slope).poly)
+    named = rates_named(ring, [product for product in gone if sum(product) == 2], by_name=True)
     return say("The terms with {named} cancel:", named=listed(named)) if named else ()
-
-
-def _rates(x: Expr) -> set[frozenset[tuple[str, int]]]:
-    """The products of rates that occur in an expression: each rate with its power."""
-    places = [(name, x.ring.symbol_indices[(name, 1)]) for name in x.ring.names]
-    return {frozenset((name, int(e[i])) for name, i in places if e[i]) for e in x.poly.to_dict()}
 
 
 def are_alike(left: Node, right: Node) -> bool:

@@ -165,38 +165,36 @@ def along_axes(context: Context, body: Body) -> Iterator[tuple[int | None, Matri
 def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     """The squares of some components, and these by the products of the rates, which become the result."""
     ring, components = context.robot.ring, [x for x in velocity.entries if not x.is_zero]
-    brackets = list(_by_rates(context, components))
-    found = [identities(ring, bracket, context.show(value)) or () for bracket, value, _ in brackets]
-    used = dict.fromkeys(identity for each in found for identity in each)
-    by_name = sorted(used, key=lambda identity: bool(identity.name))
-    sorted_out = total([product for _, _, product in brackets])
+    found = list(_by_rates(context, components))
+    sorted_out = total([whole for _, whole, _ in found])
     tactics: list[Tactic] = [
         ("The squares of its entries:", _sum_of_squares(context, components)),
         ("Multiplied out, and sorted by the products of the rates:", sorted_out),
     ]
-    if used:
-        return _chain(context, body, tactics, say("With {used}, and collected:", used=said(by_name)))
-    return _chain(context, body, tactics, collected(sorted_out, context.form(f"Kv{body.name}")))
+    used = [identities(ring, bracket, context.show(value)) or () for bracket, _, value in found]
+    if not any(used):
+        return _chain(context, body, tactics, collected(sorted_out, context.form(f"Kv{body.name}")))
+    each = dict.fromkeys(identity for some in used for identity in some)
+    by_name = sorted(each, key=lambda identity: bool(identity.name))
+    return _chain(context, body, tactics, say("With {used}, and collected:", used=said(by_name)))
 
 
-def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[Node, Expr, Node]]:
+def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[Node, Node, Expr]]:
     """Σ (a_k q̇_k)² as Σ a_k² q̇_k² and 2 Σ a_j a_k q̇_j q̇_k, the factors a as they stand.
 
-    What stands beside each product of rates, its value, and both together.
+    What stands beside each product of rates, with these, and its value.
     """
     for first, second in combinations_with_replacement(context.robot.coordinates, 2):
         slopes = [[factor_of_rate(x, q.name) for q in (first, second)] for x in components]
         pairs = [(a, b) for a, b in slopes if not (a.is_zero or b.is_zero)]
-        if not pairs:
-            continue
         value = sum((a * b for a, b in pairs), start=context.robot.ring.zero)
-        rates = [(letters.velocity(q), 1) for q in (first, second)]
         if first == second:
             bracket = sum_of([_square(context.show(a)) for a, _ in pairs])
-            yield bracket, value, times(1, [(bracket, 1), (letters.velocity(first), 2)])
+            whole = times(1, [(bracket, 1), (letters.velocity(first), 2)])
         else:
             bracket = total([times(1, [(context.show(x), 1) for x in pair]) for pair in pairs])
-            yield bracket, value, times(2, [(bracket, 1), *rates])
+            whole = times(2, [(bracket, 1), (letters.velocity(first), 1), (letters.velocity(second), 1)])
+        yield bracket, whole, value
 
 
 def _from_components(
@@ -324,11 +322,8 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
 def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) -> Prose:
     """Which products of two rates stand in single squares, and no longer in their sum."""
     ring = context.robot.ring
-    gone = {one for x in components for one in _products_of_rates(ring, x.poly * x.poly)}
-    found = [
-        Product(tuple(Symbol(name, 1) for name, power in zip(ring.names, one, strict=True) if power))
-        for one in sorted(gone - _products_of_rates(ring, total), reverse=True)
-    ]
+    gone = {one for x in components for one in products_of_rates(ring, x.poly * x.poly)}
+    found = rates_named(ring, gone - products_of_rates(ring, total))
     return say("; the terms with {found} cancel", found=listed(found)) if found else ()
 
 
@@ -411,7 +406,7 @@ def factor_of_rate(x: Expr, coordinate: str) -> Expr:
 
 def _separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[Expr]]:
     """(components whose squares share no product of rates with the others, all others)"""
-    rates = [_products_of_rates(ring, x.poly * x.poly) for x in components]
+    rates = [products_of_rates(ring, x.poly * x.poly) for x in components]
     alone: list[Expr] = []
     together: list[Expr] = []
     for k, x in enumerate(components):
@@ -420,10 +415,20 @@ def _separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[
     return alone, together
 
 
-def _products_of_rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
+def products_of_rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
     """The products of rates that occur, as exponents."""
     places = [ring.symbol_indices[(name, 1)] for name in ring.names]
     return {tuple(e[i] for i in places) for e in poly.to_dict()}
+
+
+def rates_named(ring: Ring, products: Iterable[tuple[int, ...]], *, by_name: bool = False) -> list[Node]:
+    """The products of rates of these exponents as formulas, the rates as the coordinates or by names."""
+    found: list[Node] = []
+    for one in sorted(products, reverse=True):
+        powers = [(name, power) for name, power in zip(ring.names, one, strict=True) if power]
+        in_order = sorted(powers) if by_name else powers
+        found.append(times(1, [(Symbol(name, 1), power) for name, power in in_order]))
+    return found
 
 
 def has_roots(x: Expr) -> bool:
