@@ -85,35 +85,26 @@ def steps(context: Context) -> Iterator[Step]:
 def _total(context: Context, name: str, kind: str, letter: Letter, others: list[Letter]) -> Step:
     """The energy of the bodies, and of the springs or rotors where there are any."""
     bodies = context.robot.bodies
-    parts, added = [letters.of_body(name, body) for body in bodies], Letter(name, Symbol("i"))
-    of_body, points = _of_body(context, name), [body.is_point for body in bodies]
+    parts, of_body = [letters.of_body(name, body) for body in bodies], _of_body(context, name)
     whole: Node = equation(letter, sum_of([*parts, *others]))
-    if len(bodies) > 1 and not (name == "P" and context.robot.gravity.is_zero):
-        if context.are_masses_counted:
-            sign, own = split_sign(of_body)
-            counted = counted_sum(own, Symbol("i"), len(bodies))
-            summed_up = counted if sign > 0 else Negative(counted)
-            whole = equation(letter, sum_of([*parts, *others]), sum_of([summed_up, *others]))
-        elif not are_counted(bodies):
-            whole = side_by_side([whole, equation(added, of_body)])
-        of_points = name == "K" and any(points) and not all(points)
-    else:
-        of_points = False
+    is_summed = len(bodies) > 1 and not (name == "P" and context.robot.gravity.is_zero)
+    if is_summed and context.are_masses_counted:
+        sign, own = split_sign(of_body)
+        counted = counted_sum(own, Symbol("i"), len(bodies))
+        added = [counted if sign > 0 else Negative(counted), *others]
+        whole = equation(letter, sum_of([*parts, *others]), sum_of(added))
+    elif is_summed and not are_counted(bodies):
+        whole = side_by_side([whole, equation(Letter(name, Symbol("i")), of_body)])
+    points = {body.is_point for body in bodies} if is_summed and name == "K" else set()
+    who = "That of the body" if others else "There is only one body"
+    who = "The sum over the bodies" if len(bodies) > 1 else who
+    who += f", and that of the {'springs' if name == 'P' else 'rotors'}" if others else ""
     acting = [name + ("s" if name == "P" else "m")] if others else []
     way = summed(context, [*(name + body.name for body in bodies), *acting], name, letter)
     return Step(
         id=name,
         title=f"Total {kind} energy",
-        why=say(
-            "{bodies}{others}.{points}",
-            bodies="The sum over the bodies"
-            if len(bodies) > 1
-            else "That of the body"
-            if others
-            else "There is only one body",
-            others=f", and that of the {'springs' if name == 'P' else 'rotors'}" if others else "",
-            points=" A point mass has no second term." if of_points else "",
-        ),
+        why=(f"{who}.{' A point mass has no second term.' if len(points) > 1 else ''}",),
         formula=whole,
         source=spong("7.2.3" if name == "P" else "7.2.2"),
         lines=way.lines,

@@ -25,9 +25,9 @@ from dynsolve.explain.working.differentiation import is_trigonometric
 from dynsolve.explain.working.identities import (
     Identity,
     Way,
-    equals,
     identities,
     products_cancel,
+    proved,
     pythagoras,
     said,
 )
@@ -141,20 +141,22 @@ def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> 
     ring = context.robot.ring
     pairs = [(row[i], row[j]) for row in rows if not (row[i].is_zero or row[j].is_zero)]
     value = sum((a * b for a, b in pairs), start=ring.zero)
-    products = _products(context, pairs, is_square=i == j)
-    result = context.show(value)
+    products, result = _products(context, pairs, is_square=i == j), context.show(value)
     used = identities(ring, products, result)
-    if used is None or not equals(products, value):
+    if used is None:
         return None
-    if not used or not _has_sums(products):
-        shown = _in_brackets(products) if i == j else products
-        return _Entry((i, j), shown, shown, used)
-    groups = squares.groups(context.forms, sum((a.poly * b.poly for a, b in pairs), start=ring.zero.poly))
-    if groups is None:
+    multiplied = products
+    if used and _has_sums(products):
+        found = squares.groups(context.forms, sum((a.poly * b.poly for a, b in pairs), start=ring.zero.poly))
+        if found is None:
+            return None
+        multiplied = sum_of([group.multiplied for group in found])
+        if are_alike(multiplied, products):
+            multiplied = products
+    elif i == j:
+        products = multiplied = _in_brackets(products)
+    if proved(value, [("", products), ("", multiplied)]) is None:
         return None
-    multiplied = sum_of([group.multiplied for group in groups])
-    if are_alike(multiplied, products):
-        multiplied = products
     return _Entry((i, j), products, multiplied, identities(ring, multiplied, result) or ())
 
 

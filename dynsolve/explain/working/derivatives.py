@@ -34,8 +34,8 @@ from dynsolve.explain.working.identities import (
     Way,
     by,
     chain,
-    equals,
     identities,
+    proved,
     said,
 )
 from dynsolve.explain.working.squares import products_of_rates, rates_named
@@ -80,9 +80,9 @@ def _derivative(context: Context, of: Node, rule: Rule, value: Expr, form: Node)
     """The derivative of a formula; its form alone where that is a look, or the lines are not proved."""
     decimal = is_numeric(context.robot)
     found = differentiated(of, rule, decimal=decimal)
-    if are_alike(found.tree, form) or not equals(found.tree, value):
-        return _Derivative(form, form, form)
     expanded = multiplied_out(found.tree, decimal=decimal)
+    if are_alike(found.tree, form) or proved(value, [("", found.tree), ("", expanded)]) is None:
+        return _Derivative(form, form, form)
     used = identities(value.ring, found.tree, form) or ()
     return _Derivative(found.tree, expanded, form, used, found.by_product_rule)
 

@@ -292,10 +292,10 @@ def _cosine_and_sine(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     return c, s
 
 
-# -- the engine of lines: each is proved equal to the value it claims before it is shown -----------
-# Every stage names its tactics, each with its words and the form it comes to; `chain` is the only way
-# by which they become lines: what it cannot prove in the ring is not said, and what a line repeats of
-# the one before it is left out.
+# -- the engine of lines ----------------------------------------------------------------------------
+# Every stage names its tactics, each with its words and the form it comes to.  A form is shown only if it
+# is `proved` to have the value it claims; what repeats an earlier one is left out.  `chain` makes the lines
+# to a scalar of them; entries of matrices that stand in one line are proved one by one.
 
 Tactic = tuple[str | Prose, Node]
 """What is done, in words, and the form of the value that it gives."""
@@ -325,6 +325,16 @@ def equals(tree: Node, value: Expr) -> bool:
         return False
 
 
+def proved(value: Expr, tactics: Iterable[Tactic]) -> dict[Node, str | Prose] | None:
+    """The forms that the tactics come to, each once with its words, if all have the value; else None."""
+    found: dict[Node, str | Prose] = {}
+    for words, form in tactics:
+        if not equals(form, value):
+            return None
+        found.setdefault(form, words)
+    return found
+
+
 def collected(before: Node, after: Node) -> str:
     """What is done to a line that needs no identity: its sums of rates are multiplied out, if they go."""
     opened = sums_of_rates(before) - sums_of_rates(after)
@@ -334,18 +344,14 @@ def collected(before: Node, after: Node) -> str:
 def chain(
     context: Context, result: str, name: Node, tactics: Iterable[Tactic], concluding: str | Prose = ()
 ) -> Way:
-    """The lines that the tactics come to, if each of them has the value of the result; else nothing.
+    """The lines that the tactics come to, if each of them is proved to be the result; else nothing.
 
-    A line that only repeats the one before it is dropped, and one that is the result as it is printed
-    gives its words to that.
+    A form that is the result as it is printed gives its words to that.
     """
-    value, form = context.values[result], context.form(result)
-    lines: dict[Node, str | Prose] = {}
-    for words, tree in tactics:
-        if not equals(tree, value):
-            return SILENT
-        lines.setdefault(tree, words)
-    if lines and to_unicode(next(reversed(lines))) == to_unicode(form):
-        _, concluding = lines.popitem()
-    shown = [Line(say("{by}", by=words), (equation(name, tree),)) for tree, words in lines.items()]
-    return Way(tuple(shown), say("{by}", by=concluding))
+    forms = proved(context.values[result], tactics)
+    if forms is None:
+        return SILENT
+    if forms and to_unicode(next(reversed(forms))) == to_unicode(context.form(result)):
+        _, concluding = forms.popitem()
+    lines = [Line(say("{by}", by=words), (equation(name, form),)) for form, words in forms.items()]
+    return Way(tuple(lines), say("{by}", by=concluding))
