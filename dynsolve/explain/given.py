@@ -42,7 +42,7 @@ from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.robot import units
-from dynsolve.robot.actions import JointFriction, Motor, Spring
+from dynsolve.robot.actions import JointFriction, Motor
 from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
 from dynsolve.robot.questions import TIP, Load
@@ -92,7 +92,11 @@ def statement(forms: Forms, problem: Problem, sines: Iterable[Line] = ()) -> Ite
     given = [sentence for sentence in _sentences(forms, problem) if sentence]
     if given:
         yield Text(("Given: ", *sentences(given)))
-    names = [*map(_introduced, problem_names(forms.robot)), *((line.words,) for line in sines)]
+    names: list[Prose] = []
+    for line in problem_names(forms.robot):  # l₁, l₂: length of link i (m)
+        unit: Prose = (" (", units.node(line.unit), ")") if line.unit else ()
+        names.append((line.sign, f": {line.meaning}", *unit))
+    names += [(line.words,) for line in sines]
     if names:
         yield List(tuple(names))
     found = [called for name in problem.find if (called := _called(forms, name))]
@@ -128,12 +132,6 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
         yield from _actions(forms)
     yield from _questions(forms)
     yield _values(robot, problem.written, problem.units)
-
-
-def _introduced(line: Line) -> Prose:
-    """l₁, l₂: length of link i (m)"""
-    unit: Prose = (" (", units.node(line.unit), ")") if line.unit else ()
-    return (line.sign, f": {line.meaning}", *unit)
 
 
 def _called(forms: Forms, name: str) -> Prose:
@@ -301,7 +299,7 @@ def _axis(forms: Forms, body: Body, name: str) -> Prose:
 
 
 def _center(forms: Forms, body: Body) -> Prose:
-    """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁"""
+    """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁; at (x, y, 0) from 𝐨₁ along the axes of frame 1"""
     near, far = ends(forms.robot, body)
     if body.center_written == "tip":
         return ("at ", letters.o(far))
@@ -312,28 +310,16 @@ def _center(forms: Forms, body: Body) -> Prose:
     fraction = part_of_the_way(body) if is_given_by(body, "along") else None
     if fraction is not None:
         return (fraction, " of the way from ", letters.o(near), " to ", letters.o(far))
-    start, place = body.link, body.center
-    end = other_end(forms.robot, body)
-    if end is not None:  # it is given from there
-        start, place = end[0], body.center - end[1]
-    return _place(forms, place.entries, start, body.link)
-
-
-def _place(forms: Forms, entries: Sequence[Expr], start: int, frame: int) -> Prose:
-    """Where a vector leads from an origin: along an axis of a frame, or by its coordinates there."""
-    along = [(axis, entry) for axis, entry in zip(AXES, entries, strict=True) if not entry.is_zero]
+    end = other_end(forms.robot, body)  # it is given from there, if from an end
+    start, place = (body.link, body.center) if end is None else (end[0], body.center - end[1])
+    along = [(axis, entry) for axis, entry in zip(AXES, place.entries, strict=True) if not entry.is_zero]
     if not along:
         return ("at ", letters.o(start))
     if len(along) > 1:
-        return (
-            "at ",
-            _flat(map(forms.of, entries)),
-            " from ",
-            letters.o(start),
-            f" along the axes of frame {frame}",
-        )
+        at = _flat(map(forms.of, place.entries))
+        return ("at ", at, " from ", letters.o(start), f" along the axes of frame {body.link}")
     ((axis, entry),) = along
-    unit: Node = letters.bold(axis, Number(frame))
+    unit: Node = letters.bold(axis, Number(body.link))
     shown = forms.of(entry)
     if isinstance(shown, Negative):
         shown, unit = shown.argument, Negative(unit)
@@ -430,54 +416,45 @@ def _base(forms: Forms) -> Prose:
 def _gravity(forms: Forms) -> Prose:
     """Gravity g acts along -𝐲₀; there is no friction."""
     robot = forms.robot
-    told = _weight(forms)
-    if "friction" in robot.actions.kinds:
-        return (*told, ".")
-    return (*told, " and no friction." if robot.gravity.is_zero else "; there is no friction.")
-
-
-def _weight(forms: Forms) -> Prose:
-    robot = forms.robot
+    entries = robot.gravity.entries
     in_world = letters.has_base(robot)
-    along = [(axis, g) for axis, g in zip(AXES, robot.gravity.entries, strict=True) if not g.is_zero]
-    if not along:
-        return ("There is no gravity",)
-    if len(along) > 1:
-        ground = "the world" if in_world else "frame 0"
-        entries = robot.gravity.entries
+    along = [(axis, entry) for axis, entry in zip(AXES, entries, strict=True) if not entry.is_zero]
+    told: Prose = ("There is no gravity",)
+    if len(along) == 1:
+        ((axis, entry),) = along
+        opposite = leads_with_minus(entry)
+        size = -entry if opposite else entry
+        unit = letters.bold(axis, Words("w") if in_world else Number(0))
+        told = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
+        told = ("Gravity", *told, " acts along ", Negative(unit) if opposite else unit)
+    elif along:
         vector = _flat(map(forms.of, entries))
         if all(entry.is_number for entry in entries):
             vector = Row((vector, Words(" "), units.node("m/s^2")))
-        text = "The acceleration of gravity is {gravity} along the axes of {ground}"
-        return say(text, gravity=equation(letters.GRAVITY, vector), ground=ground)
-    ((axis, entry),) = along
-    opposite = leads_with_minus(entry)
-    size = -entry if opposite else entry
-    unit = letters.bold(axis, Words("w") if in_world else Number(0))
-    named: Prose = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
-    return ("Gravity", *named, " acts along ", Negative(unit) if opposite else unit)
+        ground = "the world" if in_world else "frame 0"
+        told = ("The acceleration of gravity is ", equation(letters.GRAVITY, vector))
+        told += (f" along the axes of {ground}",)
+    if "friction" in robot.actions.kinds:
+        return (*told, ".")
+    return (*told, "; there is no friction." if along else " and no friction.")
 
 
 def _actions(forms: Forms) -> Iterator[Prose]:
     """A sentence for each thing that acts beside gravity."""
     actions = forms.robot.actions
     names = [Symbol(q.name) for q in forms.robot.coordinates]
-    yield from (_spring(forms, spring) for spring in actions.springs)
+    for spring in actions.springs:
+        if spring.law is None:
+            yield ("A spring has the potential energy ", forms.of(spring.energy), ".")
+        else:
+            at_rest = equation(forms.of(spring.law.of), forms.of(spring.law.rest))
+            yield ("A spring of stiffness ", forms.of(spring.law.stiffness), " is at rest at ", at_rest, ".")
     for damper in actions.dampers:
         yield ("A damper of coefficient ", forms.of(damper.damping), " acts along ", forms.of(damper.of), ".")
     yield from (_friction(forms, friction) for friction in actions.friction)
     yield from (_motor(forms, motor) for motor in actions.motors)
     if actions.passive:
         yield ("No motor drives ", *listed([names[k] for k in actions.passive]), ".")
-
-
-def _spring(forms: Forms, spring: Spring) -> Prose:
-    """A spring of stiffness k is at rest at q₁ - q₂ = 0."""
-    law = spring.law
-    if law is None:
-        return ("A spring has the potential energy ", forms.of(spring.energy), ".")
-    at_rest = equation(forms.of(law.of), forms.of(law.rest))
-    return ("A spring of stiffness ", forms.of(law.stiffness), " is at rest at ", at_rest, ".")
 
 
 def _friction(forms: Forms, friction: JointFriction) -> Prose:

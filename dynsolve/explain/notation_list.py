@@ -54,7 +54,7 @@ def problem_names(robot: Robot) -> Iterator[Line]:
                 yield _named(names, words, unit)
             names = [name for name, told in alike if not told.words]
             if names:
-                yield _named(names, role.meaning if len(names) > 1 else role.of_one, unit)
+                yield _named(names, role.of(len(names)), unit)
 
 
 def _named(names: Sequence[str], meaning: str, unit: str) -> Line:

@@ -18,7 +18,7 @@ from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.positivity import is_positive
-from dynsolve.explain.writing import and_joined
+from dynsolve.explain.writing import agreeing, and_joined
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import lowered, to_unicode
@@ -73,37 +73,31 @@ _UNTOLD = Meaning("")
 
 
 class Role(Enum):
-    """A role: its meaning for several parameters and for one, in the order in which they are listed."""
+    """A role: its meaning for one and for several parameters, in the order in which they are listed."""
 
-    GRAVITY = "acceleration of gravity", "acceleration of gravity"
-    LENGTH = "lengths in the table", "length in the table"
-    ANGLE = "constant angles in the table", "constant angle in the table"
-    BASE = "place of frame 0 in the world", "place of frame 0 in the world"
-    TURN = "angles by which frame 0 is turned in the world", "angle by which frame 0 is turned in the world"
-    MASS = "masses of the bodies", "mass of a body"
-    INERTIA = "given moments of inertia", "given moment of inertia"
-    PRODUCT = "given products of inertia", "given product of inertia"
-    SHAPE = "dimensions of the bodies", "dimension of a body"
-    CENTER = "place of the mass centres in their links", "place of a mass centre in its link"
-    POSITION = "lengths in the given positions", "length in the given positions"
-    ROTOR = "moments of inertia of the rotors", "moment of inertia of a rotor"
-    RATIO = "ratios of the gears", "ratio of a gear"
-    STIFFNESS = "stiffnesses of the springs", "stiffness of a spring"
-    REST = "where the springs are relaxed", "where a spring is relaxed"
-    VISCOUS = "coefficients of viscous friction", "coefficient of viscous friction"
-    COULOMB = "coefficients of Coulomb friction", "coefficient of Coulomb friction"
-    DAMPING = "coefficients of the dampers", "coefficient of a damper"
-    OTHER = "parameters of the problem", "parameter of the problem"
+    GRAVITY = "acceleration of gravity"
+    LENGTH = "length|lengths in the table"
+    ANGLE = "constant angle|angles in the table"
+    BASE = "place of frame 0 in the world"
+    TURN = "angle|angles by which frame 0 is turned in the world"
+    MASS = "mass|masses of a|the body|bodies"
+    INERTIA = "given moment|moments of inertia"
+    PRODUCT = "given product|products of inertia"
+    SHAPE = "dimension|dimensions of a|the body|bodies"
+    CENTER = "place of a|the mass centre|centres in its|their link|links"
+    POSITION = "length|lengths in the given positions"
+    ROTOR = "moment|moments of inertia of a|the rotor|rotors"
+    RATIO = "ratio|ratios of a|the gear|gears"
+    STIFFNESS = "stiffness|stiffnesses of a|the spring|springs"
+    REST = "where a|the spring|springs is|are relaxed"
+    VISCOUS = "coefficient|coefficients of viscous friction"
+    COULOMB = "coefficient|coefficients of Coulomb friction"
+    DAMPING = "coefficient|coefficients of a|the damper|dampers"
+    OTHER = "parameter|parameters of the problem"
 
-    @property
-    def meaning(self) -> str:
-        """What several are."""
-        return self.value[0]
-
-    @property
-    def of_one(self) -> str:
-        """What one is."""
-        return self.value[1]
+    def of(self, count: int) -> str:
+        """What so many of them are."""
+        return agreeing(self.value, count)
 
 
 def roles(robot: Robot) -> dict[str, tuple[Role, str]]:

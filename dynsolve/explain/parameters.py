@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -255,34 +255,28 @@ class BaseParameters:
     @cached_property
     def _lengths(self) -> tuple[int, ...]:
         """The lengths of the table and of gravity, which are no property of a body."""
-        robot, ring = self.robot, self.robot.ring
+        robot = self.robot
         exprs = [e for joint in robot.joints for e in (joint.d, joint.a)]
-        exprs += [*robot.gravity.entries, *robot.base_position.entries]
-        used = {i for e in exprs for i, degree in enumerate(e.poly.degrees()) if degree > 0}
-        return tuple(i for i in sorted(used) if ring.generators[i].kind == "symbol" and i in self._parameters)
+        used = _generators_in([*exprs, *robot.gravity.entries, *robot.base_position.entries])
+        return tuple(sorted(used & self._parameters))
 
     @cached_property
     def _parameters(self) -> frozenset[int]:
-        names = set(self.robot.ring.names)
-        return frozenset(
-            g.index for g in self.robot.ring.generators if g.kind == "symbol" and g.name not in names
-        )
+        ring = self.robot.ring
+        names = set(ring.names)
+        return frozenset(g.index for g in ring.generators if g.kind == "symbol" and g.name not in names)
 
     @cached_property
     def _factors(self) -> tuple[Exponents, ...]:
         """The products of lengths that are tried, 1 first; gravity is drawn out before."""
         size = len(self.robot.ring.generators)
-        lengths = [i for i in self._lengths if i not in self._gravity]
+        gravity = _generators_in(self.robot.gravity.entries)
+        lengths = [i for i in self._lengths if i not in gravity]
         return tuple(
             tuple(chosen.count(i) for i in range(size))
             for degree in range(HIGHEST + 1)
             for chosen in combinations_with_replacement(lengths, degree)
         )
-
-    @cached_property
-    def _gravity(self) -> frozenset[int]:
-        entries = self.robot.gravity.entries
-        return frozenset(i for e in entries for i, degree in enumerate(e.poly.degrees()) if degree > 0)
 
     # -- coefficients ------------------------------------------------------------------------------
 
@@ -307,18 +301,15 @@ class BaseParameters:
     def _reduced(self, coefficient: Coefficient) -> tuple[Coefficient, Combination]:
         """(the part outside the span of the known base parameters, the combination that gives the rest)"""
         rest, made_of = dict(coefficient), Combination()
-        for lead in sorted(self._rows.keys() & rest.keys(), reverse=True):
-            self._take(rest, made_of, lead)
-        while leads := self._rows.keys() & rest.keys():
-            self._take(rest, made_of, max(leads))
+        pending = sorted(self._rows.keys() & rest.keys())
+        while pending:
+            lead = pending.pop()
+            if factor := rest.get(lead):
+                row = self._rows[lead]
+                _add_to(rest, row.values, -factor)
+                _add_to(made_of, row.made_of, factor)
+            pending = pending or sorted(self._rows.keys() & rest.keys())
         return rest, made_of
-
-    def _take(self, rest: Coefficient, made_of: Combination, lead: Exponents) -> None:
-        factor = rest.get(lead)
-        if factor:
-            row = self._rows[lead]
-            _add_to(rest, row.values, -factor)
-            _add_to(made_of, row.made_of, factor)
 
     def _add(self, coefficient: Coefficient) -> None:
         """Make a base parameter of the part outside the span of the known ones."""
@@ -422,6 +413,11 @@ class BaseParameters:
                 ((symbol, scale),) = self._found[number].items()
                 own, f = _plus(own, symbol), f * scale
             yield (*own, *(int(other == name) for other in names)), f
+
+
+def _generators_in(exprs: Iterable[Expr]) -> set[int]:
+    """The places of the generators that occur."""
+    return {i for e in exprs for i, degree in enumerate(e.poly.degrees()) if degree > 0}
 
 
 _K = TypeVar("_K", bound=Hashable)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from dataclasses import dataclass, field
 from itertools import groupby
 from operator import attrgetter
 
@@ -60,159 +60,162 @@ def solution_documents(
 ) -> tuple[Document, ...]:
     """The same in several depths, of steps that are made once."""
     stages = None if stages is None else tuple(stages)
-    made = partial(_documents, solution, details, stages, drawn)
+
+    def made(short: Abbreviated | None) -> tuple[Document, ...]:
+        steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
+        parts = (_Parts(solution, detail, stages, steps, drawn, short) for detail in details)
+        return tuple(each.document() for each in parts)
+
     names = "what is written in names"
     short = attempted(lambda: solution.abbreviated(abbreviate), lambda: None, names)
     return made(None) if short is None else attempted(lambda: made(short), lambda: made(None), names)
 
 
-def _documents(
-    solution: Dynamics,
-    details: Sequence[Detail],
-    stages: tuple[str, ...] | None,
-    drawn: Drawn | None,
-    short: Abbreviated | None,
-) -> tuple[Document, ...]:
-    steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
-    return tuple(_document(solution, detail, stages, steps, drawn, short) for detail in details)
+_IN_NUMBERS = (
+    "Numbers are exact, in SI units (m, kg, s, N). One with more than {digits} significant digits is "
+    "rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands behind a result "
+    "that is a number other than 0, or a matrix of which all entries have it; any other formula has that "
+    "of its left side."
+)
 
 
-def _document(
-    solution: Dynamics,
-    detail: Detail,
-    stages: tuple[str, ...] | None,
-    steps: Sequence[Step],
-    drawn: Drawn | None,
-    short: Abbreviated | None,
-) -> Document:
-    robot = solution.robot
-    sections: dict[Stage, int] = {}
-    derivation = (
-        *_stages(solution, detail, steps, short, drawn, sections if stages is None else None),
-        *_part("the numbers", lambda: _numbers(solution, detail, stages)),
-        *_part(
-            "the summary",
-            lambda: summary_blocks(
-                robot,
-                steps,
-                detail,
-                short,
-                asked=solution.problem.find,
-                is_short=solution.is_short,
-                sections=sections,
-            ),
-        ),
-    )
-    stated = _part("what is given", lambda: _statement(solution, stages, derivation))
-    document = Document((
-        *_opening(solution),
-        *stated,
-        *_part("the letters", lambda: _letters(solution, stated, derivation, detail)),
-        *derivation,
-        *_closing(solution, detail, _sources(steps, detail, short)),
-        *_part("the notation", lambda: _notation(solution, (*stated, *derivation), detail, short)),
-    ))  # fmt: skip
-    return reworded(document, of_second_edition) if solution.problem.edition == 2 else document
+@dataclass
+class _Parts:
+    """The parts of a document, of which one that cannot be made is left out."""
 
+    solution: Dynamics
+    detail: Detail
+    stages: tuple[str, ...] | None
+    steps: Sequence[Step]
+    drawn: Drawn | None
+    short: Abbreviated | None
+    sections: dict[Stage, int] = field(default_factory=dict)
 
-def _part(what: str, made: Callable[[], Iterable[Block]]) -> tuple[Block, ...]:
-    """A part of the document beside its steps; nothing where it cannot be made."""
-    return attempted(lambda: tuple(made()), tuple, what)
+    def document(self) -> Document:
+        """What is given, the derivation, the summary, how it is verified, the notation."""
 
+        def part(what: str, made: Callable[[], Iterable[Block]]) -> tuple[Block, ...]:
+            return attempted(lambda: tuple(made()), tuple, what)
 
-def _statement(
-    solution: Dynamics, stages: Iterable[str] | None, derivation: tuple[Block, ...]
-) -> Iterator[Block]:
-    """The exercise, before a whole solution of it."""
-    if stages is None:
-        sines = shorthands_in(derivation, solution.robot, solution.style)
-        yield from statement(solution.forms, solution.problem, sines)
-
-
-def _letters(
-    solution: Dynamics, stated: tuple[Block, ...], shown: tuple[Block, ...], detail: Detail
-) -> Iterator[Block]:
-    """In brief the letters that go beyond the course and are not defined where they occur."""
-    if detail is Detail.BRIEF:
-        lines = letters_beside(solution.robot, solution.style, shown, stated)
-        if lines:
-            yield Text(in_a_sentence(lines))
-
-
-def _notation(
-    solution: Dynamics, shown: tuple[Block, ...], detail: Detail, short: Abbreviated | None
-) -> Iterator[Block]:
-    """In full every sign that occurs in what is shown, with its meaning and unit."""
-    if detail is not Detail.FULL:
-        return
-    told = notation(solution.robot, solution.style, shown, short)
-    if not told.lines:
-        return
-    yield Heading("Notation", appendix=True)
-    if told.remarks:
-        yield Text(told.remarks)
-    yield told.table
-
-
-def _numbers(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
-    """The section of numeric results, where they were asked for."""
-    if solution.numbers is not None:
-        from dynsolve.solution.numbers.blocks import blocks
-
-        yield from blocks(solution.numbers, detail, solution.problem.find, stages)
-
-
-def _sources(steps: Iterable[Step], detail: Detail, short: Abbreviated | None) -> Iterator[str]:
-    """The references that a report makes."""
-    if short is not None and short.constants:
-        yield KHALIL_DOMBRE.section("9.4")
-    yield from (step.source for step in steps if step.formula is not None and step.detail <= detail)
-
-
-def _opening(solution: Dynamics) -> Iterator[Block]:
-    problem = solution.problem
-    yield Heading(problem.title, 1)
-    if problem.source:
-        yield Text((f"{problem.source.rstrip('.')}.",))
-    if digits := solution.style.digits:
-        yield Text((
-            f"Numbers are exact, in SI units (m, kg, s, N). One with more than {digits} significant digits "
-            "is rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands behind "
-            "a result that is a number other than 0, or a matrix of which all entries have it; any other "
-            "formula has that of its left side.",
+        derivation = (
+            *self.derivation(),
+            *part("the numbers", self.numbers),
+            *part("the summary", self.summary),
+        )
+        stated = part("what is given", lambda: self.statement(derivation))
+        document = Document((
+            *self.opening(),
+            *stated,
+            *part("the letters", lambda: self.letters(stated, derivation)),
+            *derivation,
+            *self.closing(),
+            *part("the notation", lambda: self.notation((*stated, *derivation))),
         ))  # fmt: skip
+        return reworded(document, of_second_edition) if self.solution.problem.edition == 2 else document
 
+    def opening(self) -> Iterator[Block]:
+        """The title, the source, and how numbers are printed."""
+        problem = self.solution.problem
+        yield Heading(problem.title, 1)
+        if problem.source:
+            yield Text((f"{problem.source.rstrip('.')}.",))
+        if digits := self.solution.style.digits:
+            yield Text(say(_IN_NUMBERS, digits=digits))
 
-def _stages(
-    solution: Dynamics,
-    detail: Detail,
-    steps: Sequence[Step],
-    short: Abbreviated | None,
-    drawn: Drawn | None,
-    sections: dict[Stage, int] | None,
-) -> Iterator[Block]:
-    """Stages and their steps: of a whole derivation what is shown is counted in `sections`."""
-    places = {stage: place for place, stage in enumerate(stages_of(solution.robot), 1)}
-    inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
-    named_from = _first_in_names(steps, short)
-    shown = Shown(
-        detail,
-        inputs,
-        solution.style,
-        drawn,
-        in_summary(solution.robot, steps, solution.problem.find, solution.is_short),
-    )
-    own = (step for step in steps if step.id != ID)  # that stands in the summary
-    for stage, of_stage in groupby(own, attrgetter("stage")):
-        if short is not None and stage is named_from and not short.at_symbols and detail > Detail.RESULTS:
-            yield from definition_blocks(short, machine(solution.robot))
-        number = places[stage] if sections is None else len(sections) + 1
-        folds = tuple(shown.of_stage(number, of_stage))
-        if folds:  # no heading over a stage of which nothing is shown
-            if sections is not None:
-                sections[stage] = number
-            yield Heading(f"{number}. {heading_of(stage, solution.robot)}", 2)
-        yield from folds
+    def statement(self, derivation: tuple[Block, ...]) -> Iterator[Block]:
+        """The exercise, before a whole solution of it."""
+        if self.stages is None:
+            sines = shorthands_in(derivation, self.solution.robot, self.solution.style)
+            yield from statement(self.solution.forms, self.solution.problem, sines)
+
+    def letters(self, stated: tuple[Block, ...], shown: tuple[Block, ...]) -> Iterator[Block]:
+        """In brief the letters that go beyond the course and are not defined where they occur."""
+        if self.detail is Detail.BRIEF:
+            lines = letters_beside(self.solution.robot, self.solution.style, shown, stated)
+            if lines:
+                yield Text(in_a_sentence(lines))
+
+    def notation(self, shown: tuple[Block, ...]) -> Iterator[Block]:
+        """In full every sign that occurs in what is shown, with its meaning and unit."""
+        if self.detail is Detail.FULL:
+            told = notation(self.solution.robot, self.solution.style, shown, self.short)
+            if told.lines:
+                yield Heading("Notation", appendix=True)
+                yield from (Text(told.remarks),) if told.remarks else ()
+                yield told.table
+
+    def numbers(self) -> Iterator[Block]:
+        """The section of numeric results, where they were asked for."""
+        if self.solution.numbers is not None:
+            from dynsolve.solution.numbers.blocks import blocks
+
+            yield from blocks(self.solution.numbers, self.detail, self.solution.problem.find, self.stages)
+
+    def derivation(self) -> Iterator[Block]:
+        """Stages and their steps; in a whole derivation what is shown of it is counted."""
+        robot, short, asked = self.solution.robot, self.short, self.solution.problem.find
+        places = {stage: place for place, stage in enumerate(stages_of(robot), 1)}
+        inputs = {rule.name: rule.inputs for rule in course_rules(robot)}
+        named_from = _first_in_names(self.steps, short)
+        in_closing = in_summary(robot, self.steps, asked, self.solution.is_short)
+        shown = Shown(self.detail, inputs, self.solution.style, self.drawn, in_closing)
+        own = (step for step in self.steps if step.id != ID)  # that stands in the summary
+        for stage, of_stage in groupby(own, attrgetter("stage")):
+            is_named = short is not None and stage is named_from and not short.at_symbols
+            if short is not None and is_named and self.detail > Detail.RESULTS:
+                yield from definition_blocks(short, machine(robot))
+            number = places[stage] if self.stages is not None else len(self.sections) + 1
+            folds = tuple(shown.of_stage(number, of_stage))
+            if folds:  # no heading over a stage of which nothing is shown
+                self.sections[stage] = number
+                yield Heading(f"{number}. {heading_of(stage, robot)}", 2)
+            yield from folds
+
+    def summary(self) -> Iterator[Block]:
+        """The model, and whatever else the exercise asks for."""
+        asked, is_short = self.solution.problem.find, self.solution.is_short
+        robot, sections = self.solution.robot, self.sections
+        return summary_blocks(
+            robot, self.steps, self.detail, self.short, asked=asked, is_short=is_short, sections=sections
+        )
+
+    def closing(self) -> Iterator[Block]:
+        """How the results are verified, and the books."""
+        if self.detail is Detail.RESULTS:
+            return
+        verification = self.solution.verification
+        what, how = "the results", verification.method
+        if not self.solution.robot.has_dynamics:
+            if not any(stage.asked_for for stage in stages_of(self.solution.robot)):
+                yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
+            if self.solution.robot.has_table:
+                what, how = "the last frame and the Jacobian", f"the outward half of {how}"
+        told: Prose = (
+            f"Verified: {what} agree with {how} at {verification.states} random states (relative error ",
+        )
+        told += (*_in_powers_of_ten(verification.max_relative_error), ").")
+        if self.solution.robot.questions.asked:
+            told += (" The other results that are asked for agree with independent computations in numbers.",)
+        if self.detail is Detail.FULL:
+            yield Heading("Verification", 2)
+        yield Text(told)
+        sources = tuple(self.sources())
+        books = [
+            f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."
+            for book in cited(sources)
+        ]
+        if books:
+            yield Text((" ".join(books),))
+        titles = tuple((title,) for title in titled(sources)) if self.detail is Detail.FULL else ()
+        if titles:
+            yield List(titles)
+
+    def sources(self) -> Iterator[str]:
+        """The references that a report makes."""
+        if self.short is not None and self.short.constants:
+            yield KHALIL_DOMBRE.section("9.4")
+        steps = (step for step in self.steps if step.formula is not None and step.detail <= self.detail)
+        yield from (step.source for step in steps)
 
 
 def _first_in_names(steps: Iterable[Step], short: Abbreviated | None) -> Stage:
@@ -255,37 +258,6 @@ def _of_constants(short: Abbreviated, what: str) -> Prose:
         article=GAUTIER_KHALIL,
         kept=(", and ", *listed(short.kept)) if short.kept else (),
     )
-
-
-def _closing(solution: Dynamics, detail: Detail, sources: Iterable[str]) -> Iterator[Block]:
-    if detail is Detail.RESULTS:
-        return
-    verification = solution.verification
-    what, how = "the results", verification.method
-    if not solution.robot.has_dynamics:
-        if not any(stage.asked_for for stage in stages_of(solution.robot)):
-            yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
-        if solution.robot.has_table:
-            what, how = "the last frame and the Jacobian", f"the outward half of {how}"
-    told: Prose = (
-        f"Verified: {what} agree with {how} at {verification.states} random states (relative error ",
-    )
-    told += (*_in_powers_of_ten(verification.max_relative_error), ").")
-    if solution.robot.questions.asked:
-        told += (" The other results that are asked for agree with independent computations in numbers.",)
-    if detail is Detail.FULL:
-        yield Heading("Verification", 2)
-    yield Text(told)
-    sources = tuple(sources)
-    books = [
-        f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."
-        for book in cited(sources)
-    ]
-    if books:
-        yield Text((" ".join(books),))
-    titles = tuple((title,) for title in titled(sources)) if detail is Detail.FULL else ()
-    if titles:
-        yield List(titles)
 
 
 def _in_powers_of_ten(size: float) -> Prose:
