@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Prose, Table, Text
 from dynsolve.document.sentences import Value, say
@@ -26,16 +25,6 @@ from dynsolve.quantities.index import quantities
 from dynsolve.quantities.robot_stages import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
-
-
-@dataclass(slots=True)
-class _Task:
-    """Steps that are done in the same way."""
-
-    title: str
-    why: Prose
-    formulas: list[tuple[Node, str]] = field(default_factory=list)
-    likewise: list[str] = field(default_factory=list)
 
 
 def hint_document(title: str, context: Context, stage: str) -> Document:
@@ -177,31 +166,26 @@ def _of_bodies(robot: Robot) -> Iterator[tuple[Node, str]]:
 
 
 def _tasks(context: Context, stage: Stage) -> Iterator[Block]:
-    for number, task in enumerate(_grouped(explain(context, [stage])), start=1):
-        blocks: list[Block] = [Text(task.why)] if task.why else []
-        blocks += [Formula(node, source) for node, source in task.formulas]
-        if task.likewise:
-            blocks.append(Text((f"Likewise: {'; '.join(task.likewise)}.",)))
-        yield Fold(f"{number}. {task.title}", tuple(blocks))
-
-
-def _grouped(steps: Iterable[Step]) -> Iterator[_Task]:
-    """The steps of a stage, grouped where they are done in the same way."""
-    tasks: dict[tuple[str, str], _Task] = {}
-    for step in steps:
-        if not step.is_task:
-            continue
-        why, title = step.hint or step.why, step.hint_title or step.title
-        words = "".join(part for part in why if isinstance(part, str))
-        key = re.sub(r"\d+", "", step.id), re.sub(r"\d+", "", words)
-        if key in tasks:
-            tasks[key].likewise.append(_lowered(title))
-            continue
-        tasks[key] = _Task(title, why)
-        formula = step.task or step.formula
+    """The steps of a stage, those that are done in the same way as one."""
+    alike: dict[tuple[str, str], list[Step]] = {}
+    for step in explain(context, [stage]):
+        if step.is_task:
+            words = "".join(part for part in step.hint or step.why if isinstance(part, str))
+            key = re.sub(r"\d+", "", step.id), re.sub(r"\d+", "", words)
+            alike.setdefault(key, []).append(step)
+    for number, (step, *others) in enumerate(alike.values(), start=1):
+        why, formula = step.hint or step.why, step.task or step.formula
+        blocks: list[Block] = [Text(why)] if why else []
         if formula is not None and to_unicode(formula) not in map(to_unicode, step.result):
-            tasks[key].formulas.append((formula, by_itself(step.source)))
-    yield from tasks.values()
+            blocks.append(Formula(formula, by_itself(step.source)))
+        if others:
+            likewise = "; ".join(_lowered(_title(other)) for other in others)
+            blocks.append(Text((f"Likewise: {likewise}.",)))
+        yield Fold(f"{number}. {_title(step)}", tuple(blocks))
+
+
+def _title(step: Step) -> str:
+    return step.hint_title or step.title
 
 
 def _lowered(title: str) -> str:
