@@ -309,45 +309,36 @@ def _assembled(
     potential: Node | None = None,
 ) -> Abbreviated:
     """The forms with names; the potential energy is that of a long model."""
-    n, long = forms.robot.n, potential is not None
-    upper = pairs(n)
-    entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
-    entries += [] if potential is None else [potential]
-    taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
-    name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
+    n, coordinates, long = forms.robot.n, forms.robot.ring.names, potential is not None
+    parts: dict[tuple[str | int, ...], Node] = {("d", i, j): D.rows[i][j] for i, j in pairs(n)}
+    parts |= {("g", k): entry for k, (entry,) in enumerate(g.rows)}
+    parts |= {("c", *ijk): symbol for ijk, symbol in symbols.items()}
+    if potential is not None:
+        parts["P",] = potential
+    taken = {*forms.robot.ring.parameters, *coordinates}
+    name = partial(name_recurring, list(parts.values()), whole=long, decimal=is_numeric(forms.robot))
     sums, used = name(free_names(RECURRING, taken))
     if len(sums) == 1 and SINGLE not in taken:
         (one,), used = name(iter([Symbol(SINGLE)]))
-        keys = list(symbols)
-        places = (len(upper) + n + keys.index(key) for key in as_shown(keys))
-        sums, used = _leading_with_plus(one, used, places)
-    d = dict(zip(upper, used, strict=False))
-    short = dict(zip(symbols, used[len(upper) + n :], strict=False))
+        minus, written = negated(one.name), dict(zip(parts, used, strict=True))
+        shown = [written["c", *ijk] for ijk in as_shown(symbols)]
+        if next((each for each in shown if each in (one.name, minus)), None) == minus:
+            # the sign of the first symbol, as the books' h = -m₂ l₁ l_c2 s₂ has it
+            one = Definition(one.name, negated(one.meaning))
+            used = [rewritten(node, lambda leaf: minus if leaf == one.name else leaf) for node in used]
+        sums = (one,)
+    short = dict(zip(parts, used, strict=True))
     return Abbreviated(
         constants,
         sums,
-        D=tree.Matrix(tuple(tuple(d[min(i, j), max(i, j)] for j in range(n)) for i in range(n))),
-        C=coriolis_matrix(forms.robot.ring.names, lambda i, j, k: short[min(i, j), max(i, j), k]),
-        g=tree.column(*used[len(upper) : len(upper) + n]),
-        christoffel=short,
+        D=tree.Matrix(tuple(tuple(short["d", min(i, j), max(i, j)] for j in range(n)) for i in range(n))),
+        C=coriolis_matrix(coordinates, lambda i, j, k: short["c", min(i, j), max(i, j), k]),
+        g=tree.column(*(short["g", k] for k in range(n))),
+        christoffel={ijk: short["c", *ijk] for ijk in symbols},
         long=long,
         kept=kept,
-        P=used[-1] if long else None,
+        P=short.get(("P",)),
     )
-
-
-def _leading_with_plus(
-    one: Definition, used: list[Node], symbols: Iterable[int]
-) -> tuple[tuple[Definition, ...], list[Node]]:
-    """The one name with the sign of its first Christoffel symbol, as the books' h = -m₂ l₁ l_c2 s₂ has it.
-
-    `symbols` are the places of the symbols, in the order in which they are shown.
-    """
-    minus = negated(one.name)
-    if next((used[k] for k in symbols if used[k] in (one.name, minus)), None) != minus:
-        return (one,), used
-    turned = [rewritten(node, lambda leaf: minus if leaf == one.name else leaf) for node in used]
-    return (Definition(one.name, negated(one.meaning)),), turned
 
 
 def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
