@@ -60,11 +60,8 @@ _AFTER = (Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED)
 _BODY_BY_BODY = frozenset({"inertia_poses", "point_masses"})
 """The checks that ask what each body adds, and so show it."""
 
-_ON_D = frozenset({"definite", "inertia_poses", "point_masses"})
-"""The checks in which D is looked at."""
-
-_ON_G = "equilibrium"
-"""The check in which g is looked at."""
+_LOOKED_AT = {"definite": "D", "inertia_poses": "D", "point_masses": "D", "equilibrium": "g"}
+"""The checks in which D, or g row by row, is looked at."""
 
 _COLLECTED = frozenset({"D_sum", "g"})
 """The steps that are worked out anew from what stands before the names, and end in these."""
@@ -231,12 +228,12 @@ class _Names:
 
     def on_named(self, step: Step) -> Step:
         """A check on D, or on g row by row, with the equations of what the names in these mean."""
-        if step.id not in _ON_D and step.id != _ON_G:
+        looked_at = _LOOKED_AT.get(step.id)
+        if looked_at is None:
             return step
-        if step.id == _ON_G:
-            looked_at, found = "g", set(_put_in(node for line in step.lines for node in line.formulas))
-        else:
-            looked_at, found = "D", set(_symbols([self.sums.put(self.context.matrix("D"))]))
+        found = set(_symbols([self.sums.put(self.context.matrix("D"))]))
+        if looked_at == "g":
+            found = set(_put_in(node for line in step.lines for node in line.formulas))
         named = (one.name for one in self.sums.definitions if one.name in found)
         defined = tuple(dict.fromkeys(self.labels[name] for name in named))
         why = tuple(
