@@ -12,7 +12,7 @@ from dynsolve.algebra.rationals import fraction
 from dynsolve.derivation.agreement import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.writing import are_counted, machine
+from dynsolve.explain.writing import are_counted, craig, machine, spong
 from dynsolve.notation import tree
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import Style, decimal_text
@@ -46,6 +46,10 @@ class Context:
     def standard(self) -> bool:
         """Whether the table is in the standard convention."""
         return self.robot.convention is Convention.STANDARD
+
+    def by_convention(self, standard: str, modified: str) -> str:
+        """The section of the book whose convention the table is in: Spong's, or Craig's."""
+        return spong(standard) if self.standard else craig(modified)
 
     @property
     def is_short(self) -> bool:

@@ -19,7 +19,7 @@ from dynsolve.explain.jacobian import (
     how_read_off,
     parallel,
     read_off,
-    where_told_read_off,
+    told_read_off,
 )
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
@@ -192,14 +192,14 @@ def _read_off(context: Context, body: Body) -> Prose:
     joint = read_off(context, body.link, context.values[f"rc{body.name}"])
     if joint is None:
         return ()
-    column = where_told_read_off(context)
-    if not column:
+    told = told_read_off(context)
+    if told is None:
         return say(" {how}.", how=how_read_off(context, joint))
     return say(
         " Products with {axis} are read off as in $𝐉_{i}${column}.",
         axis=letters.z(joint_frame(context.robot, joint)),
-        i=int(column[1:]),
-        column=Reference((column,)),
+        i=told[0],
+        column=Reference((f"J{told[0]}",)),
     )
 
 

@@ -12,7 +12,7 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.kinematics import table_of
 from dynsolve.explain.step import Detail, Group, Step
-from dynsolve.explain.writing import craig, listed, side_by_side, spong
+from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words, column, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.drawing.drawn import Drawing
@@ -96,11 +96,6 @@ def steps(context: Context) -> Iterator[Step]:
     yield _measured_table(context, context.normals)
 
 
-def _source(context: Context) -> str:
-    """The section of the book whose convention the table is in."""
-    return spong("3.2") if context.standard else craig("3.4")
-
-
 def _drawn_axes(context: Context, normals: Normals) -> Step:
     """The joint axes and the hand, as they are given."""
     drawing = normals.drawing
@@ -123,7 +118,7 @@ def _drawn_axes(context: Context, normals: Normals) -> Step:
             "along each joint axis in the direction that is given.",
             hand=in_a_row(drawing.hand.at),
         ),
-        source=_source(context),
+        source=context.by_convention("3.2", "3.4"),
         notes=tuple(_notes(drawing)),
         table=Table(("joint", "", "", "direction", "through"), tuple(rows)),
         detail=Detail.BRIEF,
@@ -157,7 +152,7 @@ def _drawn_frame(context: Context, normals: Normals, i: int) -> Step:
         id=f"frame{i}",
         title=f"Frame {i}",
         why=_why_frame(context, normals, i),
-        source=_source(context),
+        source=context.by_convention("3.2", "3.4"),
         result=(side_by_side(shown),),
         hint=(_HINT,) if i else (),
     )
@@ -209,7 +204,7 @@ def _measured_table(context: Context, normals: Normals) -> Step:
             a_before=a_before,
             alpha_before=alpha_before,
         ),
-        source=_source(context),
+        source=context.by_convention("3.2", "3.4"),
         notes=(
             (
                 "At random joint values this table moves the hand as the product of the exponentials of the "

@@ -25,7 +25,6 @@ from dynsolve.explain.writing import (
     and_joined,
     block_of,
     column_of,
-    craig,
     is_small,
     listed,
     side_by_side,
@@ -90,7 +89,7 @@ def _axes(context: Context) -> Step:
     if context.is_short:  # of a long arm not all of them are printed
         matrices = say("$𝐇${where}", where=Reference(tuple(f"H{i}" for i in told if i), " in "))
     is_frame_0 = 0 in moving and not letters.has_base(context.robot)
-    read_off = _told_read_off(context)
+    read_off = told_read_off(context)
     return Step(
         id="axes",
         title="Axes and origins of the frames",
@@ -102,10 +101,9 @@ def _axes(context: Context) -> Step:
             about=_about(context),
             same=_same_origins(context, moving),
             wrist=_wrist(context),
-            # told once, as the mass centres have such products too
             read_off=say(" {how}.", how=how_read_off(context, read_off[1])) if read_off else (),
         ),
-        source=spong("4.6") if context.standard else craig("3.4"),
+        source=context.by_convention("4.6", "3.4"),
         result=tuple(map(side_by_side, shown.values())),
         uses=(),
     )
@@ -141,13 +139,11 @@ def _about(context: Context) -> Prose:
     if robot.is_tree:
         frame = "the frame that its row starts from" if context.standard else "its own frame"
         return say("A joint {moves} the $𝐳$ of {frame}.", moves=moves, frame=frame)
-    told = say("In the {which} convention joint i {moves} ", which=robot.convention.value, moves=moves)
-    if context.standard:
-        return told + say("$𝐳_(i-1)$, the axis of the frame before it.")
-    return told + say(
-        "$𝐳_i$, the axis of its own frame: where Spong, in the standard convention, has $𝐳_(i-1)$ and "
-        "$𝐨_(i-1)$, here stand $𝐳_i$ and $𝐨_i$."
-    )
+    own = "$𝐳_(i-1)$, the axis of the frame before it."
+    if not context.standard:
+        own = "$𝐳_i$, the axis of its own frame: where Spong, in the standard convention, has $𝐳_(i-1)$ and "
+        own += "$𝐨_(i-1)$, here stand $𝐳_i$ and $𝐨_i$."
+    return say(f"In the {robot.convention.value} convention joint i {moves} {own}")
 
 
 def _same_origins(context: Context, moving: Sequence[int]) -> Prose:
@@ -258,20 +254,14 @@ def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
     )
 
 
-def _told_read_off(context: Context) -> tuple[str, Joint] | None:
-    """The column of which it is told how it is read off, and the joint of its coordinate."""
+def told_read_off(context: Context) -> tuple[int, Joint] | None:
+    """The column of which it is told how it is read off, z being an axis of the base, and its joint."""
     robot = context.robot
     if not (context.is_short and robot.has_table and robot.bodies):
         return None
     joint = read_off(context, len(robot.joints), end_of(context))
     alone = [_plain_joint(context, k) for k in range(robot.n)]
-    return (f"J{alone.index(joint) + 1}", joint) if joint and joint in alone else None
-
-
-def where_told_read_off(context: Context) -> str:
-    """The column that tells how a product with an axis of the base is read off; "" where none does."""
-    told = _told_read_off(context)
-    return told[0] if told else ""
+    return (alone.index(joint) + 1, joint) if joint and joint in alone else None
 
 
 # -- the whole -------------------------------------------------------------------------------------

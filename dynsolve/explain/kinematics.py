@@ -14,7 +14,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step
 from dynsolve.explain.working.identities import product_named
-from dynsolve.explain.writing import craig, is_small, listed, name_of, side_by_side, spong, turns
+from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, spong, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,
@@ -84,7 +84,7 @@ def _table(context: Context) -> Step:
             stars=stars,
             numbers=" Lengths are in m." if is_numeric(robot) else "",
         ),
-        source=_of_conventions(context, "3.2", "3.4"),
+        source=context.by_convention("3.2", "3.4"),
         result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
         notes=tuple(_table_notes(robot)),
         table=table_of(context),
@@ -92,11 +92,6 @@ def _table(context: Context) -> Step:
         normal=Part.WHY | Part.NOTES,
         is_task=False,
     )
-
-
-def _of_conventions(context: Context, standard: str, modified: str) -> str:
-    """A section of the book whose convention the table is in."""
-    return spong(standard) if context.standard else craig(modified)
 
 
 def _four_motions(context: Context) -> Prose:
@@ -196,7 +191,7 @@ def _general(context: Context) -> Step:
         title="The matrix of a row",
         why=("The product of the four motions, into which the entries of each row are put.",),
         formula=equation(name, product),
-        source=_of_conventions(context, "3.2", "3.5"),
+        source=context.by_convention("3.2", "3.5"),
         working=(equation(name, in_full),) if context.is_short else (),
         normal=STATED | Part.WHY,
         task=equation(name, product, matrix),
@@ -217,7 +212,7 @@ def _row(context: Context, joint: Joint) -> Step:
         id=f"A{i}",
         title=f"Row {i} of the table: A{lowered(str(i))}",
         why=(*what, Reference(("A",), " in "), f": {kind}."),
-        source=_of_conventions(context, "3.2", "3.4"),
+        source=context.by_convention("3.2", "3.4"),
         working=(given, *_folded(context, joint)),
         task=given,
         result=(equation(letters.A(i), context.form(f"A{i}")),),
@@ -253,7 +248,7 @@ def _frame(context: Context, i: int) -> Step:
     step = Step(
         id=f"H{i}",
         title=f"Frame {i} seen from the {context.ground}",
-        source=_of_conventions(context, "3.1", "3.5"),
+        source=context.by_convention("3.1", "3.5"),
         result=(equation(name, H),),
         detail=Detail.BRIEF if last else Detail.NORMAL,
     )

@@ -22,7 +22,7 @@ from dynsolve.explain.context import MOST_JOINTS, Context
 from dynsolve.explain.jacobian import ZERO
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.terms import driving_row
-from dynsolve.explain.writing import craig, is_small, listed, spong, sum_of, turns
+from dynsolve.explain.writing import is_small, listed, spong, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Letter,
@@ -179,11 +179,6 @@ def _moment_of_body(link: Names, inertial: Node, is_point: bool) -> list[Node]:
 # -- the steps: what is known of each link, then a sum of terms each, its parts before it is added up
 
 
-def _source(context: Context) -> str:
-    """The section of the book whose convention the table is in."""
-    return spong("7.6") if context.standard else craig("6.5")
-
-
 def _sum(context: Context, key: str, title: str, why: Prose, name: Node, parts: Sequence[Part]) -> Step:
     """A quantity as the sum of its terms; their values where several are not zero."""
     shown = [
@@ -198,7 +193,7 @@ def _sum(context: Context, key: str, title: str, why: Prose, name: Node, parts: 
         title=title,
         why=why,
         formula=equation(name, sum_of([term for term, _ in parts]) if parts else ZERO),
-        source=_source(context),
+        source=context.by_convention("7.6", "6.5"),
         lines=lines,
         concluding=("Added:",) if lines else (),
         result=(equation(name, context.form(key)),),
@@ -225,7 +220,7 @@ def _links(context: Context) -> Step:
             R=general("{R}"),
             base=base,
         ),
-        source=_source(context),
+        source=context.by_convention("7.6", "6.5"),
         result=tuple(known for joint in context.robot.joints for known in _known(context, joint)),
         listed=True,
         uses=tuple(f"A{joint.index}" for joint in context.robot.joints),
@@ -478,7 +473,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
         ),
         said="" if beside else f"the {kind} of a motor",
         formula=equation(driving_row(context, q), sum_of([*terms, *added])),
-        source=_source(context),
+        source=context.by_convention("7.6", "6.5"),
         result=(equation(driving_row(context, q), context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )
@@ -543,7 +538,7 @@ def _general(context: Context, key: str, title: str, why: str, sums: dict[str, l
         id=key,
         title=title,
         why=(why,),
-        source=_source(context),
+        source=context.by_convention("7.6", "6.5"),
         result=tuple(equation(link(name), sum_of(terms)) for name, terms in sums.items()),
         listed=True,
         uses=("links",),
