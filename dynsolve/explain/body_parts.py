@@ -11,8 +11,13 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.column_products import of_columns
-from dynsolve.explain.working.derivatives import are_alike
-from dynsolve.explain.working.identities import Identity, cancelled_in_product, said, used_in_product
+from dynsolve.explain.working.identities import (
+    Identity,
+    are_alike,
+    cancelled_in_product,
+    said,
+    used_in_product,
+)
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity, turned
 from dynsolve.explain.writing import name_of, spong, sum_of
 from dynsolve.notation.build import number_in_front

@@ -30,7 +30,8 @@ from dynsolve.explain.forms import collected_coriolis_force
 from dynsolve.explain.long_model import of_long_model
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, name_of_term, rates_of, rows_in_names, terms_of
-from dynsolve.explain.working.derivatives import are_alike, inertia_rate, varying
+from dynsolve.explain.working.derivatives import inertia_rate, varying
+from dynsolve.explain.working.identities import are_alike
 from dynsolve.explain.writing import listed
 from dynsolve.notation.build import split_sign, times, total
 from dynsolve.notation.tree import (

@@ -11,8 +11,9 @@ from dynsolve.document.figures import ArmArrow, ArmFigure
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
-from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Line, Part, Step
-from dynsolve.explain.task import determinant_lines
+from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
+from dynsolve.explain.task import determinant_way
+from dynsolve.explain.working.identities import SILENT
 from dynsolve.explain.writing import agreeing, listed, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, equation
@@ -58,7 +59,7 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
     minors = [forms.product(minor) for minor in found.minors]
     results = tuple(formula("minor {k} = {minor}", k=k, minor=minor) for k, minor in enumerate(minors, 1))
     working: tuple[Node, ...] = ()
-    lines: tuple[Line, ...] = ()
+    way = SILENT
     text = "${J}$ is {rows}×{columns}, and its rank is {rank} almost everywhere. "
     if found.core is not None:
         text += (
@@ -75,7 +76,7 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
         text = "${J}$ is square: it has an inverse unless its determinant is 0."
         results = (formula("det {J} = {minor}", J=J, minor=minors[0]),)
         if "det" not in context.wanted:
-            lines = determinant_lines(context, formula("det {J}", J=J), context.values[name])
+            way = determinant_way(context, formula("det {J}", J=J), context.values[name], minors[0])
     else:
         text += "It is less where {of_all}"
     return Step(
@@ -93,7 +94,8 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
         ),
         source=spong("4.9"),
         working=working,
-        lines=lines,
+        lines=way.lines,
+        concluding=way.concluding,
         result=results,
         listed=len(results) > 1,
         normal=TOLD & ~Part.RESULT if len(results) == 1 and "det" in context.wanted else TOLD,

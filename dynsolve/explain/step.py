@@ -14,7 +14,7 @@ from typing import cast
 
 from dynsolve.document import Prose, Table
 from dynsolve.document.figures import ArmFigure, Figure
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Node, Relation
 from dynsolve.quantities.stages import Stage
 
 
@@ -85,8 +85,13 @@ class Line:
 
 
 def outlined(lines: Sequence[Line]) -> tuple[Line, ...]:
-    """Lines of which a worked example has the last, from which the others can be found."""
-    return (*(replace(line, detail=Detail.FULL) for line in lines[:-1]), *lines[-1:])
+    """Lines of which a worked example has the last, and those by an identity; the others can be found."""
+
+    def by_identity(line: Line) -> bool:
+        return any(isinstance(part, Relation) for part in line.by)
+
+    others = (line if by_identity(line) else replace(line, detail=Detail.FULL) for line in lines[:-1])
+    return (*others, *lines[-1:])
 
 
 OF_ITS_FILE = cast(Stage, "")

@@ -16,7 +16,7 @@ from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.rates import square_of
 from dynsolve.explain.step import Detail, Group, Line, Step
-from dynsolve.explain.working.identities import said, used_in_product
+from dynsolve.explain.working.identities import SILENT, Identity, Way, by, identities, said, used_in_product
 from dynsolve.explain.writing import agreeing, is_small, listed, spong, sum_over_coordinates
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
@@ -138,40 +138,56 @@ def _determinant(context: Context) -> Step:
         )
     shown = context.show(squared(context.values[name]))
     letter = formula("det {of}", of=square_of(J, context.values[name]))
+    way = (
+        determinant_way(context, letter, context.values[name], context.form("det"))
+        if rows == columns
+        else SILENT
+    )
     return Step(
         id="det",
         title="The determinant of the Jacobian",
         why=why,
         formula=equation(letter, formula("det {matrix}", matrix=shown)) if is_small(shown) else None,
         source=spong("4.9"),
-        lines=determinant_lines(context, letter, context.values[name]) if rows == columns else (),
+        lines=way.lines,
+        concluding=way.concluding,
         result=(equation(letter, context.form("det")),),
         detail=Detail.BRIEF,
         task=letter,
     )
 
 
-def determinant_lines(context: Context, letter: Node, matrix: algebra.Matrix) -> tuple[Line, ...]:
+def determinant_way(context: Context, letter: Node, matrix: algebra.Matrix, form: Node) -> Way:
     """A determinant along the row or the column that has most zeros; none of large matrices."""
-    size = len(matrix.rows)
+    size, ring = len(matrix.rows), matrix.ring
     if size == 1 or not is_small(context.show(matrix)):
-        return ()
+        return SILENT
     both = (matrix.rows, matrix.T.rows)
     ways = [(lines, place) for lines in both for place in range(size)]
     lines, place = max(ways, key=lambda way: sum(entry.is_zero for entry in way[0][way[1]]))
     others = [line for k, line in enumerate(lines) if k != place]
     terms = []
+    used = dict[Identity, None]()
     forms = ConfigurationForms(context.robot, context.values)
     for k, entry in enumerate(lines[place]):
-        minor = determinant(algebra.Matrix.of(matrix.ring, ([*line[:k], *line[k + 1 :]] for line in others)))
+        left = algebra.Matrix.of(ring, ([*line[:k], *line[k + 1 :]] for line in others))
+        minor = determinant(left)
         if not (entry.is_zero or minor.is_zero):
-            factors = [(context.show(entry), 1), (forms.product(minor), 1)]
-            terms.append(times((-1) ** (place + k), factors))
+            shown = forms.product(minor)
+            if size == 3:
+                (a, b), (c, d) = ([context.show(each) for each in row] for row in left.rows)
+                products = formula("{a} {d} - {b} {c}", a=a, b=b, c=c, d=d)
+                used |= dict.fromkeys(identities(ring, products, shown) or ())
+            terms.append(times((-1) ** (place + k), [(context.show(entry), 1), (shown, 1)]))
     which = f"{'row' if lines == matrix.rows else 'column'} {place + 1}"
-    by = (f"Along {which}, each entry times the determinant that is left, signs in turn:",)
+    along = f"Along {which}, each entry times the determinant that is left, signs in turn"
     expanded = equation(letter, total(terms))
     is_new = to_unicode(expanded) != to_unicode(equation(letter, context.show(determinant(matrix))))
-    return (Line(by if size > 2 else (), (expanded,)),) if is_new and is_small(expanded) else ()
+    if not (is_new and is_small(expanded)):
+        return SILENT
+    then = identities(ring, total(terms), form)
+    line = Line(by(along, used) if size > 2 else (), (expanded,))
+    return Way((line,), say("By {used}:", used=said(then)) if then else ())
 
 
 # -- how a Jacobian changes ------------------------------------------------------------------------

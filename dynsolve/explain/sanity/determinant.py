@@ -30,9 +30,8 @@ from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.sanity.poses import Pose, at, degrees, written_pose
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import product_of
-from dynsolve.explain.working.identities import Identity, equals, identities, said
+from dynsolve.explain.working.identities import Identity, are_alike, equals, identities, said
 from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import as_row, listed, spong
 from dynsolve.notation.build import cost, factors_of, negated, total

@@ -28,7 +28,7 @@ from dynsolve.explain.sanity.determinant import cases, is_positive, sign_of, sol
 from dynsolve.explain.sanity.poses import Pose, at, degrees, poses, turning_in, written_pose
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import driving_side
-from dynsolve.explain.working.derivatives import are_alike
+from dynsolve.explain.working.identities import are_alike
 from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import as_row, listed, side_by_side, spong, sum_of, turns
 from dynsolve.notation.build import times, total

@@ -20,11 +20,11 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
-from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import is_trigonometric
 from dynsolve.explain.working.identities import (
     Identity,
     Way,
+    are_alike,
     identities,
     products_cancel,
     proved,

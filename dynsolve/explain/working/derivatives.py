@@ -32,6 +32,7 @@ from dynsolve.explain.working.identities import (
     Identity,
     Tactic,
     Way,
+    are_alike,
     by,
     chain,
     identities,
@@ -55,7 +56,7 @@ from dynsolve.notation.tree import (
     Symbol,
     equation,
 )
-from dynsolve.notation.walk import mapped, walk
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate
 
@@ -128,21 +129,6 @@ def cancelling(context: Context, q: Coordinate) -> Prose:
     gone = both - products_of_rates(ring, (rate - slope).poly)
     named = rates_named(ring, [product for product in gone if sum(product) == 2], by_name=True)
     return say("The terms with {named} cancel:", named=listed(named)) if named else ()
-
-
-def are_alike(left: Node, right: Node) -> bool:
-    """Whether two trees are the same but for the order of terms and factors."""
-    return mapped(left, _ordered) == mapped(right, _ordered)
-
-
-def _ordered(node: Node) -> Node:
-    match node:
-        case Sum(terms):
-            flat = [part for term in terms for part in (term.terms if isinstance(term, Sum) else (term,))]
-            return Sum(tuple(sorted(flat, key=repr)))
-        case Product(factors):
-            return Product(tuple(sorted(factors, key=repr)))
-    return node
 
 
 MOST_AT_A_LOOK = 2

@@ -29,6 +29,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import sums_of_rates
 from dynsolve.explain.writing import is_small, listed, sum_of
+from dynsolve.notation.build import factors_of
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Function,
@@ -326,13 +327,44 @@ def equals(tree: Node, value: Expr) -> bool:
 
 
 def proved(value: Expr, tactics: Iterable[Tactic]) -> dict[Node, str | Prose] | None:
-    """The forms that the tactics come to, each once with its words, if all have the value; else None."""
+    """The forms that the tactics come to, each once with its words, if all have the value; else None.
+
+    One that only puts the form before it into another order stands in its place.
+    """
     found: dict[Node, str | Prose] = {}
     for words, form in tactics:
         if not equals(form, value):
             return None
+        if found and are_alike(last := next(reversed(found)), form):
+            words = found.pop(last)
         found.setdefault(form, words)
     return found
+
+
+def are_alike(left: Node, right: Node) -> bool:
+    """Whether two trees are the same but for the order of terms and factors: (a b)² is a² b².
+
+    >>> are_alike(formula("m ((a b)² + c)"), formula("(c + a² b²) m"))
+    True
+    """
+    return mapped(left, _ordered) == mapped(right, _ordered)
+
+
+def _ordered(node: Node) -> Node:
+    match node:
+        case Sum(terms):
+            flat = [part for term in terms for part in (term.terms if isinstance(term, Sum) else (term,))]
+            return Sum(tuple(sorted(flat, key=repr)))
+        case Product(factors):
+            flat = [part for factor in factors for part in factors_of(factor)]
+            return Product(tuple(sorted(flat, key=repr)))
+        case Power(Product(factors), exponent):
+            return Product(tuple(sorted((Power(factor, exponent) for factor in factors), key=repr)))
+        case Parenthesized(argument):
+            return argument
+        case Quotient(Number(p, 1), Number(q, 1)):
+            return Number(p, q)
+    return node
 
 
 def collected(before: Node, after: Node) -> str:
@@ -346,12 +378,13 @@ def chain(
 ) -> Way:
     """The lines that the tactics come to, if each of them is proved to be the result; else nothing.
 
-    A form that is the result as it is printed gives its words to that.
+    A form that is the result but for the order gives its words to that.
     """
-    forms = proved(context.values[result], tactics)
+    forms, result_form = proved(context.values[result], tactics), context.form(result)
     if forms is None:
         return SILENT
-    if forms and to_unicode(next(reversed(forms))) == to_unicode(context.form(result)):
+    last = next(reversed(forms), None)
+    if last is not None and (are_alike(last, result_form) or to_unicode(last) == to_unicode(result_form)):
         _, concluding = forms.popitem()
     lines = [Line(say("{by}", by=words), (equation(name, form),)) for form, words in forms.items()]
     return Way(tuple(lines), say("{by}", by=concluding))

@@ -105,4 +105,4 @@ def test_a_determinant_is_expanded_before_it_is_simplified() -> None:
     assert to_unicode(line.formulas[0], PLAIN).startswith("det J_r = ")
     arm = "dh: [{theta: q1*, d: l1, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
     (line,) = steps(f"{arm}task: [tip.x, tip.y, tip.z]\nfind: [det]")["det"].lines
-    assert line.by == ("Along row 3, each entry times the determinant that is left, signs in turn:",)
+    assert line.by[0] == "Along row 3, each entry times the determinant that is left, signs in turn, with "

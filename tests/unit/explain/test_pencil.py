@@ -1,0 +1,52 @@
+"""What a reader with a pencil asks of the lines: each says what was done, and none says what is not so."""
+
+from __future__ import annotations
+
+from unicodedata import normalize
+
+import dynsolve
+from dynsolve.explain.step import Detail
+from dynsolve.render.formats import Format
+from dynsolve.solution.reports import report
+
+CART = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, a: revolute}
+  bodies:
+    - {mass: m, at: [x + l*sin(a), -l*cos(a), 0]}
+"""
+SWING = """
+gravity: [0, -g, 0]
+dh:
+  - {theta: q1*, a: l1, alpha: 90deg}
+  - {theta: q2*, alpha: -90deg, a: l2}
+masses: [{mass: m1, link: 2}]
+"""
+ELBOW = """
+gravity: none
+dh:
+  - {theta: q1*, d: h, alpha: 90deg}
+  - {theta: q2*, a: l2}
+  - {theta: q3*, a: l3}
+"""
+
+
+def told(problem: str) -> str:
+    """The worked solution, its words and formulas one after the other."""
+    text = report(dynsolve.solve(problem), Format.TEXT, detail=Detail.NORMAL).decode()
+    return " ".join(normalize("NFC", text).split())
+
+
+def test_a_line_that_only_reorders_stands_in_place_of_the_one_before() -> None:
+    text = told(CART + "find: [K]")
+    assert "K_v1 = ½ m (ẋ² + 2l cos(a) ẋ ȧ + l² ȧ²)" in text
+    assert "Collected:" not in text
+
+
+def test_every_identity_on_the_way_is_named() -> None:
+    text = told(SWING + "find: [K]")
+    assert text.index("= U² + V²") < text.index("By s₂² + c₂² = 1:")
+    text = told(ELBOW + "task: [tip.x, tip.y, tip.z]\nfind: [det]")
+    assert "signs in turn, with s₁² + c₁² = 1:" in text
+    assert "By the sine of a difference, s₂₃ c₂ - c₂₃ s₂ = s₃:" in text
