@@ -185,16 +185,12 @@ def _principal(context: Context, body: Body, tensor: algebra.Matrix) -> Prose:
     """That the axes of a given tensor are principal, where its products of inertia are zero."""
     if any(not tensor[i, j].is_zero for i in range(3) for j in range(3) if i != j):
         return ()
+    told: Prose = (" They are principal axes: there are no products of inertia.",)
     slender = [name for i, name in enumerate("xyz") if tensor[i, i].is_zero]
-    return say(
-        " They are principal axes: there are no products of inertia.{slender}",
-        slender=say(
-            " The moment about {axis} is taken as 0: the body is slender.",
-            axis=_axis(context, body, slender[0], f"its {slender[0]}"),
-        )
-        if len(slender) == 1
-        else (),
-    )
+    if len(slender) == 1:
+        axis = _axis(context, body, slender[0], f"its {slender[0]}")
+        told += say(" The moment about {axis} is taken as 0: the body is slender.", axis=axis)
+    return told
 
 
 def _in_frame(context: Context, body: Body) -> bool:
@@ -239,16 +235,15 @@ def _shape(context: Context, body: Body) -> _Told | None:
         for letter, value in letters_of(body)
     }
     given = [equation(sign, value) for sign, value in values.items() if sign != value]
+    axis: Prose = ()
+    if shape.axis:
+        along = _axis(context, body, shape.axis, f"{shape.axis} of the body's frame")
+        axis = say(", its own axis along {along}", along=along)
     why = say(
         "{body} is a uniform {shape}{axis}. Its principal moments about the mass centre:",
         body=name_of(body).capitalize(),
         shape=SHAPES[shape.kind],
-        axis=say(
-            ", its own axis along {axis}",
-            axis=_axis(context, body, shape.axis, f"{shape.axis} of the body's frame"),
-        )
-        if shape.axis
-        else (),
+        axis=axis,
     )
     return side_by_side(moments), (side_by_side(given),) if given else (), why, ""
 

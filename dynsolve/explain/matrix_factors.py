@@ -68,17 +68,12 @@ def _product(context: Context, factors: tuple[Node, ...]) -> Node | None:
     scalars: list[Node] = []
     matrices: list[Node] = []
     for factor in factors:
-        match factor:
-            case Matrix() if found := _factored(context, factor):
-                scalars.append(found[0])
-                matrices.append(found[1])
-            case Transpose(Matrix() as matrix) if found := _factored(context, matrix):
-                scalars.append(found[0])
-                matrices.append(Transpose(found[1]))
-            case Matrix() | Transpose():
-                matrices.append(factor)
-            case _:
-                scalars.append(factor)
+        inner = factor.argument if isinstance(factor, Transpose) else factor
+        if isinstance(inner, Matrix) and (found := _factored(context, inner)):
+            scalars.append(found[0])
+            matrices.append(found[1] if inner is factor else Transpose(found[1]))
+        else:
+            (matrices if isinstance(factor, Matrix | Transpose) else scalars).append(factor)
     if not matrices or len(matrices) + len(scalars) == len(factors):
         return None
     collector = context.forms.compactor.collector
