@@ -94,8 +94,8 @@ ENTRIES_IN_PRODUCTS = (letters.D, letters.D_POINTS, letters.C, letters.bold("N")
 
 TEXTBOOK = """
 {columns} | columns of the Denavit-Hartenberg table | rad, m, m, rad
-{motions} | rotation about, translation along an axis: 4×4 matrix
-{R_z} | rotation by an angle about an axis: 3×3 matrix
+* {motions} | rotation about, translation along an axis: 4×4 matrix
+* {R_z} | rotation by an angle about an axis: 3×3 matrix
 U, V | any two quantities, in an identity
 {any_vector} | entry i of any vector
 𝐀_i | matrix of row i: frame i seen from frame i-1
@@ -125,6 +125,7 @@ U, V | any two quantities, in an identity
 * {constants} | constants of a solution, given where they stand
 * ψ | angle that is sought | rad
 * 𝐅_i | force from outside | N
+* {F} | force that belongs to the task
 * 𝐌_i, M_i | moment from outside, its size | N m
 * 𝐐: generalized forces of what acts from outside; Q_i: their entries | | {force}
 * 𝐡: what the constraints keep at 0; {A_C}: constraint matrix; 𝛌: multipliers
@@ -135,7 +136,7 @@ m_i | mass of body i | kg
 𝐫_ci | mass centre of body i | m
 𝐫_ci^{frame} | mass centre of body i, {its} | m
 {lever} | mass centre of body i from the near end of its link, in the link's frame | m
-{tensors} | inertia tensor of body i about its mass centre, along the body's axes{raised} | kg m^2
+* {tensors} | inertia tensor of body i about its mass centre, along the body's axes{raised} | kg m^2
 𝓘_i | inertia tensor of body i, along the axes of {ground} | kg m^2
 𝐑_i | axes of body i, seen from {ground}
 * 𝐑_(i,j) | turn j of body i
@@ -194,7 +195,8 @@ c_ijk | Christoffel symbol: always with three indices | {inertia}
 * {LINEAR_A}: matrix of the state; {LINEAR_B}: matrix of the inputs | of the motion near the equilibrium
 * 𝐪_('e') | the equilibrium
 * {STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
-* 𝐅: factors of the rates in the friction; 𝐒: selects the inputs
+* {F_RATES} | factors of the rates in the friction
+* 𝐒 | selects the inputs
 * 𝚲 | inertia matrix of the task
 * {parameters} | column of the parameters in these
 𝐍: skew-symmetric matrix; n_ij: its entries | | {rate}
@@ -277,6 +279,7 @@ def _asked(robot: Robot) -> dict[str, Value]:
     """What an exercise asks for beside the dynamics: a task, its inverse, points, constraints."""
     asked = robot.questions
     reached = [name for name in asked.reached if name not in robot.parameters]
+    is_linear = not asked.asked.isdisjoint(("linear_A", "linear_B"))
     found: dict[str, Value] = {
         "reached": _names(reached),
         **dict.fromkeys(("of_points", "of_turns", "U")),
@@ -284,6 +287,8 @@ def _asked(robot: Robot) -> dict[str, Value]:
         # else a dissipation function has this letter
         "R_SPACE": letters.DISSIPATION if "rangespace" in asked.asked else None,
         "Z": letters.bold("Z") if asked.constraints else None,
+        "F": None if is_linear else letters.bold("F"),
+        "F_RATES": letters.bold("F") if is_linear else None,
     }
     if asked.task is not None and asked.task.is_pose:
         from dynsolve.derivation.inverse.names import Names
