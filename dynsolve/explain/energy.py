@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from dynsolve.derivation.jacobian import joint_frame
-from dynsolve.document import Prose, Reference
+from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps, potential_steps
 from dynsolve.explain.context import Context
@@ -19,7 +18,6 @@ from dynsolve.explain.jacobian import (
     how_read_off,
     parallel,
     read_off,
-    told_read_off,
 )
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
@@ -186,21 +184,13 @@ def _jacobians(context: Context, body: Body) -> Step:
 
 
 def _read_off(context: Context, body: Body) -> Prose:
-    """How the columns of which no product is shown are read off, or which column of the end tells it."""
+    """How the columns of which no product is shown are read off."""
     if not (context.is_short and context.robot.has_table) or _is_at_the_end(context, body):
         return ()
     joint = read_off(context, body.link, context.values[f"rc{body.name}"])
     if joint is None:
         return ()
-    told = told_read_off(context)
-    if told is None:
-        return say(" {how}.", how=how_read_off(context, joint))
-    return say(
-        " Products with {axis} are read off as in $𝐉_{i}${column}.",
-        axis=letters.z(joint_frame(context.robot, joint)),
-        i=told[0],
-        column=Reference((f"J{told[0]}",)),
-    )
+    return say(" {how}.", how=how_read_off(context, joint))
 
 
 def _is_at_the_end(context: Context, body: Body) -> bool:

@@ -61,6 +61,8 @@ def steps(context: Context) -> Iterator[Step]:
         for q in robot.coordinates:
             yield replace(_torque(context, q), group=Group("tau", "The forces and torques of the motors"))
         yield _lagrange(context)
+    else:
+        yield from _ends(context)
 
 
 # -- the letters of a link, and the terms of each recursion in them, of one link or of link i ------
@@ -350,9 +352,11 @@ def _origin_step(context: Context, joint: Joint) -> Step:
     if not joint.parent and context.standard:
         base = (" The base is at rest.",)
     elif not joint.parent:
-        lift = context.show(recursions.lift(context.robot))
+        x, y, z = map(context.show, recursions.lift(context.robot).entries)
         base = say(
-            " The base accelerates by ${a} = {lift}$, which stands for gravity.", a=link("{a0}"), lift=lift
+            " The base accelerates by ${a} = {lift}$, which stands for gravity.",
+            a=link("{a0}"),
+            lift=Transpose(Parenthesized(Row((x, Words(","), y, Words(","), z)))),
         )
     why = say(
         "What the origin before has, and what the turning adds over the way from there{slide}.{base}",
@@ -452,6 +456,32 @@ def _moments(context: Context, i: int) -> Iterator[Part]:
 
 
 # -- the forces of the motors ----------------------------------------------------------------------
+
+
+def _ends(context: Context) -> Iterator[Step]:
+    """The forces of the motors as the recursions give them, where what the joints hold is told."""
+    told = [
+        q
+        for q in context.robot.coordinates
+        if all(
+            f"{'nl' if joint.type is JointType.REVOLUTE else 'fl'}{joint.index}" in context.wanted
+            for joint, _ in context.robot.joints_of(q)
+        )
+    ]
+    if told:
+        yield Step(
+            id="tau_held",
+            title="The forces and torques of the motors",
+            why=say(
+                "A motor gives the component of what its joint holds along the joint's axis; the bearings "
+                "hold the others. The result is that of the Euler-Lagrange equations."
+            ),
+            source=_source(context),
+            result=tuple(form for q in told if (form := _torque(context, q).formula) is not None),
+            listed=True,
+            uses=tuple(f"tau{q.index}" for q in told),
+            is_task=False,
+        )
 
 
 def _torque(context: Context, q: Coordinate) -> Step:

@@ -159,6 +159,8 @@ def _space(context: Context, name: str) -> Step:
     vectors = [column_of(form, k) for k in range(len(form.rows[0]))]
     spanned = formula("span ({vectors})", vectors=side_by_side(vectors)) if vectors else Words("{0}")
     rank, count = rank_parts(J).rank, len(vectors)
+    if name == "lost" and not vectors:
+        what = "Nothing but 𝟎 is orthogonal to all possible velocities: no motion is lost."
     return replace(
         found,
         why=(f"{what} ", *state_prose(context)) if state else (what,),

@@ -116,7 +116,9 @@ def _alternatives(forms: ConfigurationForms, found: SingularSet) -> Step:
     )
     if not cases:
         return step
-    one = "A product is 0 where one of its factors is. Constant lengths are not 0, so one case is left."
+    at_once = ", and all the minors have to be 0 at once" if len(found.minors) > 1 else ""
+    product = f"A product is 0 where one of its factors is{at_once}."
+    one = f"{product} Constant lengths are not 0, so one case is left."
     several = (
         "A product is 0 where one of its factors is; each of these cases is enough. "
         "Constant lengths are not 0."
@@ -141,9 +143,12 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
         task = context.robot.questions.task
         is_force = _matrix(context) != "J" and (task is None or task.is_default)
         told = say(
-            " Every velocity that the joints can give is orthogonal to $𝐰$: that motion is lost. A force"
-            "{needs} no torque of the joints.",
-            needs=" along it needs" if is_force else " and a moment along it need",
+            " Every velocity that the joints can give is orthogonal to {w}: {lost} lost. A force"
+            "{moment} along {it} no torque of the joints.",
+            w=listed(names),
+            lost="that motion is" if len(names) == 1 else "these motions are",
+            moment="" if is_force else " and a moment",
+            it=f"{'it' if len(names) == 1 else 'them'} {'needs' if is_force else 'need'}",
         )
     if not loss.are_independent:
         told += say(

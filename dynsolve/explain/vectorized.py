@@ -66,20 +66,23 @@ def _inertia(context: Context) -> Step:
     robot, n, D = context.robot, context.robot.n, context.values["D"]
     is_diagonal = n > 1 and all(D[i, j].is_zero for i in range(n) for j in range(n) if i != j)
     forces = listed([letters.force(q) for q in robot.coordinates])
+    is_force = not robot.actions.passive and driving_side(context) == letters.TAU
     return Step(
         id="D",
         title="The inertia matrix, read off from the forces",
         why=say(
-            "Entry $d_ij$ is the factor of the acceleration $q̈_j$ in the generalized force $τ_i${entries}. "
+            "Entry $d_ij$ is the factor of the acceleration $q̈_j$ in {force}. "
             "$𝐃$ is symmetric, and may depend on the coordinates, but on no rate.{diagonal}",
-            entries=()
+            force="the right side of equation i, that of coordinate i"
+            if not is_force
+            else say("the generalized force $τ_i$")
             if all(map(turns, robot.coordinates))
-            else say(", entry $i$ of $𝛕$ ({forces})", forces=forces),
+            else say("the generalized force $τ_i$, entry $i$ of $𝛕$ ({forces})", forces=forces),
             diagonal=" Here it is diagonal: no acceleration enters the force of another coordinate."
             if is_diagonal
             else "",
         ),
-        formula=formula("d_ij = ∂τ_i/∂q̈_j"),
+        formula=formula("d_ij = ∂τ_i/∂q̈_j") if is_force else None,
         source=f"from {spong('7.3')}",
         result=(formula("𝐃 = {D}", D=context.form("D")),),
         uses=_forces(context),

@@ -13,9 +13,9 @@ from dynsolve.explain.writing import listed, spong, sum_of, turns
 from dynsolve.notation.build import cost
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    ZERO,
     Negative,
     Node,
-    Number,
     Parenthesized,
     Product,
     Relation,
@@ -107,6 +107,7 @@ def _cyclic(context: Context) -> list[Coordinate]:
         q
         for q in context.robot.coordinates
         if values[f"dLdq{q.index}"].is_zero
+        and not values[f"dLdqd{q.index}"].is_zero
         and ("friction" not in values.rules or values["friction"][q.index - 1, 0].is_zero)
     ]
 
@@ -117,23 +118,40 @@ def _momentum(q: Coordinate) -> Node:
 
 def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
     """Which momenta stay constant as long as nothing acts on them, and what these are."""
+    acting = [form for q in free if (form := _acting_on(context, q)) != ZERO]
     text = (
-        "{names} does not appear in $ℒ$: a cyclic coordinate. As long as {zeros}, the Euler-Lagrange "
-        "equation says that the momentum {momenta} is"
+        "{names} does not appear in $ℒ$: a cyclic coordinate. {zeros} Euler-Lagrange equation says that the "
+        "momentum {momenta} is"
     )
     if len(free) > 1:
         text = (
-            "{names} do not appear in $ℒ$: cyclic coordinates. As long as {zeros}, the Euler-Lagrange "
-            "equations say that the momenta {momenta} are"
+            "{names} do not appear in $ℒ$: cyclic coordinates. {zeros} Euler-Lagrange equations say that the "
+            "momenta {momenta} are"
         )
     return say(
         text,
         names=listed([Symbol(q.name) for q in free]),
-        zeros=listed([equation(driving_row(context, q), Number(0)) for q in free]),
+        zeros=say("As long as {zeros}, the", zeros=listed([equation(form, ZERO) for form in acting]))
+        if acting
+        else "The",
         momenta=listed(
             [(_momentum(q), Reference((f"dLdqd{q.index}",), " in "), *_named(context, q)) for q in free]
         ),
     )
+
+
+def _acting_on(context: Context, q: Coordinate) -> Node:
+    """What really acts on a coordinate: no motor on a passive one, nothing that is 0 in its row."""
+    values, k = context.values, q.index - 1
+    row = driving_row(context, q)
+    terms = list(row.terms) if isinstance(row, Sum) else [row]
+    if k in context.robot.actions.passive:
+        terms.remove(letters.force(q))
+    if context.robot.questions.loads and values["Q"][k, 0].is_zero:
+        terms.remove(letters.entry("Q", q.index))
+    if context.robot.questions.constraints and all(entry.is_zero for entry in values["Ac"].T.rows[k]):
+        terms.pop()
+    return sum_of(terms) if terms else ZERO
 
 
 def _named(context: Context, q: Coordinate) -> Prose:
@@ -151,11 +169,11 @@ def _named(context: Context, q: Coordinate) -> Prose:
     kind, where = ("angular", "about") if turns(q) else ("linear", "along")
     is_first = not robot.is_tree and all(body.link >= joint.index for body in robot.bodies)
     return say(
-        "{of_all} {axis})" if is_first else "{of_some} {axis} of all that joint {joint} moves)",
+        "{of_all} {axis})" if is_first else "{of_some} {axis} of all that the joint of {q} moves)",
         of_all=f" (the {kind} momentum of the {context.machine} {where}",
         of_some=f" (the {kind} momentum {where}",
         axis=letters.z(joint_frame(robot, joint)),
-        joint=joint.index,
+        q=Symbol(q.name),
     )
 
 

@@ -75,8 +75,11 @@ def inertia_poses_step(context: Context) -> Step | None:
         source=spong("7.2"),
         table=Table(("pose", "moment of inertia"), tuple(chain(*shown.values()))),
         outcome=say(
-            "{names} {are} of inertia of all that the joint moves: in simple poses the parallel-axis theorem "
-            "gives the same.",
+            "{names} {are} of inertia of all that {joints}{rotors}: in simple poses the parallel-axis "
+            "theorem gives the same{of_rotors}.",
+            joints=f"joint {numbers} moves" if one else f"joints {numbers} move",
+            rotors=", and of the rotors" if context.robot.actions.motors else "",
+            of_rotors=" for the bodies" if context.robot.actions.motors else "",
             names=names,
             are=are,
         ),

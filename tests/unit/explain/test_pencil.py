@@ -50,3 +50,40 @@ def test_every_identity_on_the_way_is_named() -> None:
     text = told(ELBOW + "task: [tip.x, tip.y, tip.z]\nfind: [det]")
     assert "signs in turn, with s₁² + c₁² = 1:" in text
     assert "By the sine of a difference, s₂₃ c₂ - c₂₃ s₂ = s₃:" in text
+
+
+ARM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+"""
+
+
+def test_recursions_end_at_the_forces() -> None:
+    assert "τ₂ = (𝐧₂²)ᵀ 𝐳₁²" in told(ARM + "find: [tau, fl2, nl2]")
+
+
+def test_a_passive_coordinate_has_no_force_to_read_off() -> None:
+    text = told(ARM + "passive: [q2]\nfind: [D]")
+    assert "in the right side of equation i" in text and "dᵢⱼ = ∂τᵢ/∂q̈ⱼ" not in text
+    assert "dᵢⱼ = ∂τᵢ/∂q̈ⱼ" in told(ARM + "find: [D]")
+
+
+def test_how_a_product_is_read_off_is_said_where_it_is_used() -> None:
+    text = told(ARM + "find: [K]")
+    assert "(-u₂,u₁,0)ᵀ" in text and "read off as in" not in text
+
+
+def test_what_is_conserved_is_what_is_there() -> None:
+    text = told(
+        CART.replace("sin(a)", "cos(b)").replace("prismatic, a", "prismatic, b").replace("cos(a)", "sin(b)")
+    )
+    assert "As long as" in text
+    text = told(CART + "passive: [x]\nconstraints: [a]\nfind: [tau, D, C, g, Ac]")
+    assert "f₁" not in text[text.index("cyclic") : text.index("momentum")]
+
+
+def test_nothing_is_lost_where_the_task_can_move_any_way() -> None:
+    problem = "gravity: none\ndh: [{theta: q1*, a: l}, {theta: q2*, a: l}]\ntask: [tip.x, tip.y]\n"
+    text = told(problem + "state: {q1: 0, q2: 90deg}\nfind: [lost]")
+    assert "no motion is lost" in text and "A force along it" not in text
