@@ -476,7 +476,7 @@ def _ends(context: Context) -> Iterator[Step]:
                 "A motor gives the component of what its joint holds along the joint's axis; the bearings "
                 "hold the others. The result is that of the Euler-Lagrange equations."
             ),
-            source=_source(context),
+            source=context.by_convention("7.6", "6.5"),
             result=tuple(form for q in told if (form := _torque(context, q).formula) is not None),
             listed=True,
             uses=tuple(f"tau{q.index}" for q in told),

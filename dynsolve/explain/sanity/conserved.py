@@ -169,11 +169,13 @@ def _named(context: Context, q: Coordinate) -> Prose:
     kind, where = ("angular", "about") if turns(q) else ("linear", "along")
     is_first = not robot.is_tree and all(body.link >= joint.index for body in robot.bodies)
     return say(
-        "{of_all} {axis})" if is_first else "{of_some} {axis} of all that the joint of {q} moves)",
+        "{of_all} {axis})" if is_first else "{of_some} {axis} of all that {joint} moves)",
         of_all=f" (the {kind} momentum of the {context.machine} {where}",
         of_some=f" (the {kind} momentum {where}",
         axis=letters.z(joint_frame(robot, joint)),
-        q=Symbol(q.name),
+        joint=f"joint {joint.index}"
+        if all(each.type for each in robot.joints)
+        else say("the joint of {q}", q=Symbol(q.name)),
     )
 
 
