@@ -22,8 +22,8 @@ from dynsolve.notation.walk import walk
 
 CONDITIONAL = (
     "conserved", "simple poses", "gravity is balanced", "positive definite",  # checks, at poses of their own
-    "Checks", "Given", "equilibria:", "configurations:", "conditions for balance:", "inverse kinematics:",
-    "Frames from the drawing", "stable", "do not decide",
+    "Checks", "Given", "equilibri", "configurations:", "conditions for balance:", "inverse kinematics:",
+    "Frames from the drawing", "has solutions where", "stable", "do not decide",
     "Singular", "Inverse", "Rates and", "Forces from outside", "Equilib",
     "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
 )  # fmt: skip
