@@ -3,9 +3,9 @@
 A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
 `jacobian`, `inertia` (with `mass_centers`), `energy`, `torque` (with the Lagrangian), `vectorized` (with
 `christoffel`); `frames` of a drawing; `task` (with points), `singular`, `inverse`, `rates` (with statics),
-`newton_euler`, `parameters`, `equilibria`, `forward_dynamics` (with the inertia of
-the task), `definite` and `constraints` where something of them is asked.  To explain a further quantity,
-yield a `Step` in the file of its stage:
+`newton_euler`, `parameters`, `equilibria`, `definite` and `constraints` (with forward dynamics and the
+inertia of the task) where something of them is asked.  To explain a further quantity, yield a `Step`
+in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
