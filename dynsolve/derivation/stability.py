@@ -15,7 +15,7 @@ Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import combinations, product
@@ -33,6 +33,9 @@ from dynsolve.derivation.singular.sets import Alternative
 
 MOST_POINTS = 16
 """With more points in a case their stability is not told one by one."""
+
+MOST_TURNING = 6
+"""With more sines and cosines the least value of an expression is not looked for."""
 
 MOST_PRODUCTS = 50_000
 """Second derivatives whose determinant may come to more products of terms are not looked at."""
@@ -56,7 +59,7 @@ class Point:
     `neutral` are the coordinates, from 0, along which nothing changes.  Where the stability is
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
-    sides are equal nothing is said.
+    sides are equal nothing is said.  `is_open` says that the signs depend on the configuration.
     """
 
     values: Values
@@ -64,6 +67,7 @@ class Point:
     neutral: tuple[int, ...] = ()
     conditions: tuple[Bound, ...] = ()
     falls: bool = False
+    is_open: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,18 +108,22 @@ class Curvature:
         neutral = tuple(k for k in free if all(entry.is_zero for entry in second.rows[k]))
         rest = tuple(k for k in range(len(second.rows)) if k not in neutral)
         if not rest or work(part(second, rest, rest)) > MOST_PRODUCTS:
-            return Point(values, Stability.UNDECIDED, neutral)
+            return Point(values, Stability.UNDECIDED, neutral, is_open=bool(rest))
         if not self.may_be_held and _falls(second, rest, signs):
             return Point(values, Stability.UNSTABLE, neutral)
         leading = (determinant(part(second, rest[:k], rest[:k])) for k in range(1, len(rest) + 1))
         left = [
-            minor for minor in map(signs.open_part, leading) if not (minor.is_number and minor.number > 0)
+            minor
+            for minor in map(signs.open_part, leading)
+            if not (minor.is_number and minor.number > 0) and not _is_positive_throughout(minor, signs)
         ]
         if not left:
             return Point(values, Stability.STABLE, neutral)
-        if any(minor.is_number or minor.ring.depends_on_coordinates(minor) for minor in left):
+        if any(minor.is_number for minor in left):
             return Point(values, Stability.UNDECIDED, neutral)
-        conditions = independent([Bound(minor) for minor in left], signs.assumed)
+        if any(minor.ring.depends_on_coordinates(minor) for minor in left):
+            return Point(values, Stability.UNDECIDED, neutral, is_open=True)
+        conditions = independent([Bound(minor) for minor in _least(left, signs)], signs.assumed)
         return Point(values, Stability.UNDECIDED, neutral, conditions, not self.may_be_held)
 
 
@@ -126,6 +134,27 @@ def _falls(second: Matrix, rest: Sequence[int], signs: ParameterSigns) -> bool:
         for size in range(1, len(rest) + 1)
         for chosen in combinations(rest, size)
     )
+
+
+def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
+    """Whether k - m g l cos q > 0 for all q: what is linear in each sine and cosine is least at ±1."""
+    ring, degrees = value.ring, value.poly.degrees()
+    turning = [i for pair in ring.pairs for i in (pair.sine, pair.cosine) if degrees[i] > 0]
+    if not turning or len(turning) > MOST_TURNING or any(degrees[index] > 1 for index in turning):
+        return False
+    return all(
+        signs.is_positive(_composed(value, dict(zip(turning, ends, strict=True))))
+        for ends in product((1, -1), repeat=len(turning))
+    )
+
+
+def _least(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
+    """The values without those that are another one and something positive."""
+    return [
+        value
+        for value in values
+        if not any(signs.is_positive(value - other) for other in values if other != value)
+    ]
 
 
 def _where_zero(second: Matrix, left: Expr) -> Matrix:
@@ -177,8 +206,17 @@ def quarter_turns(condition: Condition) -> list[tuple[Pair, int, int]]:
 
 def _put(matrix: Matrix, values: Values) -> Matrix:
     """The matrix at quarter turns."""
-    ring = matrix.ring
-    images = [ring.generator(g.index).poly for g in ring.generators]
-    for pair, sine, cosine in values:
-        images[pair.sine], images[pair.cosine] = ring.constant(sine).poly, ring.constant(cosine).poly
-    return matrix.map(lambda entry: Expr(ring, ring.reduce(entry.poly.compose(*images, ctx=ring.ctx))))
+    numbers = {pair.sine: sine for pair, sine, _ in values} | {
+        pair.cosine: cosine for pair, _, cosine in values
+    }
+    return matrix.map(lambda entry: _composed(entry, numbers))
+
+
+def _composed(value: Expr, numbers: Mapping[int, int]) -> Expr:
+    """A value with numbers for some generators."""
+    ring = value.ring
+    images = [
+        (ring.constant(numbers[g.index]) if g.index in numbers else ring.generator(g.index)).poly
+        for g in ring.generators
+    ]
+    return Expr(ring, ring.reduce(value.poly.compose(*images, ctx=ring.ctx)))

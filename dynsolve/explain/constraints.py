@@ -86,12 +86,16 @@ def _functions(context: Context) -> Step:
 def _matrix(context: Context) -> Step:
     slopes = bool(holonomic(context.robot))
     of_functions = "The functions stay 0, so their rates are 0: a row of partial derivatives each. "
+    if len(holonomic(context.robot)) == 1:
+        of_functions = "The function stays 0, so its rate is 0: a row of partial derivatives. "
     of_rates = "The constraint on the rates is linear in them: a row of their factors. "
-    has_rates = any(one.in_rates for one in context.robot.questions.constraints)
+    of_several = "The constraints on the rates are linear in them: a row of their factors each. "
+    has_rates = sum(one.in_rates for one in context.robot.questions.constraints)
+    of_rates = of_several if has_rates > 1 else of_rates * has_rates
     return Step(
         id="Ac",
         title="The constraint matrix",
-        why=say(f"{of_functions * slopes}{of_rates * has_rates}$𝐀_c 𝐪̇ = 0$."),
+        why=say(f"{of_functions * slopes}{of_rates}$𝐀_c 𝐪̇ = 0$."),
         formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes else "𝐀_c 𝐪̇ = 0"),
         source=mls("6.1.1"),
         result=(equation(letters.A_C, context.form("Ac")),),
@@ -133,8 +137,8 @@ def _products(context: Context) -> tuple[Line, ...]:
     if not is_small(square, over):
         return ()
     return (
-        Line(_INVERSE_IS, (formula("𝐃⁻¹ = {over}", over=over),)),
-        Line(("With it:",), (formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ = {square}", square=square),)),
+        Line(_INVERSE_IS, (formula("𝐃⁻¹ = {over}", over=over),), is_kept=True),
+        Line(("With it:",), (formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ = {square}", square=square),), is_kept=True),
     )
 
 
@@ -163,7 +167,7 @@ def _reduced(context: Context) -> Iterator[Step]:
         ),
         source=mls("6.1.3"),
         lines=(Line(("The free rates:",), (free,)),) if rows else (),
-        concluding=("Row by row:",) if rows else (),
+        concluding=("Row by row:" if len(rows) > 1 else "Multiplied out:",) if rows else (),
         result=rows or (free,),
         uses=("Ac",),
         is_task=is_asked,
@@ -194,7 +198,8 @@ def forward_steps(context: Context) -> Iterator[Step]:
         return
     D = context.values["D"]
     inverse = context.forms.of(quotient(adjugate(D), determinant(D)))
-    lines = (Line(_INVERSE_IS, (formula("𝐃⁻¹ = {inverse}", inverse=inverse),)),) if is_small(inverse) else ()
+    is_told = Line(_INVERSE_IS, (formula("𝐃⁻¹ = {inverse}", inverse=inverse),), is_kept=True)
+    lines = (is_told,) if is_small(inverse) else ()
     shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
     yield Step(
         id="qdd_forward",

@@ -65,7 +65,11 @@ def _equilibria(context: Context) -> Iterator[Step]:
     result: tuple[Node, ...] = tuple(vanishing(one) for one in cases if one)
     rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
     said = {part for one in result for part in walk(one) if isinstance(part, Relation)}
-    is_new = not said >= set(rows)  # not what the result says again
+    turned = [equation(context.show(-row), Number(0)) for row in found.rows]
+    is_said = all(one in said or other in said for one, other in zip(rows, turned, strict=True))
+    balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
+    own = {sign * force for force in balanced.entries for sign in (1, -1)}
+    is_new = not is_said and not own.issuperset(found.rows)  # else nothing was combined
     of_free: list[Prose] = []
     special = [shown.comparison(one.factor, "≠") for one in found.special]
     where = say(" where {special}", special=listed(special)) if special else ""
@@ -170,6 +174,8 @@ def _point(context: Context, shown: ConfigurationForms, point: Point, case: tupl
         for pair, sine, cosine in point.values
     ]
     said = _VERDICTS[point.stability]
+    if point.is_open:
+        said = ("the signs of the second derivatives depend on the configuration",)
     if point.conditions:
         said = say("stable where {all}", all=listed([*map(shown.inequality, point.conditions)]))
     if point.falls:
@@ -239,7 +245,8 @@ def _state_matrix(context: Context) -> Step:
         return _skipped("linear_A", value)
     has_friction = "friction" in robot.actions.kinds
     passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
-    balanced = "No motor drives {passive}: in the equilibrium gravity and springs do not move {which}. "
+    by = "gravity and springs do" if robot.actions.springs else "gravity does"
+    balanced = f"No motor drives {{passive}}: in the equilibrium {by} not move {{which}}. "
     rests = [
         equation(Symbol(name, dots), value)
         for (name, dots), value in robot.questions.model.equilibrium.items()
@@ -282,11 +289,14 @@ def _input_matrix(context: Context) -> Step:
     if isinstance(value, Skipped):
         return _skipped("linear_B", value)
     inputs: list[Node] = [letters.force(robot.coordinates[k]) for k in linearization.driven(robot)]
-    ones = "is the identity matrix" if len(inputs) == robot.n else "has a 1 in the row of each, a column each"
+    column = "A column for each input" if len(inputs) > 1 else "One column, of the only input"
+    ones = "has a 1 in the row of each, a column each" if len(inputs) > 1 else "has a 1 in its row"
+    if len(inputs) == robot.n:
+        ones = "is the identity matrix"
     return Step(
         id="linear_B",
         title="What the inputs do to it",
-        why=say("A column for each input: {inputs}. $𝐒$ {ones}.", inputs=listed(inputs), ones=ones),
+        why=say("{column}: {inputs}. $𝐒$ {ones}.", column=column, inputs=listed(inputs), ones=ones),
         formula=equation(letters.LINEAR_B, formula("[𝟎; 𝐃⁻¹ 𝐒]")),
         source=_SOURCE,
         result=(equation(letters.LINEAR_B, context.form("linear_B")),),

@@ -90,7 +90,9 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
             rank=found.rank,
             pivots=found.pivots,
             more=f"{found.pivots} more than" if found.pivots else "as great as",
-            of_all=f"the determinants of all its parts of {size} rows and columns are 0.",
+            of_all=f"the determinants of all its parts of {size} rows and columns are 0."
+            if size > 1
+            else "all its entries are 0.",
         ),
         source=spong("4.9"),
         working=working,

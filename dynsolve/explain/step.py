@@ -72,8 +72,9 @@ class Line:
 
     Words that end in a colon lead on; where what goes in is put in without more, there are none.
     `uses` names the earlier steps whose results go in here, and not before.  Formulas that are referred
-    to later have a `label`, and so one number; many short ones stand `in_columns`.  `detail` is the depth
-    from which the line is shown.
+    to later have a `label`, and so one number; many short ones stand `in_columns`.  A matrix that is
+    `is_kept` is told entry by entry where it does not fit, any other is left out there.  `detail` is the
+    depth from which the line is shown.
     """
 
     by: Prose
@@ -81,6 +82,7 @@ class Line:
     uses: tuple[str, ...] = ()
     label: str = ""
     in_columns: bool = False
+    is_kept: bool = False
     detail: Detail = Detail.NORMAL
 
 

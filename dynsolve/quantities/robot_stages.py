@@ -24,7 +24,15 @@ _PARTS = {
 
 
 def heading_of(stage: Stage, robot: Robot) -> str:
-    """The heading of a stage in the solution of a robot: of equilibria what is asked of them."""
+    """The heading of a stage in the solution of a robot: of some what is asked of them."""
+
+    def asks(name: str) -> bool:
+        return any(asked.startswith(name) for asked in robot.questions.asked)
+
+    if stage is Stage.STATICS and not asks("tau_static"):
+        return "Forces from outside"
+    if stage is Stage.RATES and robot.questions.acceleration is None and not asks("qdd"):
+        return "Rates of the joints"
     asked = [part for name, part in _PARTS.items() if name in robot.questions.asked]
     if stage is not Stage.EQUILIBRIA or not asked:
         return stage.heading

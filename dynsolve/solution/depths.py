@@ -277,7 +277,7 @@ def _leading_on(step: Step) -> Iterator[Block]:
 def _line_block(line: Line) -> Block:
     """The formulas of a line."""
     if len(line.formulas) == 1:
-        return Formula(line.formulas[0], optional=not line.label, label=line.label)
+        return Formula(line.formulas[0], optional=not (line.label or line.is_kept), label=line.label)
     return Equations(line.formulas, in_columns=line.in_columns, label=line.label)
 
 

@@ -398,6 +398,8 @@ def equilibrium_step(context: Context) -> Step | None:
         return None
     if context.values["g"].is_zero:
         return told(_everywhere(context))
+    if robot.questions.constraints or robot.questions.loads:  # it is not gravity alone that is balanced
+        return None
     if (nowhere := rests_nowhere(context)) is not None:
         return nowhere
     lengths = (k for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC)
