@@ -282,9 +282,25 @@ def _notes(forms: ConfigurationForms, step: Solved, turn: Turn | None) -> Iterat
     if there is not None:
         text = "There are solutions where {there}; on the boundary, with =, the two solutions are one."
         yield say(text, there=there)
-    if factors and not any(is_positive(factor * factor) for factor in factors):
+    if factors and not any(is_positive(factor * factor) for factor in factors) and _may_vanish(factors):
         zeros = [equation(forms.vanishing(factor), Number(0)) for factor in factors]
         yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
+
+
+def _may_vanish(factors: Sequence[Expr]) -> bool:
+    """Whether all may be 0 at once: where one of them is a sine, the others with c = 1 or c = -1."""
+    ring = factors[0].ring
+    for pair in ring.pairs:
+        if not any(len(factor) == 1 and factor.poly.degrees()[pair.sine] > 0 for factor in factors):
+            continue
+        for cosine in (1, -1):
+            point = [ring.generator(g.index).poly for g in ring.generators]
+            point[pair.sine], point[pair.cosine] = ring.zero.poly, (ring.one * cosine).poly
+            there = [Expr(ring, ring.reduce(factor.poly.compose(*point, ctx=ring.ctx))) for factor in factors]
+            if not any(is_positive(value * value) for value in there):
+                return True
+        return False
+    return True
 
 
 # -- the way to an unknown: components turned, squared and added, then sorted ----------------------

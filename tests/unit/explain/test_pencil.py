@@ -87,3 +87,9 @@ def test_nothing_is_lost_where_the_task_can_move_any_way() -> None:
     problem = "gravity: none\ndh: [{theta: q1*, a: l}, {theta: q2*, a: l}]\ntask: [tip.x, tip.y]\n"
     text = told(problem + "state: {q1: 0, q2: 90deg}\nfind: [lost]")
     assert "no motion is lost" in text and "A force along it" not in text
+
+
+def test_no_angle_is_free_where_that_can_never_be() -> None:
+    arm = "gravity: none\ndh: [{theta: q1*, a: %s}, {theta: q2*, a: %s}]\nreach: [5, 0]\nfind: [inverse]\n"
+    assert "is free" not in told(arm % (3, 4))
+    assert "is free" in told(arm % (3, 3))
