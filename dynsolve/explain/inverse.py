@@ -291,7 +291,11 @@ def _may_vanish(factors: Sequence[Expr]) -> bool:
     """Whether all may be 0 at once: where one of them is a sine, the others with c = 1 or c = -1."""
     ring = factors[0].ring
     for pair in ring.pairs:
-        if not any(len(factor) == 1 and factor.poly.degrees()[pair.sine] > 0 for factor in factors):
+        lengths = {pair.sine, *(g.index for g in ring.generators if g.name in ring.parameters)}
+        held = [
+            {i for i, degree in enumerate(x.poly.degrees()) if degree > 0} for x in factors if len(x) == 1
+        ]
+        if not any(pair.sine in each and each <= lengths for each in held):
             continue
         for cosine in (1, -1):
             point = [ring.generator(g.index).poly for g in ring.generators]
