@@ -15,8 +15,8 @@ from dynsolve.explain.given import CALLED
 from dynsolve.explain.named_steps import labels_of_names
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
-from dynsolve.explain.writing import listed
-from dynsolve.notation.tree import ZERO, Relation, equation
+from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.notation.tree import ZERO, Relation, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
@@ -25,6 +25,12 @@ from dynsolve.robot.model import Robot
 TITLE = "Summary"
 
 _MATRICES = ("D", "C", "friction", "g")
+
+_AT_STATE = frozenset({"Q", "tau_static", "qd", "qdd", "nullspace", "rangespace", "lost"})
+"""What is computed at the state that a file gives."""
+
+_ACCELERATIONS = ("qdd", "qdd_forward")
+"""Two results of one letter."""
 
 
 def in_summary(robot: Robot, steps: Sequence[Step], asked: Sequence[str], is_short: bool) -> frozenset[str]:
@@ -50,7 +56,7 @@ def summary_blocks(
     by_id = {step.id: step for step in steps}
     model = by_id.get(ID)
     of_model = in_model(robot) if model else frozenset()
-    others = [block for name in asked if name not in of_model for block in _asked_for(name, robot, steps)]
+    others = list(_others([name for name in asked if name not in of_model], robot, steps))
     if model is None and not others:
         return
     yield Heading(TITLE, 2, closing=True)
@@ -132,6 +138,19 @@ def _long_model(
     yield from _lines(model)
 
 
+def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+    """What else is asked for: what holds everywhere, then, said so, what holds at the given state alone."""
+    state = robot.questions.state.values
+    at_state = [name for name in asked if state and name.rstrip("0123456789") in _AT_STATE]
+    for name in (name for name in asked if name not in at_state):
+        yield from _asked_for(name, robot, steps)
+    found = [block for name in at_state for block in _asked_for(name, robot, steps)]
+    if found:
+        given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in state])
+        yield Text(say("At {given}:", given=given))
+        yield from found
+
+
 def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
     """A result that the exercise asks for: the equation of its letter, else what its step gives."""
     quantity = quantities(robot).get(name)
@@ -139,6 +158,7 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     by_letter = [
         Formula(result, entries=step.entries if len(step.result) == 1 else ())
         for step in steps
+        if step.id == name or step.id not in _ACCELERATIONS
         for result in step.result
         if isinstance(result, Relation) and result.parts[0] == letter
     ]
@@ -147,7 +167,10 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     if by_letter or step is None:
         return
     called = CALLED.get(name, step.title)
-    yield Text((f"{called[0].upper()}{called[1:]}:",))
+    steady = robot.questions.model.steady if name == "equilibria" else ()
+    kept = side_by_side([equation(Symbol(of, 1), value) for of, value in steady]) if steady else ""
+    of_motion = say(" with {kept}", kept=kept) if steady else ""
+    yield Text(say(f"{called[0].upper()}{called[1:]}{{of_motion}}:", of_motion=of_motion))
     if step.table is not None:
         unknowns = {f"{name}_{q.name}" for q in robot.coordinates} & set(step.uses or ())
         formulas = tuple(result for one in steps if one.id in unknowns for result in one.result)

@@ -78,3 +78,20 @@ def test_no_spring_and_one_input() -> None:
     assert "in the equilibrium gravity does not move it" in words(found["linear_A"].why)
     assert words(found["linear_B"].why) == "One column, of the only input: τ₁. S has a 1 in its row."
     assert found["qdd_forward"].lines[0].is_kept
+
+
+STATIC = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1}]
+forces: [{link: 1, at: tip, force: [F, 0, 0]}]
+state: {q1: 90deg}
+find: [tau_static, tau]
+"""
+
+
+@pytest.mark.parametrize("depth", ["results", "brief"])
+def test_the_summary_says_at_which_state_a_result_holds(depth: str) -> None:
+    text = dynsolve.solve(STATIC).to_markdown(depth)
+    closing = text[text.rindex("Summary") :]
+    assert closing.index("At $") < closing.index("static")
