@@ -15,7 +15,7 @@ from dynsolve.explain.given import CALLED
 from dynsolve.explain.named_steps import labels_of_names
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
-from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.explain.writing import is_small, listed, side_by_side
 from dynsolve.notation.tree import ZERO, Relation, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
@@ -56,6 +56,8 @@ def summary_blocks(
     by_id = {step.id: step for step in steps}
     model = by_id.get(ID)
     of_model = in_model(robot) if model else frozenset()
+    if not is_short and detail is not Detail.RESULTS:  # what is short of a long model, if it is asked for
+        of_model -= {name for name in ("D", "g") if name in by_id and is_small(*by_id[name].result)}
     others = list(_others([name for name in asked if name not in of_model], robot, steps))
     if model is None and not others:
         return

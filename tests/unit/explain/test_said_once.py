@@ -95,3 +95,16 @@ def test_the_summary_says_at_which_state_a_result_holds(depth: str) -> None:
     text = dynsolve.solve(STATIC).to_markdown(depth)
     closing = text[text.rindex("Summary") :]
     assert closing.index("At $") < closing.index("static")
+
+
+def test_the_summary_of_a_long_model_shows_what_is_asked_for() -> None:
+    disk = """
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute, psi: revolute}
+  bodies: [{mass: m, at: [x, y, R], turn: [{by: phi, about: [0,0,1]}], inertia: {zz: Id}}]
+passive: [x, y]
+find: [D]
+"""
+    text = dynsolve.solve(disk).to_markdown("brief")
+    assert "pmatrix" in text[text.rindex("Summary") :] or "bmatrix" in text[text.rindex("Summary") :]
