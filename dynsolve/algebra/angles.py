@@ -3,18 +3,31 @@
 An atom is a monomial of names, `(("theta1", 1),)` for the coordinate θ₁ and
 `(("L", -1), ("s", 1))` for the quotient s/L; rᵢ are rational.  An angle that is a
 product of coordinates is an atom too, so that nothing is refused for its form.
+
+The symbols, angles, roots and denominators that a ring needs for given formulas.
+
+A basis of angles: independent linear forms such that every given form is an integer combination of them.
+
+θ₁ and θ₁ + θ₂ are such a basis of themselves; θ₁/2 is one of θ₁ and 3θ₁/2.  An angle is
+a vector of rational rates here; the eliminations are FLINT's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, fields
 from fractions import Fraction
+from math import lcm
+from typing import Self
 
+from flint import fmpq_mat, fmpz_mat
+
+from dynsolve.algebra.rationals import fraction, rational, rational_value
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import (
     Degrees,
+    Function,
     Negative,
     Node,
     Number,
@@ -24,7 +37,10 @@ from dynsolve.notation.tree import (
     Quotient,
     Sum,
     Symbol,
+    children,
 )
+
+# Angles as linear forms, exact: Σ rᵢ·atomᵢ + degrees
 
 Atom = tuple[tuple[str, int], ...]
 """A monomial: names with their exponents, sorted by name."""
@@ -189,3 +205,172 @@ def angle_node(angle: Angle, coordinates: Sequence[str] = ()) -> Node:
         constant = Degrees(abs(angle.degrees.numerator), angle.degrees.denominator)
         terms.append(negated(constant) if angle.degrees < 0 else constant)
     return total(terms)
+
+
+# The symbols, angles, roots and denominators that a ring needs for given formulas
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """What occurs in some formulas, each once, in order of first appearance.
+
+    `angles` are those whose sine or cosine occurs, `radicands` the numbers under a root,
+    `roots` the formulas under one (an inner root before the outer), `denominators` those
+    that are no numbers, `functions` those whose argument is no angle and no radicand: each
+    is a generator of its own.
+    """
+
+    symbols: tuple[str, ...] = ()
+    angles: tuple[Angle, ...] = ()
+    radicands: tuple[Fraction, ...] = ()
+    roots: tuple[Node, ...] = ()
+    denominators: tuple[Node, ...] = ()
+    functions: tuple[Function, ...] = ()
+
+    def __bool__(self) -> bool:
+        """Whether there is anything in it."""
+        return any(getattr(self, f.name) for f in fields(self))
+
+    def joined(self, other: Self) -> Self:
+        """The union of two contents."""
+        pairs = ((f.name, getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+        return type(self)(**{name: tuple(dict.fromkeys((*a, *b))) for name, a, b in pairs})
+
+
+class ContentsCollector:
+    """Walks trees and notes what they hold; a subclass may leave out what is known, or take more."""
+
+    def __init__(self) -> None:
+        self.symbols: dict[str, None] = {}
+        self.angles: dict[Angle, None] = {}
+        self.radicands: dict[Fraction, None] = {}
+        self.roots: dict[Node, None] = {}
+        self.denominators: dict[Node, None] = {}
+        self.functions: dict[Function, None] = {}
+
+    def collect(self, trees: Iterable[Node]) -> None:
+        """Note the contents of trees.  Raises AlgebraError for a formula that no ring can hold."""
+        waiting = [*trees][::-1]
+        while waiting:
+            waiting.extend(reversed(self.note(waiting.pop())))
+
+    @property
+    def contents(self) -> Contents:
+        """The contents noted so far."""
+        return Contents(
+            tuple(self.symbols),
+            tuple(self.angles),
+            tuple(self.radicands),
+            tuple(self.roots),
+            tuple(self.denominators),
+            tuple(self.functions),
+        )
+
+    def note(self, node: Node) -> Sequence[Node]:
+        """Note one node, and return the parts that are still to be walked."""
+        match node:
+            case Symbol(name, dots):
+                self.symbol(name, dots)
+                return ()
+            case Degrees():
+                self.symbols.setdefault("pi")
+                return ()
+            case Quotient(numerator, denominator):
+                if rational_value(denominator) is None:
+                    self.denominators.setdefault(denominator)
+                return numerator, denominator
+            case Power(base, exponent):
+                if isinstance(exponent, Negative) and rational_value(base) is None:
+                    self.denominators.setdefault(base)
+                return (base,)
+            case Function("sqrt", argument):
+                self.root(node, argument)
+                return ()
+            case Function():
+                return self.function(node)
+        return children(node)
+
+    def symbol(self, name: str, dots: int) -> None:
+        """Note a symbol; the derivatives of coordinates come with them."""
+        if not dots:
+            self.symbols.setdefault(name)
+
+    def function(self, node: Function) -> Sequence[Node]:
+        """Note a function of an angle, and return the parts that are still to be walked."""
+        if node.name == "sgn":
+            self.functions.setdefault(node)
+            return ()
+        self.angle(angle_from_tree(node.argument))
+        if node.name == "tan":
+            self.denominators.setdefault(Function("cos", node.argument))
+        return ()
+
+    def angle(self, angle: Angle) -> None:
+        """Note an angle with the names in it."""
+        self.angles.setdefault(angle)
+        for name in names_of(angle):
+            self.symbols.setdefault(name)
+
+    def root(self, node: Function, argument: Node) -> None:
+        """Note a root, after those inside it."""
+        value = rational_value(argument)
+        if value is None:
+            self.collect([argument])
+            self.roots.setdefault(argument)
+        elif value < 0:
+            raise AlgebraError("the root of a negative number", "lengths and masses are real")
+        else:
+            self.radicands.setdefault(value)
+
+
+# A basis of angles
+
+Vector = tuple[Fraction, ...]
+
+
+def coordinates_in(
+    basis: Sequence[Sequence[int | Fraction]], vector: Sequence[int | Fraction]
+) -> tuple[Fraction, ...] | None:
+    """The coefficients of `vector` in a `basis`; None outside its span, or where it is no basis.
+
+    >>> basis = [(Fraction(1), Fraction(0)), (Fraction(1), Fraction(1))]
+    >>> coordinates_in(basis, (Fraction(0), Fraction(2)))
+    (Fraction(-2, 1), Fraction(2, 1))
+    """
+    if not basis:
+        return None if any(vector) else ()
+    last = len(basis) - 1
+    columns = [*basis, vector]
+    echelon, rank = fmpq_mat([[rational(v[i]) for v in columns] for i in range(len(vector))]).rref()
+    if rank != len(basis) or not echelon[last, last]:
+        return None
+    return tuple(fraction(echelon[j, len(basis)]) for j in range(len(basis)))
+
+
+def integer_basis(vectors: Sequence[Vector]) -> list[Vector]:
+    """Independent vectors whose integer combinations are exactly those of `vectors`.
+
+    The given vectors are kept as long as they serve, in their order, so that the
+    caller chooses the basis by what it names first.
+
+    >>> half = Fraction(1, 2)
+    >>> integer_basis([(Fraction(1),), (half,)])
+    [(Fraction(1, 2),)]
+    """
+    basis: list[Vector] = []
+    for vector in vectors:
+        if not any(vector):
+            continue
+        found = coordinates_in(basis, vector)
+        if found is None:
+            basis.append(vector)
+        elif any(c.denominator != 1 for c in found):
+            basis = _hermite([*basis, vector])
+    return basis
+
+
+def _hermite(vectors: Sequence[Vector]) -> list[Vector]:
+    """The rows of Hermite's normal form of dependent vectors, over a common denominator."""
+    scale = lcm(*(x.denominator for v in vectors for x in v))
+    rows = fmpz_mat([[int(x * scale) for x in v] for v in vectors]).hnf().tolist()
+    return [tuple(Fraction(int(x), scale) for x in row) for row in rows if any(row)]

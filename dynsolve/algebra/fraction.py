@@ -108,7 +108,7 @@ def cancelled(value: RationalExpr) -> RationalExpr:
     A denominator keeps its form, s₂ and not 1 - c₂², unless the whole becomes shorter without
     sines, or without roots of numbers, below; its leading coefficient is 1.
 
-    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.tree import Symbol
     >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
     >>> a, b = ring.symbol("a"), ring.symbol("b")
@@ -125,7 +125,7 @@ def cancelled(value: RationalExpr) -> RationalExpr:
 def with_integers(value: RationalExpr) -> RationalExpr:
     """The same fraction with integer coefficients that have no common factor, above and below together.
 
-    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.tree import Symbol
     >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
     >>> a, b = ring.symbol("a"), ring.symbol("b")

@@ -33,7 +33,7 @@ class Bound:
 def follows(bound: Bound, assumed: Sequence[Bound]) -> bool:
     """Whether an inequality follows from others, as a sum of their products.
 
-    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.tree import Symbol
     >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
     >>> a, b = ring.symbol("a"), ring.symbol("b")

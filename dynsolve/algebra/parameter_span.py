@@ -171,7 +171,7 @@ class _Row:
 class ParameterSpan:
     """The combinations of some vectors, over the fractions in what is known.
 
-    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.tree import Symbol
     >>> ring = build_ring([], [Symbol(name) for name in ("l", "m1", "m2")])
     >>> l, m1, m2 = (ring.symbol(name) for name in ("l", "m1", "m2"))

@@ -6,22 +6,28 @@ put together by their exponents, so that a torque of hundreds of terms costs one
 
 `Evaluator` is for the formulas of a problem; `answers.judging.evaluate` refines it for what
 a student wrote, where a denominator may hold joint variables and a function any argument.
+
+The values of exact expressions in floating point, or in another kind of number.
+
+Making a ring: the smallest one that holds given formulas.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from math import comb
+from math import comb, cos, pi, radians, sin, sqrt
 from typing import Any, ClassVar, NamedTuple
 
-from dynsolve.algebra.angles import angle_from_tree
-from dynsolve.algebra.expr import Expr
+from flint import fmpq_mpoly
+
+from dynsolve.algebra.angles import Angle, Atom, angle_from_tree, names_of
+from dynsolve.algebra.expr import Expr, Generator, dotted
 from dynsolve.algebra.fraction import RationalExpr, simplified
-from dynsolve.algebra.generators import dotted
 from dynsolve.algebra.rationals import rational, rational_value
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import NoRoom, Ring
+from dynsolve.algebra.ring_plan import RingPlan, plan_ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import (
     Degrees,
@@ -37,6 +43,9 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
+from dynsolve.notation.tree_values import evaluate as value_of_tree
+
+# The exact value of a tree in a ring.  Only trees are evaluated, never text
 
 SHORT = 64
 """Products of up to so many terms are added up before they are reduced."""
@@ -333,3 +342,123 @@ def _unwrapped(node: Node) -> tuple[Node, bool]:
         is_negative = is_negative != isinstance(node, Negative)
         node = node.argument
     return node, is_negative
+
+
+# The values of exact expressions in floating point, or in another kind of number
+
+Functions = Mapping[str, Callable[[Any], Any]]
+
+FUNCTIONS: Functions = {"sin": sin, "cos": cos, "sqrt": sqrt}
+
+
+def evaluate(expr: Expr, values: Mapping[str, float]) -> float:
+    """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters.
+
+    Raises KeyError for a symbol that occurs and has no value.
+    """
+    return float(evaluate_with(expr, values, FUNCTIONS))
+
+
+def evaluate_with(expr: Expr, values: Mapping[str, Any], functions: Functions) -> Any:
+    """The same in another kind of number, which `functions` work on: a sine, a cosine, a square root."""
+    return _Evaluation(expr.ring, values, functions).of(expr.poly)
+
+
+def _require(g: Generator, values: Mapping[str, Any]) -> None:
+    names = [dotted(g.name, g.dots)] if g.kind == "symbol" else names_of(g.angle)
+    for name in names:
+        if name != "pi" and name not in values:
+            raise KeyError(name)
+
+
+@dataclass(frozen=True, slots=True)
+class _Evaluation:
+    """The values of polynomials at a point; `known` are generators whose values were found before."""
+
+    ring: Ring
+    values: Mapping[str, Any]
+    functions: Functions
+    known: dict[int, Any] = field(default_factory=dict)
+
+    def of(self, poly: fmpq_mpoly) -> Any:
+        """The value of a polynomial."""
+        places = [index for index, degree in enumerate(poly.degrees()) if degree > 0]
+        known = self.known
+        for index in places:
+            if index not in known:
+                g = self.ring.generators[index]
+                _require(g, self.values)
+                known[index] = self._generator(g)
+        total: Any = 0.0
+        for exponents, coefficient in zip(poly.monoms(), poly.coeffs(), strict=True):
+            term: Any = int(coefficient.p) / int(coefficient.q)
+            for index in places:
+                if exponents[index]:
+                    term *= known[index] ** int(exponents[index])
+            total += term
+        return total
+
+    def _generator(self, g: Generator) -> Any:
+        """The value of a generator; roots and inverses are of expressions in others."""
+        match g.kind:
+            case "symbol":
+                return pi if g.name == "pi" else self.values[dotted(g.name, g.dots)]
+            case "root":
+                return self.functions["sqrt"](self.of(self.ring.radicands[g.index]))
+            case "inverse":
+                return 1 / self.of(self.ring.inverses[g.index])
+            case "function" if g.node is not None:
+                return value_of_tree(g.node, self.values)
+        turn = sum(float(rate) * self._atom(atom) for atom, rate in g.angle.terms)
+        angle = radians(float(g.angle.degrees)) + turn
+        return self.functions["sin" if g.kind == "sin" else "cos"](angle)
+
+    def _atom(self, atom: Atom) -> Any:
+        product: Any = 1.0
+        for name, exponent in atom:
+            product *= pi if name == "pi" else self.values[name] ** exponent
+        return product
+
+
+# Making a ring: the smallest one that holds given formulas
+
+
+def build_ring(
+    coordinates: Sequence[tuple[str, str]],
+    trees: Iterable[Node],
+    angles: Iterable[Angle] = (),
+    preferred: Sequence[Angle] = (),
+) -> Ring:
+    """The smallest ring that holds everything in `trees` and the sine and cosine of `angles`.
+
+    `coordinates` are (name, "revolute" | "prismatic"); `preferred` angles are
+    taken as basic ones as far as they are independent.  Raises AlgebraError
+    for a number used as an angle.
+    """
+    names = [name for name, _ in coordinates]
+    return ring_of(coordinates, plan_ring(names, tuple(trees), tuple(preferred), tuple(angles)))
+
+
+def with_symbols(ring: Ring, names: Iterable[str]) -> Ring:
+    """A ring with further parameters; the generators of the given one keep their places."""
+    return ring_of(ring.coordinates, replace(ring.plan, symbols=(*ring.plan.symbols, *names)))
+
+
+def with_references(ring: Ring, names: Iterable[str]) -> Ring:
+    """A ring with the first and second derivatives of further names as symbols."""
+    return ring_of(ring.coordinates, replace(ring.plan, references=tuple(names)))
+
+
+def ring_of(coordinates: Sequence[tuple[str, str]], plan: RingPlan) -> Ring:
+    """The ring of a plan, with the relations of its roots and denominators."""
+    while True:
+        try:
+            ring = Ring(coordinates, plan)
+            for g in reversed(ring.generators):  # a root may stand under one that is laid out before it
+                if g.kind == "root" and g.node is not None:
+                    ring.adjoin_root(g.index, value_of(ring, g.node))
+            for tree in plan.denominators:
+                value_of(ring, Quotient(Number(1), tree))
+            return ring
+        except NoRoom:
+            plan = plan.with_more_inverses()

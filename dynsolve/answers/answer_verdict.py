@@ -7,11 +7,15 @@
     wrong        else; then each wrong entry is diagnosed
 
 A matrix has a verdict for each entry, C for each row of C q̇, and takes the worst.
+
+The verdict of a set of configurations: singular ones, branches of the inverse kinematics.
+
+The verdict of what a student says of matrices: whether each can be an inertia matrix.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
@@ -20,15 +24,32 @@ from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.diagnosis.slips.terms import SET_SLIPS
 from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
 from dynsolve.answers.judging.answer_values import AnswerValue, same
+from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.explanation import Explanations, entry_of
 from dynsolve.answers.judging.follow_through import PossibleValue
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.hand_in import Chain, ComparedHandIn, last
 from dynsolve.answers.judging.key_comparison import KeyComparison
-from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Occurrence, Verdict, worst
+from dynsolve.answers.verdict import (
+    ConfigurationAnswer,
+    Diagnosis,
+    EntryVerdict,
+    JudgedAnswer,
+    Occurrence,
+    Verdict,
+    VerdictAnswer,
+    worst,
+)
+from dynsolve.derivation.definite import Definiteness
+from dynsolve.derivation.graph import Derivation
 from dynsolve.problem.model import Problem
+from dynsolve.quantities.letters import key
+from dynsolve.robot.model import Robot
+
+# The verdict of one answer that was given
 
 ROUNDED = "rounded"
 NOT_FROM_OWN = "not_from_own"
@@ -290,3 +311,85 @@ def waiting(answer: JudgedAnswer, fault: str) -> JudgedAnswer:
     return replace(
         answer, verdict=Verdict.UNREADABLE, fault=fault, entries=(), diagnosis=(), difference=None, loss=""
     )
+
+
+# The verdict of a set of configurations: singular ones, branches of the inverse kinematics
+
+
+def judged_set(
+    key: ConfigurationKey,
+    answer: ConfigurationAnswer,
+    of: Fraction,
+    explanations: Explanations,
+    unread: Mapping[str, str],
+) -> JudgedAnswer:
+    """What is said of a set; `of` are its marks, `unread` as in `Explanations.before`."""
+    base = JudgedAnswer(answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of)
+    if answer.fault:
+        return replace(base, fault=answer.fault, expected=answer.expected)
+    if answer.name not in key.values:
+        return replace(base, fault=f"{answer.name} is not asked for in this problem")
+    if key.is_skipped(answer.name):
+        return replace(base, fault=f"{answer.name} could not be derived here; a person must judge it")
+    found = key.verdict(answer)
+    if found.is_right:
+        return replace(base, verdict=Verdict.CORRECT, notes=found.notes)
+    if zero := key.vanishing(answer.name):
+        graph = explanations.hand_in.graph
+        for own in explanations.own_values(zero):
+            if key.is_where_zero(answer, own.value):
+                return replace(base, verdict=Verdict.FOLLOWS, follows_from=in_order(graph, own.used))
+        if sources := in_order(graph, explanations.before(zero, unread)):
+            return replace(base, fault=MAY_FOLLOW.format(" and ".join(sources)))
+    slip = SET_SLIPS[found.code].told(number=str(found.number), where=found.where)
+    return replace(base, verdict=Verdict.WRONG, diagnosis=(slip,))
+
+
+# The verdict of what a student says of matrices: whether each can be an inertia matrix
+
+
+def judged_verdicts(robot: Robot, derived: Derivation, answer: VerdictAnswer, of: Fraction) -> JudgedAnswer:
+    """What is said of the verdicts on matrices, each an entry of its own; `of` are their marks."""
+    base = JudgedAnswer(answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of)
+    if answer.fault:
+        return replace(base, fault=answer.fault, expected=answer.expected)
+    if answer.name not in derived.rules:
+        return replace(base, fault=f"{answer.name} is not asked for in this problem")
+    names = [candidate.name for candidate in robot.questions.candidates]
+    spelled = {key(name): name for name in names}
+    given = {spelled.get(key(name), name): word for name, word in answer.words}
+    if len(names) == 1 and "" in given:
+        given = {names[0]: given[""]}
+    foreign = [name for name in given if name not in names]
+    if foreign:
+        return replace(
+            base, fault=f"there is no matrix {foreign[0]}", expected=f"they are {', '.join(names)}"
+        )
+    entries = tuple(
+        _entry(place, name, found, given.get(name, ""))
+        for place, (name, found) in enumerate(zip(names, derived[answer.name], strict=True), 1)
+    )
+    undecided = [name for name, found in zip(names, derived[answer.name], strict=True)
+                 if not isinstance(found, Definiteness)]  # fmt: skip
+    if undecided:
+        return replace(base, fault=f"{', '.join(undecided)} must be judged by a person", entries=entries)
+    slips = tuple(dict.fromkeys(one for entry in entries for one in entry.diagnosis))
+    return replace(base, verdict=worst([e.verdict for e in entries]), entries=entries, diagnosis=slips)
+
+
+def _entry(place: int, name: str, found: object, word: str) -> EntryVerdict:
+    if not isinstance(found, Definiteness):
+        return EntryVerdict((place,), Verdict.UNREADABLE)
+    if not word:
+        return EntryVerdict((place,), Verdict.MISSING)
+    if word == found.answer.value:
+        return EntryVerdict((place,), Verdict.CORRECT)
+    return EntryVerdict((place,), Verdict.WRONG, (_slip(name, found),))
+
+
+def _slip(name: str, found: Definiteness) -> Diagnosis:
+    if found.refusal is None:
+        code = "definite_if" if found.conditions else "is_definite"
+    else:
+        code = f"refused_{found.refusal.name.lower()}"
+    return SET_SLIPS[code].told(number=name)

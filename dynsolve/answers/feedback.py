@@ -11,8 +11,15 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dynsolve.answers.submission import NotRecognized, Place
-from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report, Verdict
+from dynsolve.answers.verdict import (
+    Diagnosis,
+    EntryVerdict,
+    JudgedAnswer,
+    NotRecognized,
+    Place,
+    Report,
+    Verdict,
+)
 from dynsolve.document import (
     Block,
     Document,

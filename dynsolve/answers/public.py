@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from dynsolve.answers.judge import Checker
-from dynsolve.answers.sandbox import check_file
+from dynsolve.answers.judge import Checker, check_file
 from dynsolve.answers.verdict import Report
 from dynsolve.problem import Problem, load, read_problem
 
@@ -41,6 +40,6 @@ def _problem(problem: Problem | str | os.PathLike[str]) -> Problem:
     name = os.fspath(problem)
     if "\n" in name:
         return read_problem(name)
-    from dynsolve.problem.library import find
+    from dynsolve.problem.reader import find
 
     return load(find(name))

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from dynsolve.answers.submission import Place
-from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report, Verdict
+from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Place, Report, Verdict
 
 FORMAT = "dynsolve-check/1"
 

@@ -12,14 +12,26 @@ from dataclasses import replace
 from fractions import Fraction
 
 from dynsolve.answers.diagnosis.slips import slip
-from dynsolve.answers.judging.mechanism.comparison import Agreement, TableComparer
 from dynsolve.answers.judging.mechanism.matching import Mismatch
 from dynsolve.answers.judging.mechanism.own_frames import in_own_frames
-from dynsolve.answers.judging.mechanism.repairs import Exchange, Repair, repairs_of
-from dynsolve.answers.judging.mechanism.tables import LETTERS, Table, TableError, read_table
-from dynsolve.answers.judging.mechanism.wording import counted, effect, parting, written
-from dynsolve.answers.submission import Answer
-from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Occurrence, Verdict
+from dynsolve.answers.judging.mechanism.repairs import (
+    Exchange,
+    Repair,
+    counted,
+    effect,
+    parting,
+    repairs_of,
+    written,
+)
+from dynsolve.answers.judging.mechanism.tables import (
+    LETTERS,
+    Agreement,
+    Table,
+    TableComparer,
+    TableError,
+    read_table,
+)
+from dynsolve.answers.verdict import Answer, Diagnosis, EntryVerdict, JudgedAnswer, Occurrence, Verdict
 from dynsolve.notation import tree
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import Convention

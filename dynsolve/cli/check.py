@@ -1,18 +1,45 @@
-"""`dynsolve check`: verdicts on what a student handed in, the first slip first."""
+"""`dynsolve check`: verdicts on what a student handed in, the first slip first.
+
+`dynsolve override`: a teacher's word on the marks of answers.
+
+`dynsolve autograder`: the zip that makes Gradescope run dynsolve.
+
+`dynsolve lint`: what is wrong with problem files and problem sets, and what deserves a look.
+
+`dynsolve draw`: the picture of a manipulator.
+"""
 
 from __future__ import annotations
 
+import shlex
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from dynsolve.cli.common import STDIN, Quiet, print_json, read, say, standard_input
-from dynsolve.errors import ExitCode, Finding, InputError
+from dynsolve.cli.numbers import (
+    STDIN,
+    STDIN_NAME,
+    Problems,
+    Quiet,
+    described,
+    print_json,
+    read,
+    say,
+    standard_input,
+)
+from dynsolve.cli.output import format_of, refuse_on_terminal, write_to_standard_output
+from dynsolve.draw import SUFFIXES, PictureFormat
+from dynsolve.errors import ExitCode, Finding, InputError, ProblemError, UsageError
+from dynsolve.render.files import check_place, write_whole
 
 if TYPE_CHECKING:
     from dynsolve.answers.feedback import FeedbackView
     from dynsolve.answers.verdict import Report
     from dynsolve.problem import Problem
+
+
+# `dynsolve check`: verdicts on what a student handed in, the first slip first
 
 
 def check(
@@ -44,8 +71,7 @@ def check(
     Ends with 0 where every answer is correct, with 1 otherwise, with 2 where there
     is nothing to read.
     """
-    from dynsolve.answers.judge import Checker
-    from dynsolve.answers.sandbox import check_file
+    from dynsolve.answers.judge import Checker, check_file
 
     stated = read(problem)
     if not quiet:
@@ -104,3 +130,179 @@ def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bo
         from dynsolve.cli.page import print_document
 
         print_document(document, style)
+
+
+# `dynsolve override`: a teacher's word on the marks of answers
+
+
+def override(
+    folder: Annotated[Path, typer.Argument(metavar="OUT", help="The folder of `dynsolve grade`.")],
+    student: Annotated[str, typer.Argument(metavar="STUDENT", help="As in grades.csv, or a full name.")] = "",
+    problem: Annotated[str, typer.Argument(metavar="PROBLEM", help="As in grades.csv.")] = "",
+    answer: Annotated[str, typer.Argument(metavar="ANSWER", help="As in answers.csv.")] = "",
+    marks: Annotated[
+        str, typer.Option("--marks", metavar="MARKS", help="The marks: 3, 2.5 or 5/2; without, a comment.")
+    ] = "",
+    why: Annotated[str, typer.Option("--why", help="The reason, which the student reads.")] = "",
+    from_: Annotated[
+        Path | None,
+        typer.Option(
+            "--from",
+            metavar="CSV",
+            help="Many at once: student,problem,answer,marks,comment; OUT/queue.csv is such a page to fill.",
+        ),
+    ] = None,
+) -> int:
+    """Set the marks of answers by hand; no regrade changes them."""
+    from dynsolve.grading.public import override as override_marks
+    from dynsolve.grading.public import override_all
+
+    if from_ is not None:
+        if student or marks or why:
+            raise UsageError("--from has the students and their marks: give nothing else but OUT")
+        count = override_all(folder, from_)
+        typer.echo(f"{count} answer{'' if count == 1 else 's'} set by hand", err=True)
+        return ExitCode.DONE
+    if not (student and problem and answer):
+        raise UsageError("name STUDENT, PROBLEM and ANSWER, and say --why; or give a CSV with --from")
+    if not why:
+        given = ("dynsolve", "override", str(folder), student, problem, answer)
+        typed = shlex.join((*given, *(("--marks", marks) if marks else ()), "--why", "right on paper"))
+        raise UsageError(f"--why is missing, the reason that the student reads: {typed}")
+    override_marks(folder, student, problem, answer, marks=marks or None, why=why)
+    typer.echo(f"{student} {problem} {answer}: {marks or 'a comment'}", err=True)
+    return ExitCode.DONE
+
+
+# `dynsolve autograder`: the zip that makes Gradescope run dynsolve
+
+
+def autograder(
+    problems: Annotated[
+        str,
+        typer.Argument(
+            metavar="PROBLEMS",
+            help="A problem file, the stem of a bundled one, or a folder of problem files with a set.yaml.",
+            show_default=False,
+        ),
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="ZIP", help="The zip that is written.")
+    ] = Path("autograder.zip"),
+) -> int:
+    """Make an autograder for Gradescope, which marks every submission when it is handed in.
+
+    Upload the zip in the assignment's Configure Autograder. Python 3.11 or newer is installed there
+    where it is missing.
+    """
+    from dynsolve.grading.autograder.package import write_autograder
+
+    write_autograder(problems, output)
+    typer.echo(f"{output}: upload it to the programming assignment, under Configure Autograder", err=True)
+    return ExitCode.DONE
+
+
+# `dynsolve lint`
+
+
+def lint(problem: Problems, quiet: Quiet = False) -> int:
+    """Check problem files, or a set.yaml with all of its problems: faults and what deserves a look.
+
+    Ends with 1 where something deserves a look, with 2 where a file is faulty.
+    """
+    code = ExitCode.DONE
+    for name in problem:
+        try:
+            findings = _of_set(name) if _is_set(name) else _findings(name)
+        except ProblemError as error:
+            say(error.findings)
+            code = ExitCode.USAGE
+            continue
+        for finding in findings:
+            typer.echo(described(finding, "warning"))
+        if findings:
+            code = max(code, ExitCode.FALLS_SHORT)
+        elif not quiet:
+            typer.echo(f"{name}: nothing to remark", err=True)
+    return code
+
+
+def _is_set(name: str) -> bool:
+    """Whether a name is that of a problem set: its `set.yaml`, or its folder."""
+    from pathlib import Path
+
+    return Path(name).name == "set.yaml" or Path(name).is_dir()
+
+
+def _of_set(name: str) -> list[Finding]:
+    """What deserves a look in a set and in its problems.
+
+    Raises ProblemError with all that is wrong with it.
+    """
+    from dynsolve.grading.set_file import load_set
+
+    return [finding for item in load_set(name).items for finding in _findings(item.problem.file)]
+
+
+def _findings(name: str) -> list[Finding]:
+    from dynsolve.problem import read_problem
+    from dynsolve.problem.lint import lint_text
+    from dynsolve.problem.reader import find, read_file
+    from dynsolve.solution.given_axes import check_axes
+
+    content, file = (
+        (standard_input(), STDIN_NAME) if name == STDIN else (read_file(find(name)), str(find(name)))
+    )
+    return [*lint_text(content, file), *check_axes(read_problem(content, file))]
+
+
+# `dynsolve draw`: the picture of a manipulator
+
+
+def draw(
+    problem: Annotated[
+        str,
+        typer.Argument(
+            metavar="PROBLEM",
+            help="A problem file, the stem of a bundled problem, or - for standard input.",
+            show_default=False,
+        ),
+    ],
+    output: Annotated[
+        str | None,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="Write to a file: .svg, .pdf, .png, or .tex to be input."
+        ),
+    ] = None,
+    format: Annotated[
+        PictureFormat | None,
+        typer.Option("--format", help="The form, where the suffix of -o does not say it; else SVG."),
+    ] = None,
+    star: Annotated[
+        bool, typer.Option("--star/--no-star", help="Mark the joint variables with a star.")
+    ] = True,
+    quiet: Quiet = False,
+) -> None:
+    """Draw a manipulator from its Denavit-Hartenberg table, or bodies from their positions.
+
+    Joints, links, frames, lengths, joint variables, mass centres and gravity, at a
+    pose where they can be seen; not to scale. SVG goes to standard output.
+    """
+    path = None if output in (None, "-") else Path(str(output))
+    if path is not None:
+        form = format_of(str(path), path.suffix, SUFFIXES, format)
+        check_place(path)
+    else:
+        form = format or PictureFormat.SVG
+        if form in (PictureFormat.PDF, PictureFormat.PNG):
+            refuse_on_terminal(form)
+    from dynsolve.draw import draw as draw_problem
+
+    loaded = read(problem)
+    if not quiet:
+        say(loaded.warnings, "warning")
+    data = draw_problem(loaded, form, star=star)
+    if path is not None:
+        write_whole(path, data)
+    else:
+        write_to_standard_output(data)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from dynsolve.cli.common import Quiet
+from dynsolve.cli.numbers import Quiet
 from dynsolve.errors import ExitCode
 
 if TYPE_CHECKING:

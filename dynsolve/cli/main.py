@@ -15,7 +15,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dynsolve.cli import autograder, check, docs, draw, grade, lint, new, override, problems, schema, solve
+from dynsolve.cli import check, grade, library, solve
 from dynsolve.errors import DynsolveError, ExitCode, ExplanationWarning, InputError
 
 TRACEBACK = "--traceback"
@@ -82,7 +82,7 @@ def _plain(message: str) -> str:
     >>> _plain("Value error, 'torqe' is not one of 'energy', 'torque'.")
     "'torqe' is not one of 'energy', 'torque'; did you mean `torque`?"
     """
-    from dynsolve.problem.fields import did_you_mean
+    from dynsolve.problem.kinds import did_you_mean
 
     message = message.removeprefix("Value error, ")
     given, is_choice, choices = message.partition(" is not one of ")
@@ -110,16 +110,16 @@ def app() -> typer.Typer:
     program.callback()(_globals)
     for command in (
         solve.solve,
-        draw.draw,
+        check.draw,
         check.check,
         grade.grade,
-        override.override,
-        autograder.autograder,
-        lint.lint,
-        new.new,
-        schema.schema,
-        problems.problems,
-        docs.docs,
+        check.override,
+        check.autograder,
+        check.lint,
+        library.new,
+        library.schema,
+        library.problems,
+        library.docs,
     ):
         program.command()(command)
     return program

@@ -15,10 +15,9 @@ from typing import Annotated, TypeVar
 
 import typer
 
-from dynsolve.cli.common import STDIN
+from dynsolve.cli.numbers import STDIN
 from dynsolve.errors import UsageError
-from dynsolve.render.files import check_place, write_whole
-from dynsolve.render.formats import SUFFIXES, Format, suffix_of
+from dynsolve.render.files import SUFFIXES, Format, check_place, suffix_of, write_whole
 
 Form = TypeVar("Form", bound=StrEnum)
 """The forms of a solution, or those of a picture."""

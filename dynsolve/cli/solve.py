@@ -10,12 +10,21 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from dynsolve.cli.common import Problems, Quiet, print_json, read, say
-from dynsolve.cli.numbers import AtOption, DigitsOption, SetOption, with_numbers
+from dynsolve.cli.numbers import (
+    AtOption,
+    DigitsOption,
+    Problems,
+    Quiet,
+    SetOption,
+    print_json,
+    read,
+    say,
+    with_numbers,
+)
 from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer, chosen_output
 from dynsolve.errors import ExitCode, ExplanationWarning, ProblemError, UsageError
 from dynsolve.quantities.stages import Stage
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 
 if TYPE_CHECKING:
     from dynsolve.solution.solution import Solution

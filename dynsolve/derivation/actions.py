@@ -6,19 +6,27 @@ k_r q̇ + zᵀω, and has the kinetic energy ½ I (k_r q̇ + zᵀω)² beside th
 link (Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 7.1.1).  Friction has no
 potential: it is the generalized force F_v q̇ + F_s sgn(q̇) on the side of D q̈ + C q̇ + g
 (section 7.3, equation 7.42), and dampers are the gradient of Rayleigh's dissipation ½ b ẋ².
+
+What acts beside gravity, as rules; the formulas are in `actions`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
+from functools import partial
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
-from dynsolve.derivation import jacobian, kinematics
-from dynsolve.derivation.link_frame import LinkJacobian
+from dynsolve.derivation import kinematics
+from dynsolve.derivation.graph import Rule
+from dynsolve.derivation.kinematics import frame_names
+from dynsolve.derivation.link_frame import LinkJacobian, quadratic_energy
 from dynsolve.notation.tree import Function, Symbol
 from dynsolve.robot.actions import Damper, JointFriction, Motor
 from dynsolve.robot.model import Robot
+
+# What acts beside gravity: the energy of springs, the kinetic energy of rotors, friction
 
 HALF = Fraction(1, 2)
 
@@ -43,7 +51,7 @@ def rotor_turn(robot: Robot, motor: Motor, frames: tuple[Matrix, ...]) -> Matrix
     if not motor.carrier:
         return spin(robot, motor)
     axis = kinematics.rotation(frames[motor.carrier]).column_at(motor.axis)
-    return spin(robot, motor) + axis.T @ jacobian.angular_jacobian(robot, frames, motor.carrier)
+    return spin(robot, motor) + axis.T @ kinematics.angular_jacobian(robot, frames, motor.carrier)
 
 
 def rotor_energy(robot: Robot, *frames: Matrix) -> Expr:
@@ -110,3 +118,29 @@ def friction(robot: Robot) -> Matrix:
         entries[one.coordinate] = entries[one.coordinate] + joint_friction(robot, one)
     forces = (damper_force(robot, damper) for damper in robot.actions.dampers)
     return sum(forces, start=Matrix.column(robot.ring, entries))
+
+
+# What acts beside gravity, as rules; the formulas are in `actions`
+
+
+def energy_rules(robot: Robot) -> Iterator[Rule]:
+    """The textbook's energies of springs and rotors."""
+    kinds = robot.actions.kinds
+    if "springs" in kinds:
+        yield Rule("Ps", (), partial(spring_energy, robot))
+    if "motors" in kinds:
+        last = max(motor.carrier for motor in robot.actions.motors)
+        inputs = frame_names(last) if last else ()
+        yield Rule("Km", inputs, partial(rotor_energy, robot))
+
+
+def friction_rule(robot: Robot) -> Rule:
+    """The dissipative terms."""
+    return Rule("friction", (), partial(friction, robot))
+
+
+def rotor_rules(robot: Robot) -> Iterator[Rule]:
+    """K_m from the rotors' part of D, in each carrier's own frame: the fast way, as for the bodies."""
+    carriers = ("link_jacobians",) if robot.has_table else ()
+    yield Rule("Dm", carriers, partial(rotor_part, robot))
+    yield Rule("Km", ("Dm",), partial(quadratic_energy, robot))

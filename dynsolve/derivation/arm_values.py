@@ -10,9 +10,9 @@ from typing import TypeVar
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.newton_euler import (
     ZERO,

@@ -5,20 +5,35 @@ combinations of a few: the entries of a in g = Y a.  Masses, the acceleration of
 lengths of the table are positive, and no factors.
 
 Spong, Hutchinson, Vidyasagar, section 7.5.3 (2006), for g = Y a.
+
+Conditions on parameters, compared with numbers: where they hold, gravity must be what is asked for.
+
+Points are found by Newton's method, in which masses and the acceleration of gravity stay, and the
+lengths of the table where they can.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.positivity import is_positive
 from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.algebra.sampling import samples
+from dynsolve.derivation.equilibrium_check import zero_along
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.reached import CLOSE
 from dynsolve.derivation.regressor import minimal_parameters
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
 from dynsolve.robot.model import Robot
+
+# What the parameters must satisfy for gravity to move nothing, in whatever configuration
 
 
 def never_zero(robot: Robot) -> frozenset[str]:
@@ -68,3 +83,32 @@ def _open_part(expr: Expr, positive: frozenset[str]) -> Expr:
         if not (used <= positive and is_positive(own)):
             rest = rest * own ** int(times)
     return rest
+
+
+# Conditions on parameters, compared with numbers
+
+STATES = 6
+
+
+def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:
+    """Values of all parameters at which all conditions are 0, each with a configuration."""
+    program = compile_trees(list(conditions))
+    free = sorted(set(robot.parameters) - never_zero(robot))
+    places = [name for name in free if name not in table_lengths(robot)]
+    for start in islice(samples(robot.ring), STATES):
+        found = (zero_along(names, program, start) for names in (places, free)) if conditions else (start,)
+        yield from islice((at for at in found if at is not None), 1)
+
+
+def is_balanced(robot: Robot, gravity: Node, at: Mapping[str, float]) -> bool:
+    """Whether gravity is what is asked for."""
+    wanted = robot.questions.model.balanced
+    found = compile_trees([gravity]).run(at)[0]
+    given = [0.0] * robot.n if wanted is None else [evaluate(e, at) for e in wanted.entries]
+    return all(abs(row[0] - other) < CLOSE for row, other in zip(found, given, strict=True))
+
+
+def verify_balance(robot: Robot, gravity: Node, conditions: Sequence[Node]) -> None:
+    """Raises VerificationError where the conditions hold and gravity is not what is asked for."""
+    if not all(is_balanced(robot, gravity, at) for at in balanced_points(robot, conditions)):
+        raise VerificationError("gravity is not balanced where it should be; this is a fault of dynsolve")

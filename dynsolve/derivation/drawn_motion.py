@@ -16,15 +16,14 @@ from functools import partial
 from itertools import islice
 from typing import TypeVar
 
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.newton_euler import Rotation, Vector, applied, cross, dot, minus, plus, scaled, times
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
-from dynsolve.robot.drawing.drawn import DrawnAxis
-from dynsolve.robot.drawing.procedure import Normals
+from dynsolve.robot.drawing.normals import DrawnAxis, Normals
 
 TOLERANCE = 1e-9
 _T = TypeVar("_T")

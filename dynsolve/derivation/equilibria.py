@@ -11,27 +11,238 @@ is: these are told, with the remainders of the forces on division by it, which a
 Where rates are held constant, g is the sum of forces in that motion (`steady`).
 
 Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
+
+How stable equilibria are, by the second derivatives of the potential energy.
+
+An equilibrium is stable where the potential energy has a strict minimum, the matrix of its second
+derivatives being positive definite (Lagrange and Dirichlet): where all its leading minors are
+positive (Sylvester).  It is unstable where the matrix has a negative direction, which it has where
+any principal minor is negative.  Parameters count as positive; a leading minor whose sign they leave
+open is a condition for stability: where it is negative the equilibrium is unstable, and only where
+it is 0 the second derivatives do not decide.
+
+Where rates are held constant the energy is that of `steady`, and forces across the motion, which
+do no work, may hold what would fall: then nothing is called unstable.
+
+Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
+from itertools import combinations, product
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.inequality import Bound, independent
+from dynsolve.algebra.linear_systems import part
+from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
-from dynsolve.algebra.transfer import Transfer
-from dynsolve.derivation.existence import conditions
+from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.elimination import ParameterSigns, Turn, conditions, turn_of
 from dynsolve.derivation.graph import Skipped
-from dynsolve.derivation.inverse.unknowns import search_ring
-from dynsolve.derivation.parameter_signs import ParameterSigns
+from dynsolve.derivation.inverse.equations import search_ring
 from dynsolve.derivation.regressor import generators
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
-from dynsolve.derivation.stability import Curvature, Point
+from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.robot.model import Robot
+
+# How stable equilibria are, by the second derivatives of the potential energy
+
+MOST_POINTS = 16
+"""With more points in a case their stability is not told one by one."""
+
+MOST_TURNING = 6
+"""With more sines and cosines the least value of an expression is not looked for."""
+
+MOST_PRODUCTS = 50_000
+"""Second derivatives whose determinant may come to more products of terms are not looked at."""
+
+Values = tuple[tuple[Pair, int, int], ...]
+"""(angle, sine, cosine): quarter turns."""
+
+
+class Stability(StrEnum):
+    """What second derivatives say of an equilibrium."""
+
+    STABLE = "stable"
+    UNSTABLE = "unstable"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """Quarter turns of angles in a case, and how stable the arm is there.
+
+    `neutral` are the coordinates, from 0, along which nothing changes.  Where the stability is
+    undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
+    them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
+    sides are equal nothing is said.  `is_open` says that the signs depend on the configuration.
+    """
+
+    values: Values
+    stability: Stability
+    neutral: tuple[int, ...] = ()
+    conditions: tuple[Bound, ...] = ()
+    falls: bool = False
+    is_open: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Curvature:
+    """The second derivatives of the energy, n×n, and the signs of what stands in them.
+
+    `may_be_held` says that forces which do no work act, too.
+    """
+
+    second: Matrix
+    signs: ParameterSigns
+    may_be_held: bool
+
+    def points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
+        """The quarter turns that a case allows, each with its stability where the case `exists`."""
+        if 2 ** len(alternative) > MOST_POINTS:
+            return
+        turns = [found for one in alternative if (found := quarter_turns(one))]
+        others = [one for one in alternative if not quarter_turns(one)]
+        known = [turn for one in others if (turn := turn_of(one.expr)) is not None and turn.is_one_sided]
+        nonzero = [f for turn in known for f in self.signs.open_factors(turn.cosine + turn.sine)]
+        signs = self.signs.beside(*(Bound(bound.value) for bound in exists), nonzero=nonzero)
+        ring = self.second.ring
+        free = [
+            k
+            for k in range(len(ring.names))
+            if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
+        ]
+        for values in product(*turns):
+            at = _put(self.second, values)
+            for other in others:
+                (left,) = _put(Matrix.column(at.ring, [other.expr]), values).entries
+                at = _where_zero(at, left)
+            yield self._point(values, at, signs, free)
+
+    def _point(self, values: Values, second: Matrix, signs: ParameterSigns, free: Sequence[int]) -> Point:
+        """The stability at quarter turns where `free` coordinates may have any value."""
+        neutral = tuple(k for k in free if all(entry.is_zero for entry in second.rows[k]))
+        rest = tuple(k for k in range(len(second.rows)) if k not in neutral)
+        if not rest or work(part(second, rest, rest)) > MOST_PRODUCTS:
+            return Point(values, Stability.UNDECIDED, neutral, is_open=bool(rest))
+        if not self.may_be_held and _falls(second, rest, signs):
+            return Point(values, Stability.UNSTABLE, neutral)
+        leading = (determinant(part(second, rest[:k], rest[:k])) for k in range(1, len(rest) + 1))
+        left = [
+            minor
+            for minor in map(signs.open_part, leading)
+            if not (minor.is_number and minor.number > 0) and not _is_positive_throughout(minor, signs)
+        ]
+        if not left:
+            return Point(values, Stability.STABLE, neutral)
+        if any(minor.is_number for minor in left):
+            return Point(values, Stability.UNDECIDED, neutral)
+        if any(minor.ring.depends_on_coordinates(minor) for minor in left):
+            return Point(values, Stability.UNDECIDED, neutral, is_open=True)
+        conditions = independent([Bound(minor) for minor in _least(left, signs)], signs.assumed)
+        return Point(values, Stability.UNDECIDED, neutral, conditions, not self.may_be_held)
+
+
+def _falls(second: Matrix, rest: Sequence[int], signs: ParameterSigns) -> bool:
+    """Whether the energy surely falls in some direction: a principal minor is negative."""
+    return any(
+        signs.is_positive(-determinant(part(second, chosen, chosen)))
+        for size in range(1, len(rest) + 1)
+        for chosen in combinations(rest, size)
+    )
+
+
+def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
+    """Whether k - m g l cos q > 0 for all q: what is linear in each sine and cosine is least at ±1."""
+    ring, degrees = value.ring, value.poly.degrees()
+    turning = [i for pair in ring.pairs for i in (pair.sine, pair.cosine) if degrees[i] > 0]
+    if not turning or len(turning) > MOST_TURNING or any(degrees[index] > 1 for index in turning):
+        return False
+    return all(
+        signs.is_positive(_composed(value, dict(zip(turning, ends, strict=True))))
+        for ends in product((1, -1), repeat=len(turning))
+    )
+
+
+def _least(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
+    """The values without those that are another one and something positive."""
+    return [
+        value
+        for value in values
+        if not any(signs.is_positive(value - other) for other in values if other != value)
+    ]
+
+
+def _where_zero(second: Matrix, left: Expr) -> Matrix:
+    """The second derivatives where a further expression is 0, up to a positive factor."""
+    if left.is_zero:
+        return second
+    turn = turn_of(left)
+    if turn is not None and turn.is_one_sided:
+        return _at_turn(second, turn)
+    size = second.shape[1]
+    flat = Condition(left).reduced_together(second.entries)
+    return Matrix.of(second.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
+
+
+def _at_turn(second: Matrix, turn: Turn) -> Matrix:
+    """The matrix where A x + C = 0 for the sine or the cosine x of an angle, times A to an even power."""
+    ring, pair = second.ring, turn.pair
+    known, other = (pair.cosine, pair.sine) if turn.sine.is_zero else (pair.sine, pair.cosine)
+    factor, rest = turn.cosine + turn.sine, turn.rest
+    degrees = (int(e[known]) + int(e[other]) for entry in second.entries for e in entry.poly.monoms())
+    most = max(degrees, default=0)
+    highest, y = most + most % 2, ring.generator(other)
+
+    def put(expr: Expr) -> Expr:
+        total = ring.zero
+        for exponents, number in expr.poly.to_dict().items():
+            i, j = int(exponents[known]), int(exponents[other])
+            plain = tuple(0 if k in (known, other) else e for k, e in enumerate(exponents))
+            squares = (factor * factor - rest * rest) ** (j // 2)  # A² y² = A² - C²
+            power = highest - i - 2 * (j // 2)
+            own = Expr(ring, ring.ctx.from_dict({plain: number}))
+            total += own * (-rest) ** i * squares * factor**power * y ** (j % 2)
+        return total
+
+    return second.map(put)
+
+
+def quarter_turns(condition: Condition) -> list[tuple[Pair, int, int]]:
+    """The quarter turns at which sin q, cos q, or one of these less ±1, is 0; none of other conditions."""
+    ring = condition.expr.ring
+    quarters = ((0, 1), (1, 0), (0, -1), (-1, 0))
+    for pair in ring.pairs:
+        used = {i for i, degree in enumerate(condition.expr.poly.degrees()) if degree > 0}
+        if used and used <= {pair.sine, pair.cosine}:
+            column = Matrix.column(ring, [condition.expr])
+            return [(pair, s, c) for s, c in quarters if _put(column, ((pair, s, c),)).is_zero]
+    return []
+
+
+def _put(matrix: Matrix, values: Values) -> Matrix:
+    """The matrix at quarter turns."""
+    numbers = {pair.sine: sine for pair, sine, _ in values} | {
+        pair.cosine: cosine for pair, _, cosine in values
+    }
+    return matrix.map(lambda entry: _composed(entry, numbers))
+
+
+def _composed(value: Expr, numbers: Mapping[int, int]) -> Expr:
+    """A value with numbers for some generators."""
+    ring = value.ring
+    images = [
+        (ring.constant(numbers[g.index]) if g.index in numbers else ring.generator(g.index)).poly
+        for g in ring.generators
+    ]
+    return Expr(ring, ring.reduce(value.poly.compose(*images, ctx=ring.ctx)))
+
+
+# Equilibria: the configurations at which gravity and springs move nothing, g(q) = 0
 
 MOST_TERMS = 200
 """Forces with more terms are not taken apart."""

@@ -14,14 +14,13 @@ from dataclasses import dataclass
 from itertools import islice
 from math import atan2
 
-from dynsolve.algebra.floats import evaluate
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import ENOUGH
 from dynsolve.derivation.arm_values import states_with
-from dynsolve.derivation.configuration_check import NO_VALUE, is_zero
+from dynsolve.derivation.configurations import NO_VALUE, is_zero
 from dynsolve.derivation.elimination import is_positive_definite, solved
-from dynsolve.derivation.equilibria import wanted_rows
+from dynsolve.derivation.equilibria import Point, Stability, wanted_rows
 from dynsolve.derivation.reached import CLOSE
-from dynsolve.derivation.stability import Point, Stability
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.tree_values import Program, compile_trees

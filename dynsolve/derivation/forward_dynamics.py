@@ -5,16 +5,39 @@
 D⁻¹ is the adjugate over the determinant, so that all is polynomial but for one division.
 
 Lynch, Park, Modern Robotics, section 8.5 (2017).
+
+The equations of motion of a constrained mechanism without the multipliers.
+
+The columns of Z span the rates that the constraints leave free, A_c Z = 0.  The forces of the
+constraints do no work on these:
+
+    Zᵀ (D q̈ + C q̇ + friction + g) = Zᵀ (τ + Q)
+
+Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.3 (1994).
+
+Forward dynamics, put back: with these accelerations the left side of the equations gives the forces.
+
+Nothing is inverted or eliminated: D q̈ + C q̇ + friction + g, as it is printed, must be τ + Q.
 """
 
 from __future__ import annotations
 
-from dynsolve.algebra.fraction_matrix import FractionMatrix, quotient
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant, work
-from dynsolve.algebra.pseudoinverse import adjugate
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import islice
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, nullspace, quotient
+from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.rate_check import TOLERANCE
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
 from dynsolve.robot.model import Robot
+
+# Forward dynamics: the accelerations that given forces make
 
 MOST_PRODUCTS = 50_000
 """Accelerations that may come to more products of terms are not multiplied out: nobody could read them."""
@@ -56,3 +79,54 @@ def accelerations(robot: Robot, D: Matrix, *forces: Matrix) -> Matrix | Fraction
         return Skipped(TOO_LARGE)
     scale = determinant(D)
     return Skipped(SINGULAR) if scale.is_zero else quotient(adjugate(D) @ acting, scale)
+
+
+# The equations of motion of a constrained mechanism without the multipliers
+
+MOST_TERMS = 400
+"""Equations with more terms together are not multiplied out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reduced:
+    """Z, n×(n-c), and (left, right) of each equation."""
+
+    free: Matrix
+    equations: tuple[tuple[Expr, Expr], ...]
+
+
+def reduced(robot: Robot, A: Matrix, forces: Matrix, *loads: Matrix) -> Reduced | Skipped:
+    """The equations without multipliers; `forces` are their left sides, n×1, `loads` Q where there is any."""
+    Z = nullspace(A)
+    if not Z.shape[1]:
+        return Skipped("the constraints leave nothing free to move")
+    if sum(map(len, forces.entries)) * max(map(len, Z.entries)) > MOST_TERMS:
+        return Skipped("multiplied out the equations are too long to be read")
+    driving = driving_forces(robot)
+    for Q in loads:
+        driving = driving + Q
+    return Reduced(Z, tuple(zip((Z.T @ forces).entries, (Z.T @ driving).entries, strict=True)))
+
+
+# Forward dynamics, put back
+
+COMPARED = ("qdd_forward", "tau", "Q")
+"""What is compared; Q where forces act from outside."""
+
+
+def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare the printed form of `qdd_forward` with those of `tau` and, where there is one, `Q`.
+
+    Raises VerificationError where it does not give the forces back.
+    """
+    found, left = compile_trees([results["qdd_forward"]]), compile_trees([results["tau"]])
+    outside = compile_trees([results["Q"]]) if "Q" in results else None
+    for values, (rows,) in islice(states_with(robot.ring, found.run), states):
+        moved = {q.acceleration: row[0] for q, row in zip(robot.coordinates, rows, strict=True)}
+        (theirs,) = left.run({**values, **moved})
+        loads = outside.run(values)[0] if outside else [(0.0,)] * robot.n
+        for k, q in enumerate(robot.coordinates):
+            force = loads[k][0] + (0.0 if k in robot.actions.passive else values[q.force])
+            size = max(1.0, abs(force), *map(abs, moved.values()))
+            if not abs(theirs[k][0] - force) <= TOLERANCE * size:
+                raise VerificationError("qdd_forward does not give the forces; this is a fault of dynsolve")

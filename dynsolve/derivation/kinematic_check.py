@@ -27,9 +27,8 @@ from dynsolve.derivation.newton_euler import (
     transposed,
 )
 from dynsolve.errors import VerificationError
-from dynsolve.notation.tree import Node, Reference, Symbol, column
+from dynsolve.notation.tree import Node, Reference, Symbol, column, mapped
 from dynsolve.notation.tree_values import Program, compile_trees
-from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, NamedPoint
 

@@ -4,23 +4,60 @@ The product Y a is held against the forces as they are printed, which recursive 
 verified.  The length of a is held against the rank of a table of these forces, with a row for
 each of many motions and a column for each of many choices of the unknown parameters: no
 factorization with fewer columns gives that table.
+
+Whether matrices are positive definite, held at random values of parameters and coordinates.
+
+Symmetric elimination on numbers: a matrix is positive definite exactly if every pivot is positive.
+It shares nothing with the minors and their smallest values.
+
+The Newton-Euler recursions, as printed, compared with recursive Newton-Euler on numbers.
+
+There every vector lies along the axes of the world, moments are about its origin, and a row of the
+table is four elementary motions; here the results are turned into the links' frames.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import islice
+from random import Random
 from typing import Any
 
-from dynsolve.derivation.arm_values import states_with
-from dynsolve.derivation.elimination import rank
+from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.derivation.arm_values import RobotValues, arms, states_with
+from dynsolve.derivation.definite import Answer, Definiteness, Refusal
+from dynsolve.derivation.elimination import is_positive_definite, rank
+from dynsolve.derivation.newton_euler import (
+    ZERO,
+    Arm,
+    MovingFrame,
+    Vector,
+    applied,
+    cross,
+    held_by_joints,
+    minus,
+    outwards,
+    plus,
+    scaled,
+    transposed,
+)
 from dynsolve.derivation.regressor import known_names
+from dynsolve.derivation.verification import TOLERANCE as VERIFICATION_TOLERANCE
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
+from dynsolve.quantities import action_families as families
+from dynsolve.quantities.family import Family
+from dynsolve.quantities.index import quantities
 from dynsolve.quantities.model_families import PARAMETERS
-from dynsolve.robot.model import Robot
-from dynsolve.robot.model_questions import reference
+from dynsolve.robot.actions import Candidate
+from dynsolve.robot.model import Convention, JointType, Robot
+from dynsolve.robot.questions import reference
+
+# What is asked of the equations of motion, compared with numbers
 
 TOLERANCE = 1e-8
 """The largest error of Y a, relative to its largest terms."""
@@ -118,3 +155,137 @@ def rank_of_forces(robot: Robot, Y: str, forces: Node, expected: int) -> int:
     motions = motions[: -(-len(motions) // robot.n) + 1]
     rows = [[force for motion in motions for force in forces_at(choice, motion)] for choice in choices]
     return rank(rows, NEGLIGIBLE)
+
+
+# Whether matrices are positive definite, held at random values of parameters and coordinates
+
+SEED = 20_190_429
+DRAWS = 20_000
+"""So many values are drawn in the search for some that satisfy what is assumed."""
+
+POSES = 200
+
+
+def verify_definite(robot: Robot, candidate: Candidate, found: Definiteness, states: int) -> None:
+    """Hold a verdict at random values; raises VerificationError where it is wrong."""
+    random = Random(SEED)  # noqa: S311 - the same values every time are wanted
+    bounds = (*candidate.assumed, *found.conditions)
+    if found.refusal not in (None, Refusal.INDEFINITE):
+        return
+    for parameters in _parameters(candidate, bounds, random, states):
+        every = all(_is_definite(candidate, values) for values in _poses(robot, parameters, random))
+        if every != (found.answer is not Answer.NO):
+            raise VerificationError(
+                f"whether {candidate.name} is positive definite comes out otherwise on numbers; "
+                "this is a fault of dynsolve"
+            )
+
+
+def _parameters(
+    candidate: Candidate, bounds: Sequence[Bound], random: Random, states: int
+) -> Iterator[dict[str, float]]:
+    """Values of the parameters that satisfy inequalities."""
+    ring, count = candidate.matrix.ring, 0
+    for _ in range(DRAWS):
+        values = {
+            name: random.choice((random.uniform(-2, 2), random.uniform(0.1, 3))) for name in ring.parameters
+        }
+        if all(evaluate(b.value, values) > 1e-3 * b.is_strict for b in bounds):
+            count += 1
+            yield values
+            if count == states:
+                return
+
+
+def _poses(robot: Robot, parameters: Mapping[str, float], random: Random) -> Iterator[dict[str, float]]:
+    """Values of the coordinates: right angles first, and lengths of every size."""
+    for k in range(POSES):
+        values = dict(parameters)
+        for q in robot.coordinates:
+            if q.type is JointType.PRISMATIC:
+                values[q.name] = random.choice((0.0, random.uniform(-3, 3), random.uniform(-100, 100)))
+            elif k % 2:
+                values[q.name] = random.choice((0, 1, 2, 3)) * math.pi / 2
+            else:
+                values[q.name] = random.uniform(-math.pi, math.pi)
+        yield values
+
+
+def _is_definite(candidate: Candidate, values: Mapping[str, float]) -> bool:
+    rows = [[evaluate(entry, values) for entry in row] for row in candidate.matrix.rows]
+    return is_positive_definite(rows, 1e-12)
+
+
+# The Newton-Euler recursions, as printed, compared with recursive Newton-Euler on numbers
+
+
+def recursion_names(robot: Robot, wanted: frozenset[str]) -> tuple[str, ...]:
+    """Which of the wanted results are of the recursions."""
+    every = quantities(robot).values()
+    return tuple(q.name for q in every if q.family in families.FAMILIES and q.name in wanted)
+
+
+def verify_recursions(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare printed forms of the recursions with the motions and forces of the arm in numbers.
+
+    `results` are trees by name (see `recursion_names`).  Raises VerificationError where one is off by more
+    than rounding.
+    """
+    program = compile_trees(list(results.values()))
+    for values, arm in islice(arms(robot), states if results else 0):
+        links = _Links(robot, values, arm)
+        for name, mine in zip(results, program.run(values), strict=True):
+            theirs = links.value(name)
+            size = max((1.0, *map(abs, theirs)))
+            if not _gap(mine, theirs) <= VERIFICATION_TOLERANCE * size:
+                raise VerificationError(
+                    f"{name} differs from the motion of the arm; this is a fault of dynsolve"
+                )
+
+
+@dataclass
+class _Links:
+    """What the recursions give, from an arm at a state."""
+
+    robot: Robot
+    values: Mapping[str, float]
+    arm: Arm
+
+    def __post_init__(self) -> None:
+        self._lifted = outwards(self.arm, self.arm.qd, self.arm.qdd, scaled(self.arm.gravity, -1.0))[0]
+        self._held = held_by_joints(self.arm, self._lifted, self.arm.qd, self.arm.qdd)
+        modified = self.robot.convention is Convention.MODIFIED
+        joints = self.robot.joints
+        at_rest = outwards(self.arm, self.arm.qd, self.arm.qdd, ZERO)[0]
+        self._frames = self._lifted if modified else at_rest
+        self._about = [joint.index if modified else joint.parent for joint in joints]
+        """The frame, for each link, whose origin its moment is about."""
+
+    def value(self, name: str) -> Vector:
+        """A result along the axes of its link's frame."""
+        quantity = quantities(self.robot)[name]
+        place = quantity.index[0]
+        link = self.robot.bodies[place - 1].link if quantity.family is families.ACL else place
+        frame = self._frames[link]
+        return applied(transposed(frame.R), self._in_world(quantity.family, place, link, frame))
+
+    def _in_world(self, family: Family, place: int, link: int, frame: MovingFrame) -> Vector:
+        if family is families.WL:
+            return frame.w
+        if family is families.WDL:
+            return frame.dw
+        if family is families.AL:
+            return frame.dv
+        if family is families.ACL:
+            numbers = RobotValues(self.robot, self.values)
+            arm = applied(frame.R, numbers.vector(self.robot.bodies[place - 1].center))
+            return plus(frame.dv, plus(cross(frame.dw, arm), cross(frame.w, cross(frame.w, arm))))
+        force, moment = self._held[link - 1]
+        if family is families.FL:
+            return force
+        return minus(moment, cross(self._frames[self._about[link - 1]].o, force))
+
+
+def _gap(mine: Any, theirs: Sequence[float]) -> float:
+    gaps = [abs(a - b) for (a,), b in zip(mine, theirs, strict=True)]
+    return max((gap if gap == gap else float("inf") for gap in gaps), default=0.0)

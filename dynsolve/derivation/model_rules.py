@@ -2,24 +2,34 @@
 
 A robot has the rules of those stages of which something is asked; the formulas are in
 `regressor`, `linearization`, `forward_dynamics` and `task_inertia`.
+
+The rules of models without a table: of bodies by their positions, and of given D, K, P or L.
+
+They take the place of the rules of frames and joints; from the energies on the rules are
+those of every robot.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation import balance, linearization, regressor, task_inertia
-from dynsolve.derivation.energy import accelerations
+from dynsolve.derivation import balance, euler_lagrange, linearization, mechanism, regressor
 from dynsolve.derivation.graph import Rule, Skipped
-from dynsolve.quantities.robot_stages import asked_stages
+from dynsolve.derivation.link_frame import accelerations, inertia_matrix, quadratic_energy
+from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Robot
+from dynsolve.robot.actions import GivenModel
+from dynsolve.robot.model import Body, Robot
 
 if TYPE_CHECKING:
     from dynsolve.derivation.equilibria import Equilibria
+
+
+# What exercises ask of the equations of motion as rules
 
 
 def model_rules(robot: Robot) -> Iterator[Rule]:
@@ -32,7 +42,7 @@ def model_rules(robot: Robot) -> Iterator[Rule]:
     if Stage.FORWARD_DYNAMICS in stages:
         yield _forward(robot)
     if Stage.TASK_INERTIA in stages and robot.has_table:
-        yield Rule("Lambda", ("Jr", "D"), task_inertia.task_inertia)
+        yield Rule("Lambda", ("Jr", "D"), linearization.task_inertia)
 
 
 def _parameters(robot: Robot) -> Iterator[Rule]:
@@ -81,6 +91,80 @@ def _where_in_balance(robot: Robot, gravity: Matrix) -> Equilibria | Skipped:
 
 def _in_steady_motion(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Equilibria | Skipped:
     """Those of coordinates whose others move at constant rates."""
-    from dynsolve.derivation.steady import steady_equilibria
+    from dynsolve.derivation.linearization import steady_equilibria
 
     return steady_equilibria(robot, D, C, gravity)
+
+
+# The rules of models without a table
+
+
+def motion_rules(robot: Robot, body: Body) -> Iterator[Rule]:
+    """r_c, R, J_v and J_ω of a body that is given by its position."""
+    b = body.name
+    yield Rule(f"rc{b}", (), lambda: body.center)
+    yield Rule(f"R{b}", (), partial(mechanism.orientation, robot, body))
+    yield Rule(f"Jv{b}", (f"rc{b}",), partial(mechanism.position_jacobian, robot))
+    yield Rule(f"Jw{b}", (), partial(mechanism.angular_jacobian, robot, body))
+
+
+def given_rules(
+    robot: Robot, given: GivenModel, stored: Sequence[str] = (), moving: Sequence[str] = ()
+) -> Iterator[Rule]:
+    """K and P of a model that is given by D and P, by K and P, or by L.
+
+    `stored` and `moving` are the energies of springs and of rotors, where there are any: they are added.
+    """
+    K, P = _kinetic(robot, given), _potential(robot, given)
+    yield Rule("K", tuple(moving), lambda *parts: sum(parts, start=K))
+    yield Rule("P", tuple(stored), lambda *parts: sum(parts, start=P))
+
+
+def _kinetic(robot: Robot, given: GivenModel) -> Expr:
+    """K as given, ½ q̇ᵀ D q̇, or the terms of L that hold rates."""
+    if given.D is not None:
+        return quadratic_energy(robot, given.D)
+    if given.L is not None:
+        return given.L - robot.ring.without(given.L, 1)
+    assert given.K is not None
+    return given.K
+
+
+def _potential(robot: Robot, given: GivenModel) -> Expr:
+    """P as given, or minus what is left of L at rest; 0 where nothing is given."""
+    if given.L is not None:
+        return -robot.ring.without(given.L, 1)
+    return robot.ring.zero if given.P is None else given.P
+
+
+def direct_rules(robot: Robot) -> Iterator[Rule]:
+    """K_v and K_ω from each body's part of D, along its own axes, and D without the forces (`D_direct`)."""
+    rotors = ("Dm",) if robot.actions.motors else ()
+    if robot.given is not None:
+        D = robot.given.D
+        if D is not None:
+            yield Rule("D_direct", rotors, lambda *parts: sum(parts, start=D))
+        else:
+            yield Rule("D_direct", ("K",), partial(euler_lagrange.inertia_from_energy, robot))
+        return
+    for body in robot.bodies:
+        b = body.name
+        yield Rule(f"Dv{b}", (f"Jv{b}",), partial(_linear_part, body))
+        yield Rule(f"Dw{b}", (f"I_body{b}",), partial(_angular_part, robot, body))
+        yield Rule(f"Kv{b}", (f"Dv{b}",), partial(quadratic_energy, robot))
+        yield Rule(f"Kw{b}", (f"Dw{b}",), partial(quadratic_energy, robot))
+    parts = (*(f"D{kind}{body.name}" for body in robot.bodies for kind in "vw"), *rotors)
+    yield Rule("D_direct", parts, partial(inertia_matrix, robot))
+
+
+def _linear_part(body: Body, J: Matrix) -> Matrix:
+    """m J_vᵀ J_v, n×n."""
+    return (J.T @ J).scale(body.mass)
+
+
+def _angular_part(robot: Robot, body: Body, tensor: Matrix) -> Matrix:
+    """J_ωᵀ I J_ω, n×n, both along the body's own axes."""
+    if body.is_point:
+        return Matrix.zero(robot.ring, robot.n, robot.n)
+    J = mechanism.own_angular_jacobian(robot, body)
+    return J.T @ tensor @ J

@@ -9,13 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction_matrix import FractionMatrix
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant, work
-from dynsolve.algebra.pseudoinverse import adjugate, pseudoinverse_times
-from dynsolve.algebra.spans import nullspace, rangespace
-from dynsolve.derivation.energy import velocities
+from dynsolve.algebra.linear_systems import (
+    FractionMatrix,
+    adjugate,
+    nullspace,
+    pseudoinverse_times,
+    rangespace,
+)
+from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.link_frame import velocities
 from dynsolve.robot.model import Robot
 
 

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
-from dynsolve.derivation import inertia
-from dynsolve.derivation.energy import accelerations, velocities
+from dynsolve.derivation import link_frame
 from dynsolve.derivation.kinematics import origin, rotation
+from dynsolve.derivation.link_frame import accelerations, velocities
 from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
 
 
@@ -144,7 +144,7 @@ def inertial_force(robot: Robot, body: Body, H: Matrix, acceleration: Matrix) ->
 
 def tensor_in_link(robot: Robot, body: Body, H: Matrix, tensor: Matrix) -> Matrix:
     """The body's tensor about its mass centre along the axes of its link's frame, 3×3."""
-    relative = inertia.axes_in_link(robot, body, H)
+    relative = link_frame.axes_in_link(robot, body, H)
     return relative @ tensor @ relative.T
 
 

@@ -13,7 +13,7 @@ from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.sampling import samples
-from dynsolve.derivation.configuration_check import NO_VALUE, rank_of
+from dynsolve.derivation.configurations import NO_VALUE, rank_of
 from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.equilibrium_check import zero_along

@@ -15,10 +15,9 @@ from collections.abc import Iterable, Sequence
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.terms import Exponents
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.fraction import RationalExpr, add, cancelled, multiply
-from dynsolve.algebra.fraction_matrix import FractionMatrix, tidy
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.linear_systems import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.parameter_span import (
     Generators,
@@ -34,7 +33,7 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.robot.model import Robot
-from dynsolve.robot.model_questions import reference
+from dynsolve.robot.questions import reference
 
 Split = Sequence[Sequence[tuple[Expr, Vector]]]
 """Each force as a sum of (what moves) · (a vector of parameters)."""

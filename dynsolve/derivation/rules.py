@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from functools import partial
 
 from dynsolve.algebra.matrix import Matrix, vstack
-from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinematics, vectorized
+from dynsolve.derivation import euler_lagrange, kinematics, link_frame
 from dynsolve.derivation.graph import Derivation, Rule
 from dynsolve.derivation.link_frame import link_frame_rules
-from dynsolve.quantities.robot_stages import asked_stages
+from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import OF_THE_MODEL, Stage
 from dynsolve.robot.model import Body, Robot
 
@@ -29,7 +29,7 @@ def derive(robot: Robot) -> Derivation:
     """
     if robot.has_table:
         return Derivation([*course_rules(robot), *link_frame_rules(robot), *_rotors(robot)])
-    from dynsolve.derivation.mechanism_rules import direct_rules
+    from dynsolve.derivation.model_rules import direct_rules
 
     return Derivation([*course_rules(robot), *direct_rules(robot), *_rotors(robot)])
 
@@ -58,7 +58,7 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
 
         yield from model_rules(robot)
     if Stage.CONSTRAINTS in asked:
-        from dynsolve.derivation.constraint_rules import constraint_rules
+        from dynsolve.derivation.constraints import constraint_rules
 
         yield from constraint_rules(robot)
     if robot.questions.candidates:
@@ -66,7 +66,7 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
 
         yield from definite_rules(robot)
     if Stage.STATICS in asked:
-        from dynsolve.derivation.static_rules import static_rules
+        from dynsolve.derivation.statics import static_rules
 
         yield from static_rules(robot)
 
@@ -75,7 +75,7 @@ def _asked_of_kinematics(robot: Robot) -> Iterator[Rule]:
     """What only some exercises ask; it is imported for these alone."""
     if asked_stages(robot.questions):
         from dynsolve.derivation.configurations import configuration_rules
-        from dynsolve.derivation.kinematic_rules import kinematic_rules, rate_rules
+        from dynsolve.derivation.task import kinematic_rules, rate_rules
 
         yield from kinematic_rules(robot)
         yield from configuration_rules(robot)
@@ -84,7 +84,7 @@ def _asked_of_kinematics(robot: Robot) -> Iterator[Rule]:
 
 def _acting_energies(robot: Robot) -> Iterator[Rule]:
     """The energies of springs and rotors; imported where something acts beside gravity."""
-    from dynsolve.derivation.action_rules import energy_rules
+    from dynsolve.derivation.actions import energy_rules
 
     yield from energy_rules(robot)
 
@@ -92,7 +92,7 @@ def _acting_energies(robot: Robot) -> Iterator[Rule]:
 def _rotors(robot: Robot) -> Iterator[Rule]:
     """The link frames' rules of the rotors."""
     if robot.has_dynamics and robot.actions.motors:
-        from dynsolve.derivation.action_rules import rotor_rules
+        from dynsolve.derivation.actions import rotor_rules
 
         yield from rotor_rules(robot)
 
@@ -110,10 +110,10 @@ def _end_jacobian(robot: Robot) -> Iterator[Rule]:
     frames = kinematics.frame_names(last)
 
     def linear(*H: Matrix) -> Matrix:
-        return jacobian.linear_jacobian(robot, H, kinematics.origin(H[-1]), last)
+        return kinematics.linear_jacobian(robot, H, kinematics.origin(H[-1]), last)
 
     def angular(*H: Matrix) -> Matrix:
-        return jacobian.angular_jacobian(robot, H, last)
+        return kinematics.angular_jacobian(robot, H, last)
 
     yield Rule("Jv", frames, linear)
     yield Rule("Jw", frames, angular)
@@ -123,23 +123,23 @@ def _end_jacobian(robot: Robot) -> Iterator[Rule]:
 def _body(robot: Robot, body: Body) -> Iterator[Rule]:
     b = body.name
     yield from _motion(robot, body)
-    yield Rule(f"v{b}", (f"Jv{b}",), partial(energy.velocity, robot))
-    yield Rule(f"w{b}", (f"Jw{b}",), partial(energy.velocity, robot))
+    yield Rule(f"v{b}", (f"Jv{b}",), partial(link_frame.velocity, robot))
+    yield Rule(f"w{b}", (f"Jw{b}",), partial(link_frame.velocity, robot))
     yield _own_tensor(robot, body)
-    yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), inertia.base_inertia)
-    yield Rule(f"P{b}", (f"rc{b}",), partial(energy.potential_energy, robot, body.mass))
-    yield Rule(f"Kv{b}", (f"v{b}",), partial(energy.linear_energy, body.mass))
+    yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), link_frame.base_inertia)
+    yield Rule(f"P{b}", (f"rc{b}",), partial(link_frame.potential_energy, robot, body.mass))
+    yield Rule(f"Kv{b}", (f"v{b}",), partial(link_frame.linear_energy, body.mass))
     if body.is_point:
         yield Rule(f"Kw{b}", (), lambda: robot.ring.zero)
     else:
-        yield Rule(f"Kw{b}", (f"w{b}", f"I{b}"), energy.rotational_energy)
-    yield Rule(f"K{b}", (f"Kv{b}", f"Kw{b}"), energy.kinetic_energy)
+        yield Rule(f"Kw{b}", (f"w{b}", f"I{b}"), link_frame.rotational_energy)
+    yield Rule(f"K{b}", (f"Kv{b}", f"Kw{b}"), link_frame.kinetic_energy)
 
 
 def _motion(robot: Robot, body: Body) -> Iterator[Rule]:
     """Where a body is and how it moves with the coordinates: by its link, or by its given position."""
     if not robot.has_table:
-        from dynsolve.derivation.mechanism_rules import motion_rules
+        from dynsolve.derivation.model_rules import motion_rules
 
         yield from motion_rules(robot, body)
         return
@@ -149,14 +149,14 @@ def _motion(robot: Robot, body: Body) -> Iterator[Rule]:
 
     def linear(*values: Matrix) -> Matrix:
         *frames, center = values
-        return jacobian.linear_jacobian(robot, frames, center, link)
+        return kinematics.linear_jacobian(robot, frames, center, link)
 
     def angular(*values: Matrix) -> Matrix:
         *frames, _ = values
-        return jacobian.angular_jacobian(robot, frames, link)
+        return kinematics.angular_jacobian(robot, frames, link)
 
     yield Rule(f"rc{b}", (H,), lambda H: kinematics.point(H, body.center))
-    yield Rule(f"R{b}", (H,), partial(inertia.body_rotation, robot, body))
+    yield Rule(f"R{b}", (H,), partial(link_frame.body_rotation, robot, body))
     yield Rule(f"Jv{b}", from_frames_and_center, linear)
     yield Rule(f"Jw{b}", from_frames_and_center, angular)
 
@@ -165,7 +165,7 @@ def _own_tensor(robot: Robot, body: Body) -> Rule:
     """The tensor about the mass centre, along the body's own axes."""
     b = body.name
     if robot.has_table:
-        return Rule(f"I_body{b}", (f"H{body.link}",), partial(inertia.central_inertia, robot, body))
+        return Rule(f"I_body{b}", (f"H{body.link}",), partial(link_frame.central_inertia, robot, body))
     return Rule(f"I_body{b}", (), lambda: body.inertia or Matrix.zero(robot.ring, 3, 3))
 
 
@@ -174,21 +174,21 @@ def _energies(robot: Robot) -> Iterator[Rule]:
     stored = ["Ps"] if "springs" in kinds else []
     moving = ["Km"] if "motors" in kinds else []
     if robot.given is not None:
-        from dynsolve.derivation.mechanism_rules import given_rules
+        from dynsolve.derivation.model_rules import given_rules
 
         yield from given_rules(robot, robot.given, stored, moving)
     else:
         names = [body.name for body in robot.bodies]
         parts_of_P, parts_of_K = (*(f"P{b}" for b in names), *stored), (*(f"K{b}" for b in names), *moving)
-        yield Rule("P", parts_of_P, lambda *parts: energy.total(robot.ring, parts))
-        yield Rule("K", parts_of_K, lambda *parts: energy.total(robot.ring, parts))
+        yield Rule("P", parts_of_P, lambda *parts: link_frame.total(robot.ring, parts))
+        yield Rule("K", parts_of_K, lambda *parts: link_frame.total(robot.ring, parts))
     yield Rule("L", ("K", "P"), euler_lagrange.lagrangian)
 
 
 def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
     resisted = _friction(robot)
     if resisted:
-        from dynsolve.derivation.action_rules import friction_rule
+        from dynsolve.derivation.actions import friction_rule
 
         yield friction_rule(robot)
     for q in robot.coordinates:
@@ -208,9 +208,9 @@ def _friction(robot: Robot) -> tuple[str, ...]:
 
 
 def _vectorized(robot: Robot) -> Iterator[Rule]:
-    yield Rule("D", ("tau",), partial(vectorized.inertia_from_torque, robot))
-    yield Rule("christoffel", ("D",), partial(vectorized.christoffel_symbols, robot))
-    yield Rule("C", ("christoffel",), partial(vectorized.coriolis_matrix, robot))
-    yield Rule("g", ("tau",), partial(vectorized.gravity_from_torque, robot))
-    yield Rule("Cqd", ("tau", "g", *_friction(robot)), partial(vectorized.coriolis_from_torque, robot))
-    yield Rule("g_direct", ("P",), partial(vectorized.gravity_vector, robot))
+    yield Rule("D", ("tau",), partial(euler_lagrange.inertia_from_torque, robot))
+    yield Rule("christoffel", ("D",), partial(euler_lagrange.christoffel_symbols, robot))
+    yield Rule("C", ("christoffel",), partial(euler_lagrange.coriolis_matrix, robot))
+    yield Rule("g", ("tau",), partial(euler_lagrange.gravity_from_torque, robot))
+    yield Rule("Cqd", ("tau", "g", *_friction(robot)), partial(euler_lagrange.coriolis_from_torque, robot))
+    yield Rule("g_direct", ("P",), partial(euler_lagrange.gravity_vector, robot))

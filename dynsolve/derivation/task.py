@@ -2,20 +2,33 @@
 
 Spong, Hutchinson, Vidyasagar, section 4.6 for the Jacobian of a point, 4.8 for that of a
 task (the analytical Jacobian: ∂r/∂q), 4.11 for J̇ in accelerations: d²r/dt² = J_r q̈ + J̇_r q̇.
+
+What exercises ask of the kinematics as rules: points, the task, its Jacobian and their rates.
+
+A robot has the rules of those stages of which something is asked; the formulas are in
+`task` and `rates`.  A point's quantities are called by its name: `pP`, `JvP`, `JwP`, `vP`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from functools import partial
 
 from dynsolve.algebra.fraction import RationalExpr
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.linear_systems import FractionMatrix
+from dynsolve.algebra.matrix import AtState, Matrix, vstack
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import Evaluator
+from dynsolve.derivation import kinematics, link_frame, rates
+from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.notation.tree import Reference
+from dynsolve.quantities.owners import asked_stages
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
-from dynsolve.robot.questions import Task
+from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
+
+# Points, the task r(q), its Jacobian, and how Jacobians change in time
 
 
 def task_value(robot: Robot, task: Task, positions: Mapping[str, Matrix]) -> Matrix:
@@ -51,3 +64,95 @@ def task_jacobian(robot: Robot, r: Matrix) -> Matrix:
 def rate(jacobian: Matrix) -> Matrix:
     """J̇ = Σ_k ∂J/∂q_k q̇_k, entry by entry."""
     return jacobian.map(jacobian.ring.time_derivative)
+
+
+# What exercises ask of the kinematics as rules
+
+
+def kinematic_rules(robot: Robot) -> Iterator[Rule]:
+    """The rules of what is asked of the kinematics; none of a robot of which nothing is."""
+    stages = asked_stages(robot.questions)
+    if Stage.TASK in stages:
+        for point in robot.questions.points:
+            yield from _point(robot, point)
+        yield Rule("Jv_dot", ("Jv",), rate)
+        yield Rule("Jw_dot", ("Jw",), rate)
+        yield Rule("J_dot", ("Jv_dot", "Jw_dot"), vstack)
+        if robot.questions.task is not None:
+            yield from _task(robot, robot.questions.task)
+
+
+def _point(robot: Robot, point: NamedPoint) -> Iterator[Rule]:
+    p, link = point.name, point.link
+
+    frames = kinematics.frame_names(link)
+    axes = () if point.axes is None else (f"H{point.axes}",)
+
+    def linear(position: Matrix, *H: Matrix) -> Matrix:
+        return along(kinematics.linear_jacobian(robot, H, position, link), *H[len(frames) :])
+
+    def angular(*H: Matrix) -> Matrix:
+        return along(kinematics.angular_jacobian(robot, H, link), *H[len(frames) :])
+
+    def along(J: Matrix, *seen: Matrix) -> Matrix:
+        return kinematics.rotation(seen[0]).T @ J if seen else J
+
+    yield Rule(f"p{p}", (f"H{link}",), lambda H: kinematics.point(H, point.position))
+    yield Rule(f"Jv{p}", (f"p{p}", *frames, *axes), linear)
+    yield Rule(f"Jw{p}", (*frames, *axes), angular)
+    yield Rule(f"v{p}", (f"Jv{p}",), partial(link_frame.velocity, robot))
+
+
+def _task(robot: Robot, asked: Task) -> Iterator[Rule]:
+    if asked.is_twist:
+        yield Rule("Jr", ("J",), lambda J: J)
+        if asked.is_pose:
+            yield Rule("pose", (f"H{len(robot.joints)}",), pose_entries)
+    else:
+        used = points_of(asked)
+        inputs = tuple(position_rule(robot, point) for point in used)
+
+        def value(*found: Matrix) -> Matrix:
+            positions = zip(used, found, strict=True)
+            at = {point: kinematics.origin(x) if point == TIP else x for point, x in positions}
+            return task_value(robot, asked, at)
+
+        yield Rule("r", inputs, value)
+        yield Rule("Jr", ("r",), partial(task_jacobian, robot))
+    yield Rule("Jr_dot", ("Jr",), rate)
+    yield Rule("det", (rates.whole_or_task(robot),), rates.jacobian_determinant)
+
+
+def rate_rules(robot: Robot) -> Iterator[Rule]:
+    """The rules of joint rates and accelerations, and of what the joints and the task can do."""
+    asked = robot.questions
+    at = AtState(robot.ring, asked.state.by_symbol)
+    velocity, acceleration = asked.velocity, asked.acceleration
+
+    inertia = ("D",) if asked.weighs_by_inertia else ()
+
+    def weights(D: tuple[Matrix, ...]) -> Matrix | None:
+        return at.matrix(D[0]) if D else asked.weights
+
+    def joint_rates(J: Matrix, *D: Matrix) -> Matrix | FractionMatrix | Skipped:
+        assert velocity is not None
+        return rates.joint_rates(at.matrix(J), at.matrix(velocity), weights(D))
+
+    def joint_accelerations(J: Matrix, J_dot: Matrix, *D: Matrix) -> Matrix | FractionMatrix | Skipped:
+        assert acceleration is not None
+        wanted = rates.wanted_by_accelerations(robot, acceleration, J_dot)
+        return rates.joint_rates(at.matrix(J), at.matrix(wanted), weights(D))
+
+    if velocity is not None:
+        yield Rule("qd", ("Jr", *inertia), joint_rates)
+    if acceleration is not None:
+        yield Rule("qdd", ("Jr", "Jr_dot", *inertia), joint_accelerations)
+    if Stage.RATES in asked_stages(asked):
+        yield Rule("nullspace", ("Jr",), lambda J: rates.motions_without_effect(at.matrix(J)))
+        yield Rule("rangespace", ("Jr",), lambda J: rates.possible_motions(at.matrix(J)))
+        yield Rule("lost", ("Jr",), lambda J: rates.lost_motions(at.matrix(J)))
+
+
+def position_rule(robot: Robot, point: str) -> str:
+    """The quantity that holds a point's position: the last frame for the tip."""
+    return f"H{len(robot.joints)}" if point == TIP else f"p{point}"

@@ -1,7 +1,7 @@
 """Drawings beside a step, as data: lines, angles and points in a plane with their names; the arm in a pose.
 
 Coordinates are about 1 and y grows upwards; nothing is to scale.  `dynsolve.draw.figure` draws the
-lines, `dynsolve.draw.arm_figure` the arm.
+lines, `dynsolve.draw.figure` the arm.
 """
 
 from __future__ import annotations

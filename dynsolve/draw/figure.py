@@ -1,22 +1,225 @@
-"""Drawings beside a step: a triangle, a projection; their lines, arcs and names on paper."""
+r"""Drawings beside a step: a triangle, a projection; their lines, arcs and names on paper.
+
+The arm in a pose beside a step: its body, and arrows at its tip.
+
+A scene as LaTeX that needs no package: paths as PDF operators, labels set by LaTeX itself.
+
+The paths go into the page as they are (`\pdfliteral` and what other engines call it),
+in a `picture` environment that gives them and the labels their places.
+
+A scene as SVG: paths, and text that stays text.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from html import escape
 
 from dynsolve.document import Picture
-from dynsolve.document.figures import Figure, FigureAngle, FigureLine, LineKind, Place
-from dynsolve.draw import paths
-from dynsolve.draw.annotate import Notes
-from dynsolve.draw.labels import place
-from dynsolve.draw.latex import to_latex_picture
-from dynsolve.draw.occupied import Taken
-from dynsolve.draw.paths import Path
+from dynsolve.document.figures import ArmArrow, ArmFigure, Figure, FigureAngle, FigureLine, LineKind, Place
+from dynsolve.draw import paths, poses
+from dynsolve.draw.labels import Label, Taken, place
+from dynsolve.draw.orientation import orientation
+from dynsolve.draw.paths import SIZE, WHITE, Commands, Path, Run
+from dynsolve.draw.pose_search import held_pose
+from dynsolve.draw.poses import Notes, Pose
 from dynsolve.draw.scene import Scene, framed, leads
-from dynsolve.draw.svg import to_svg
-from dynsolve.draw.vectors import Point
+from dynsolve.draw.skeleton import numbers
+from dynsolve.draw.solids import ground, solids
+from dynsolve.draw.vectors import NEAR, Point, Vector, length, unit
+from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Node, Product, Quotient, Row, Sum, Words
+from dynsolve.notation.tree_values import evaluate
+from dynsolve.notation.unicode import printable
+from dynsolve.problem.model import Problem
+
+# A scene as SVG: paths, and text that stays text
+
+FACES = (
+    "'Libertinus Serif', 'STIX Two Text', STIX, STIXGeneral, Cambria, 'Times New Roman',"
+    " 'Liberation Serif', 'DejaVu Serif', serif"
+)
+
+
+def to_svg(scene: Scene) -> str:
+    """The picture as a document of SVG 1.1."""
+    box = scene.frame
+    width, height = number(box.right - box.left), number(box.bottom - box.top)
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}"'
+        f' viewBox="{number(box.left)} {number(box.top)} {width} {height}" role="img"'
+        f' font-family="{FACES}" font-size="{number(SIZE)}">',
+        f"<title>{text(scene.title)}</title>",
+        f"<desc>{text(scene.description)}</desc>",
+        f'<rect class="paper" x="{number(box.left)}" y="{number(box.top)}" width="{width}" height="{height}"'
+        f' fill="{WHITE}"/>',
+        '<g stroke-linecap="round" stroke-linejoin="round">',
+        *map(_svg_path, scene.paths),
+        "</g>",
+        *map(_svg_label, scene.labels),
+        "</svg>",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def text(words: str) -> str:
+    """Any words as text of XML; characters that cannot be printed are replaced."""
+    return "\u00a0".join(escape(printable(part), quote=True) for part in words.split("\u00a0"))
+
+
+def number(value: float) -> str:
+    """A number in hundredths, without needless digits.
+
+    >>> number(1.5), number(-0.001), number(12.0)
+    ('1.5', '0', '12')
+    """
+    shown = f"{value:.2f}".rstrip("0").rstrip(".")
+    return "0" if shown in ("-0", "") else shown
+
+
+def _svg_path(path: Path) -> str:
+    attributes = [f'd="{_svg_commands(path.commands)}"', f'fill="{path.fill or "none"}"']
+    if path.stroke == WHITE:
+        attributes.append('class="halo"')
+    if path.stroke:
+        attributes += [f'stroke="{path.stroke}"', f'stroke-width="{number(path.width)}"']
+    if path.dashed:
+        attributes.append('stroke-dasharray="4 3"')
+    return f"<path {' '.join(attributes)}/>"
+
+
+def _svg_commands(commands: Commands) -> str:
+    return "".join(
+        letter + " ".join(f"{number(x)} {number(y)}" for x, y in points) for letter, points in commands
+    )
+
+
+def _svg_label(label: Label) -> str:
+    x, _ = label.box.center
+    baseline = label.box.bottom - 0.34 * SIZE
+    runs, shift = [], 0.0
+    for run in label.line.runs:
+        runs.append(_run(run, run.shift - shift))
+        shift = run.shift
+    return (
+        f'<text x="{number(x)}" y="{number(baseline)}" text-anchor="middle" fill="{label.colour}">'
+        f"{''.join(runs)}</text>"
+    )
+
+
+def _run(run: Run, drop: float) -> str:
+    attributes = ' font-style="italic"' if run.italic else ' font-weight="bold"' if run.bold else ""
+    if run.size != SIZE:
+        attributes += f' font-size="{number(run.size)}"'
+    if run.gap:
+        attributes += f' dx="{number(run.gap)}"'
+    if abs(drop) > 1e-6:
+        attributes += f' dy="{number(drop)}"'
+    return f"<tspan{attributes}>{text(run.text)}</tspan>"
+
+
+# A scene as LaTeX that needs no package: paths as PDF operators, labels set by LaTeX itself
+
+WIDEST = 345.0
+"""The width of a page's text, in big points."""
+
+_UNIT = 0.6
+_BIG_POINT = 72.27 / 72  # in points
+_OPERATORS = {"M": "m", "L": "l", "C": "c", "Z": "h"}
+_SIZES = (10, 9, 8, 7, 6, 5)
+"""The sizes in which TeX has its letters, in points."""
+
+_LITERAL = r"""\ifx\dynsolveink\undefined
+\def\dynsolveink#1{\special{pdf:content #1}}
+\ifx\pdfextension\undefined\else\def\dynsolveink#1{\pdfextension literal{#1}}\fi
+\ifx\pdfliteral\undefined\else\ifnum\pdfoutput>0 \def\dynsolveink#1{\pdfliteral{#1}}\fi\fi
+\fi"""
+"""pdfTeX, LuaTeX, and engines with a separate driver."""
+
+
+def to_latex_picture(scene: Scene) -> str:
+    """The picture as a group of LaTeX."""
+    box = scene.frame
+    wide, high = box.right - box.left, box.bottom - box.top
+    unit = min(_UNIT, WIDEST / wide)
+    lines = [
+        rf"{{\fontsize{{{font_size(unit)}}}{{12}}\selectfont",
+        _LITERAL,
+        rf"\setlength{{\unitlength}}{{{unit:.3f}bp}}%",
+        rf"\begin{{picture}}({number(wide)},{number(high)})%",
+        rf"\put(0,0){{\dynsolveink{{q {unit:.3f} 0 0 {unit:.3f} 0 0 cm 1 j 1 J",
+        *(operators for path in scene.paths for operators in _path(path, box.left, box.bottom)),
+        "Q}}%",
+        *(_label(label, scene) for label in scene.labels),
+        r"\end{picture}}",
+    ]
+    return "\n".join(lines)
+
+
+def font_size(unit: float) -> int:
+    """The largest letters, in points, that are no larger than a picture with this unit has room for."""
+    room = SIZE * unit * _BIG_POINT
+    return next((size for size in _SIZES if size <= room), _SIZES[-1])
+
+
+def _path(path: Path, left: float, bottom: float) -> Iterator[str]:
+    """The operators of a path; y grows upwards on a page of PDF."""
+    state = []
+    if path.stroke:
+        state.append(f"{_colour(path.stroke)} RG {number(path.width)} w")
+    if path.fill:
+        state.append(f"{_colour(path.fill)} rg")
+    state.append("[4 3] 0 d" if path.dashed else "[] 0 d")
+    yield " ".join(state)
+    yield from _commands(path.commands, left, bottom)
+    yield {(True, True): "B", (True, False): "S", (False, True): "f"}.get(
+        (path.stroke is not None, path.fill is not None), "n"
+    )
+
+
+def _commands(commands: Commands, left: float, bottom: float) -> Iterator[str]:
+    for letter, points in commands:
+        places = " ".join(f"{number(x - left)} {number(bottom - y)}" for x, y in points)
+        yield f"{places} {_OPERATORS[letter]}".strip()
+
+
+def _colour(colour: str) -> str:
+    """`#ff0000` as 1 0 0."""
+    return " ".join(f"{int(colour[k : k + 2], 16) / 255:.3f}" for k in (1, 3, 5))
+
+
+class _Printer(LatexPrinter):
+    """LaTeX that needs no package for a word, with fractions on the line, where their digits stay large."""
+
+    def _words(self, node: Words) -> str:
+        return rf"\mathrm{{{node.text}}}"
+
+    def _quotient(self, node: Quotient) -> str:
+        if isinstance(node.numerator, Sum) or isinstance(node.denominator, Sum | Product):
+            return super()._quotient(node)
+        return f"{self.text(node.numerator)}/{self.text(node.denominator)}"
+
+
+def _formula(node: Node, style: Style) -> str:
+    """A label's formula; a list of names needs no package for its commas."""
+    if isinstance(node, Row):
+        return r",\,".join(_formula(part, style) for part in node.parts if not isinstance(part, Words))
+    return _Printer(style).text(node)
+
+
+def _label(label: Label, scene: Scene) -> str:
+    x, y = label.box.center
+    place = f"{number(x - scene.frame.left)},{number(scene.frame.bottom - y)}"
+    formula = _formula(label.node, scene.style)
+    return (
+        rf"\put({place}){{\makebox(0,0){{\dynsolveink{{{_colour(label.colour)} rg}}"
+        rf"${formula}$\dynsolveink{{0 g}}}}}}%"
+    )
+
+
+# Drawings beside a step: a triangle, a projection; their lines, arcs and names on paper
 
 UNIT = 54.0
 """Picture units for 1 of a figure."""
@@ -115,3 +318,53 @@ def _on_arc(angle: FigureAngle, t: float) -> Point:
 def _on_paper(at: Place) -> Point:
     """On paper y grows downwards."""
     return UNIT * at[0], -UNIT * at[1]
+
+
+# The arm in a pose beside a step: its body, and arrows at its tip
+
+_ARROW = 62.0
+_END_ON = 0.12
+"""An arrow that is foreshortened more is drawn as one that is seen end on."""
+
+
+def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | None:
+    """The arm of a figure as a block of a document; None where no such pose is found."""
+    robot, values = problem.robot, numbers(problem)
+    world = orientation(robot, values, problem.normals is not None)
+    found = held_pose(robot, values, world, figure.zeros)
+    if found is None:
+        return None
+    pose, at = found
+    body = (*ground(pose.parts, pose.view), *solids(pose.parts, pose.view, world.up))
+    notes = poses.Notes(style, Taken())
+    notes.taken.add(body)
+    for arrow in figure.arrows:
+        _arrow(arrow, at, pose, notes)
+    labels = place(notes.wanted, notes.taken)
+    lines = (*body, *notes.paths, *leads(labels))
+    scene = Scene("", figure.caption, figure.caption, lines, labels, framed(lines, labels), style)
+    return Picture(to_svg(scene), figure.caption, to_latex_picture(scene))
+
+
+def _arrow(arrow: ArmArrow, at: Mapping[str, float], pose: Pose, notes: poses.Notes) -> None:
+    x, y, z = (float(evaluate(part, at)) for part in arrow.direction)
+    direction: Vector = (x, y, z)
+    if length(direction) < NEAR:
+        return
+    tip = pose.view.point(pose.skeleton.frames[-1].origin)
+    dx, dy = pose.view.direction(unit(direction))
+    if (dx**2 + dy**2) ** 0.5 < _END_ON:
+        notes.draw(
+            Path(paths.circle(tip, 7.0), paths.VARIABLE, 1.8, paths.WHITE),
+            Path(paths.circle(tip, 2.4), None, fill=paths.VARIABLE),
+        )
+        notes.label(arrow.name, [tip], (1.0, -1.0), paths.VARIABLE, "axis", 8.0)
+        return
+    end = (tip[0] + dx * _ARROW, tip[1] + dy * _ARROW)
+    short = (tip[0] + dx * (_ARROW - 7.0), tip[1] + dy * (_ARROW - 7.0))
+    notes.draw(
+        Path(paths.line(tip, short), paths.WHITE, 5.0),
+        Path(paths.line(tip, short), paths.VARIABLE, 2.4),
+        Path(paths.head(end, (dx, dy), 11.0), None, fill=paths.VARIABLE),
+    )
+    notes.label(arrow.name, [end], (dx, dy), paths.VARIABLE, "axis")

@@ -14,12 +14,10 @@ from fractions import Fraction
 from itertools import pairwise
 
 from dynsolve.draw import paths
-from dynsolve.draw.annotate import Notes
-from dynsolve.draw.drawn_lengths import turned_alone
 from dynsolve.draw.parts import RADIUS, JointBody
 from dynsolve.draw.paths import Path
-from dynsolve.draw.pose import ARC, MANY, Pose
-from dynsolve.draw.skeleton import Leg
+from dynsolve.draw.poses import ARC, MANY, Notes, Pose
+from dynsolve.draw.skeleton import Leg, turned_alone
 from dynsolve.draw.vectors import (
     NEAR,
     Point,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.draw.drawn_lengths import RobotNumbers, finite
-from dynsolve.draw.skeleton import DrawnFrame, Skeleton, base_frame, skeleton
+from dynsolve.draw.skeleton import DrawnFrame, RobotNumbers, Skeleton, base_frame, finite, skeleton
 from dynsolve.draw.vectors import (
     IDENTITY,
     ORIGIN,

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from dynsolve.draw.skeleton import Leg, Skeleton
-from dynsolve.draw.vectors import NEAR, Vector, along, distance, dot, length, scale, subtract, unit
-from dynsolve.draw.view import View
+from dynsolve.draw.vectors import NEAR, Vector, View, along, distance, dot, length, scale, subtract, unit
 from dynsolve.robot.model import JointType
 
 RADIUS = 13.0

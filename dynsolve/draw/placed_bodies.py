@@ -13,12 +13,11 @@ from dataclasses import replace
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.mechanism import orientation
 from dynsolve.draw import paths
-from dynsolve.draw.annotate import Notes
-from dynsolve.draw.labels import Label, place
-from dynsolve.draw.occupied import Taken
+from dynsolve.draw.labels import Label, Taken, place
 from dynsolve.draw.paths import Path
-from dynsolve.draw.placed_pose import PlacedPose, Turning, placed_pose
+from dynsolve.draw.placed_pose import Kind, Piece, PlacedPose, Turning, placed_pose
 from dynsolve.draw.placed_springs import placed_springs
+from dynsolve.draw.poses import Notes
 from dynsolve.draw.primitives import BODY, block, half_axes
 from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
 from dynsolve.draw.vectors import (
@@ -28,6 +27,7 @@ from dynsolve.draw.vectors import (
     Point,
     Rotation,
     Vector,
+    View,
     add,
     along,
     any_normal,
@@ -38,8 +38,6 @@ from dynsolve.draw.vectors import (
     scale,
     unit,
 )
-from dynsolve.draw.view import View
-from dynsolve.draw.ways import Kind, Piece
 from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters

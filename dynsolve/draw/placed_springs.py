@@ -12,12 +12,10 @@ from itertools import combinations
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.draw import paths
-from dynsolve.draw.annotate import Notes
 from dynsolve.draw.paths import Path
-from dynsolve.draw.placed_pose import PlacedPose, Turning
-from dynsolve.draw.springs import draw_spring, spiral, zigzag
+from dynsolve.draw.placed_pose import Place, PlacedPose, Turning
+from dynsolve.draw.poses import Notes, draw_spring, spiral, zigzag
 from dynsolve.draw.vectors import NEAR, Point, cross, length, moved, unit
-from dynsolve.draw.ways import Place
 from dynsolve.notation.tree import Node
 
 SPRINGS = "A zigzag or a spiral is a spring."

@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from dynsolve.draw import paths
-from dynsolve.draw.occupied import Box, bounds
+from dynsolve.draw.labels import Box, bounds
 from dynsolve.draw.paths import Path
-from dynsolve.draw.vectors import Point, Rotation, Vector, along, cross, dot, scale, unit
-from dynsolve.draw.view import View
+from dynsolve.draw.vectors import Point, Rotation, Vector, View, along, cross, dot, scale, unit
 
 END_ON = 0.999
 """The cosine between an axis and the line of sight from which it is seen end on."""

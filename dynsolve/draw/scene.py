@@ -1,36 +1,127 @@
-"""A robot's picture, whole: its body, what is written around it, and the room it takes."""
+"""A robot's picture, whole: its body, what is written around it, and the room it takes.
+
+How thick the uniform bodies are: two arrows that point at a body from both sides, with what lies between.
+
+A radius is shown by the diameter, 2r.  The length of a body along its link is written beside the robot, with
+those of the table and of the mass centres.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
-from dynsolve.draw import annotate, paths
-from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
-from dynsolve.draw.held_pose import held_pose
+from dynsolve.draw import paths, poses
 from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, names_of_angles, parallels
-from dynsolve.draw.labels import Label, place
-from dynsolve.draw.lengths import Length, dimensions, row_lengths
-from dynsolve.draw.occupied import Box, Taken, bounds
+from dynsolve.draw.labels import Box, Label, Taken, bounds, place
+from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, world_frame
+from dynsolve.draw.mass_centers import DrawnBody, Form
 from dynsolve.draw.orientation import Orientation, orientation
 from dynsolve.draw.paths import Path
-from dynsolve.draw.pose import Pose
-from dynsolve.draw.pose_search import best_pose, dressed
+from dynsolve.draw.pose_search import best_pose, dressed, held_pose
+from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, Notes, Pose, joint_springs, springs
+from dynsolve.draw.skeleton import RobotNumbers, numbers
 from dynsolve.draw.solids import ground, solids
-from dynsolve.draw.springs import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, joint_springs, springs
-from dynsolve.draw.thicknesses import thicknesses
-from dynsolve.draw.vectors import NEAR, Point, Vector, dot
-from dynsolve.draw.view import View
-from dynsolve.draw.world_frame import WORLD, has_world, moves, world_frame
+from dynsolve.draw.vectors import NEAR, Point, Vector, View, along, cross, dot, length, moved, scaled, unit
 from dynsolve.notation.characters import SUBSCRIPT_DIGITS
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType, Robot
+
+# How thick the uniform bodies are
+
+_TAIL, _HEAD = 15.0, 7.0
+"""How long each of the arrows is, and its head."""
+
+_LABEL = 26.0
+"""The side of the square beyond an arrow in which its label is to have room."""
+
+_PLACES = (-0.5, 0.5, -0.3, 0.3, -0.7, 0.7, -0.1, 0.1, -0.9, 0.9)
+"""Where along a body its arrows may stand, as parts of half its length: off its ends and its middle first."""
+
+_TURNS = tuple(math.pi * k / 8 for k in range(8))
+"""The ways through a ball in which its diameter may be shown."""
+
+_FACING = 0.5
+"""A side that is foreshortened more is not shown."""
+
+
+def thicknesses(robot: Robot, pose: Pose, notes: Notes) -> None:
+    """The sides of every body across its length, each letter once."""
+    shown: set[Node] = set()
+    write = Compactor(robot.ring, decimal=True).form
+    for body in pose.bodies:
+        for axis, side in body.sides:
+            name, ways = write(side), list(_ways(body, axis, pose.view))
+            if ways and name not in shown:
+                shown.add(name)
+                p, q = min(ways, key=lambda way: _crowded(way[0], way[1], notes))
+                _arrows(p, q, name, notes)
+
+
+def _ways(body: DrawnBody, axis: int, view: View) -> Iterator[tuple[Point, Point]]:
+    """The pairs of points on paper between which a side may be shown; none of one along the body."""
+    halves = body.on_paper(view.size)
+    is_box = body.form is Form.BOX
+    lengthwise = max(range(3), key=lambda k: halves[k]) if is_box else body.main
+    across = body.axes[axis] if is_box else cross(body.axes[body.main], view.toward)
+    if body.form is Form.BALL or (axis != lengthwise and length(across) < NEAR):
+        yield from _diameters(view.point(body.center), halves[axis])
+    elif axis != lengthwise and math.hypot(*view.direction(unit(across))) > _FACING:
+        half = scaled(view.direction(unit(across)), halves[axis])
+        third = 3 - axis - lengthwise
+        toward = dot(body.axes[third], view.toward)
+        front = view.space(math.copysign(halves[third], toward)) if is_box else 0.0
+        face = along(body.center, body.axes[third], front)
+        for part in _PLACES:
+            at = view.point(along(face, body.axes[lengthwise], view.space(part * halves[lengthwise])))
+            yield moved(at, half, -1.0), moved(at, half, 1.0)
+
+
+def _diameters(center: Point, radius: float) -> Iterator[tuple[Point, Point]]:
+    """Through the middle of a circle."""
+    for turn in _TURNS:
+        way = math.cos(turn), math.sin(turn)
+        yield moved(center, way, -radius), moved(center, way, radius)
+
+
+def _outward(p: Point, q: Point) -> Point:
+    reach = math.dist(p, q)
+    return (p[0] - q[0]) / reach, (p[1] - q[1]) / reach
+
+
+def _crowded(p: Point, q: Point, notes: Notes) -> tuple[int, int]:
+    """How much is in the way of the arrows, and of a label at the freer one; and of one at the other."""
+    out = _outward(p, q)
+    tips = (p, out), (q, scaled(out, -1.0))
+    tails = sum(notes.taken.cells_on(moved(tip, way, 4.0), moved(tip, way, _TAIL)) for tip, way in tips)
+    rooms = (Box.around(moved(tip, way, _TAIL + _LABEL / 2), _LABEL, _LABEL) for tip, way in tips)
+    taken = sorted(map(notes.taken.inside, rooms))
+    return 4 * tails + taken[0], taken[1]
+
+
+def _arrows(p: Point, q: Point, name: Node, notes: Notes) -> None:
+    out = _outward(p, q)
+    ends = []
+    for tip, way in ((p, out), (q, scaled(out, -1.0))):
+        ends.append(moved(tip, way, _TAIL))
+        shaft = paths.line(ends[-1], moved(tip, way, _HEAD - 2.0))
+        notes.draw(
+            Path(shaft, paths.WHITE, 3.4),
+            Path(shaft, paths.BLACK, 1.0),
+            Path(paths.head(tip, scaled(way, -1.0), _HEAD), None, fill=paths.BLACK),
+        )
+    notes.label(name, ends, (0.0, 0.0), paths.BLACK, "length")
+
+
+# A robot's picture, whole: its body, what is written around it, and the room it takes
 
 MARGIN = 14.0
 _FINEST = 10**6
@@ -79,16 +170,16 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     world = orientation(robot, values, problem.normals is not None)
     pose = allowed_pose(robot, values, world) or best_pose(robot, values, world, as_drawn(problem, values))
     under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
-    notes = annotate.Notes(_STAR if star else PLAIN, Taken())
+    notes = poses.Notes(_STAR if star else PLAIN, Taken())
     notes.taken.add([*under, *body])
     notes.solid.add(body)
-    annotate.frames(pose, world.gravity, notes)
+    poses.frames(pose, world.gravity, notes)
     if has_world(robot, values):
         under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
     springs(robot, values, pose, notes)
-    annotate.masses(pose, notes)
-    annotate.axes_end_on(pose, notes)
+    poses.masses(pose, notes)
+    poses.axes_end_on(pose, notes)
     thicknesses(robot, pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
     if world.gravity is not None:
@@ -125,7 +216,7 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (RINGS, has_rings(pose)),
         (SHAPES, bool(pose.bodies)),
         (POINTS, any(mass.is_point for mass in pose.skeleton.masses)),
-        (OFF_LINKS, annotate.has_masses_off_links(pose)),
+        (OFF_LINKS, poses.has_masses_off_links(pose)),
         (SPRINGS, bool(at_joints)),
         (OTHER_SPRINGS, len(at_joints) < len(robot.actions.springs)),
         (NO_DAMPERS, bool(robot.actions.dampers)),
@@ -196,7 +287,7 @@ def _part(symbol: Symbol, rate: Fraction) -> Node:
     return times if rate.denominator == 1 else Quotient(times, Number(rate.denominator))
 
 
-def gravity_arrow(gravity: Vector, view: View, body: Iterable[Path], notes: annotate.Notes) -> None:
+def gravity_arrow(gravity: Vector, view: View, body: Iterable[Path], notes: poses.Notes) -> None:
     """The arrow of gravity, at the side where there is most room."""
     box = bounds([*body, *notes.paths])
     end_on = view.flat and abs(dot(gravity, view.toward)) > 0.9
@@ -213,7 +304,7 @@ def gravity_arrow(gravity: Vector, view: View, body: Iterable[Path], notes: anno
     best = min(places, key=crowded)
     if crowded(best):
         best = (box.right + 40.0, box.top + 30.0)
-    annotate.gravity(best, direction, notes)
+    poses.gravity(best, direction, notes)
 
 
 def _unit(a: Point) -> Point:

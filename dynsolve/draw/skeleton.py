@@ -5,16 +5,25 @@ its joint, of length d_i from its foot to its head, and a leg of length a_i acro
 
     standard   foot_i = o_{i-1},  head_i = foot_i + d_i z_{i-1},  o_i = head_i + a_i x_i
     modified   foot_i = o_{i-1} + a_i x_{i-1},  o_i = head_i = foot_i + d_i z_i
+
+The lengths in a picture: how long L_1 is drawn where it has no number, and where it has one.
+
+Lengths with a number in the problem file keep their proportions, but the shortest
+is drawn long enough to be seen; the others are all equally long.  A mass centre
+that is given by symbols lies near the middle of its link.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from dynsolve.draw.drawn_lengths import RobotNumbers
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.draw.vectors import (
+    IDENTITY,
     NEAR,
     ORIGIN,
     Rotation,
@@ -29,7 +38,195 @@ from dynsolve.draw.vectors import (
     subtract,
     turned,
 )
+from dynsolve.notation.tree import names_in
+from dynsolve.problem.model import Problem
 from dynsolve.robot.model import Convention, Joint, JointType, Robot
+
+# The lengths in a picture
+
+SHORTEST = 0.42
+"""The shortest length that is drawn, as a part of the longest."""
+
+MOVED = 0.75
+"""How far a base is drawn from the world's origin along an axis, as a part of the longest length."""
+
+_APART = 0.0437
+"""How far apart the values of letters are that are to differ."""
+
+_TINY = 1e-9
+_ANGLE = math.radians(35)
+_RETRIES = ((1.0, 0.0), (1.3, 0.1), (0.7, 0.3), (1.1, -0.4))
+"""(factor, spread) of what undetermined parameters are tried with, until every root is real."""
+
+
+@dataclass(frozen=True, slots=True)
+class TableRow:
+    """A row of the table in numbers, without its joint variable; the longest length is 1.
+
+    `offset` is the part of `theta` that is a number of degrees beside one coordinate: the 90° of θ_1 + 90°.
+    """
+
+    theta: float
+    d: float
+    a: float
+    alpha: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class RobotNumbers:
+    """A robot in numbers: its rows in picture lengths, and the value of every parameter.
+
+    `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world, `moved` is where it
+    is drawn from the world's origin.  `given` are the parameters whose number is the file's own.
+    """
+
+    rows: tuple[TableRow, ...]
+    values: Mapping[str, float]
+    unit: float
+    base: Rotation = IDENTITY
+    given: frozenset[str] = frozenset()
+    moved: Vector = ORIGIN
+
+
+def numbers(problem: Problem) -> RobotNumbers:
+    """Pleasant numbers for a problem's table."""
+    robot = problem.robot
+    given = {name: float(value) for name, value in problem.values.items()}
+    for factor, spread in _RETRIES:
+        try:
+            return _numbers(robot, given, factor, spread)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            continue
+    rows = tuple(TableRow(0.0, 0.0, 1.0, 0.0) for _ in robot.joints)
+    return RobotNumbers(rows, dict.fromkeys(robot.ring.parameters, 1.0), 1.0)
+
+
+def generic_numbers(robot: Robot) -> RobotNumbers:
+    """Numbers of which no two letters have the same: what holds for them holds for all."""
+    return _numbers(robot, {}, 1.0, _APART)
+
+
+def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: float) -> RobotNumbers:
+    values = _all_values(robot, given, factor, spread)
+    named = _lengths(robot)
+    unit, shortest = _range(robot, values)
+    if shortest < SHORTEST * unit:
+        values |= {name: unit * drawn_length(values[name] / unit) for name in named}
+        unit, shortest = _range(robot, values)
+
+    if (factor, spread) != _RETRIES[-1] and _has_vanished(robot, values):
+        raise ValueError("a length came out as 0")
+
+    def drawn(expr: Expr) -> float:
+        ratio = finite(expr, values) / unit
+        return drawn_length(ratio) if shortest < 0.8 * SHORTEST * unit else ratio
+
+    rows = tuple(
+        TableRow(
+            angle(joint.theta, values),
+            drawn(joint.d),
+            drawn(joint.a),
+            angle(joint.alpha, values),
+            _offset(robot, joint),
+        )
+        for joint in robot.joints
+    )
+    x, y, z = ([finite(entry, values) for entry in row] for row in robot.base_rotation.rows)
+    base = tuple(zip(x, y, z, strict=True))
+    moved = _moved(robot, values)
+    return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]), frozenset(given), moved)
+
+
+def _moved(robot: Robot, values: Mapping[str, float]) -> Vector:
+    """From the world's origin to that of frame 0, as long along each axis where it is not 0."""
+    x, y, z = (
+        0.0 if entry.is_zero else math.copysign(MOVED, finite(entry, values))
+        for entry in robot.base_position.entries
+    )
+    return x, y, z
+
+
+def _offset(robot: Robot, joint: Joint) -> float:
+    """The degrees beside a coordinate that stands alone in the column θ, in radians within half a turn."""
+    variable = turned_alone(robot, joint)
+    return math.remainder(math.radians(float(joint.theta.degrees)), 2 * math.pi) if variable else 0.0
+
+
+def turned_alone(robot: Robot, joint: Joint) -> str | None:
+    """The coordinate that is the whole angle of a row, but for a number of degrees; else None."""
+    if joint.type is not JointType.REVOLUTE or len(joint.rates) != 1:
+        return None
+    name = robot.coordinates[joint.rates[0][0]].name
+    return name if joint.theta.linear == Angle.of(name) else None
+
+
+def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:
+    """Whether a length that is not 0 in general is 0 for these values."""
+    constant = [
+        x for joint in robot.joints for x in (joint.a, *(() if joint.variable == "d" else (joint.d,)))
+    ]
+    return any(not x.is_zero and abs(finite(x, values)) < _TINY for x in constant)
+
+
+def _range(robot: Robot, values: Mapping[str, float]) -> tuple[float, float]:
+    """The longest length of the table, and the shortest that is not 0; 1 where there is none."""
+    lengths = [abs(finite(x, values)) for joint in robot.joints for x in (joint.d, joint.a)]
+    real = [x for x in lengths if x > _TINY]
+    return max(real, default=1.0), min(real, default=1.0)
+
+
+def _all_values(robot: Robot, given: Mapping[str, float], factor: float, spread: float) -> dict[str, float]:
+    known = [abs(given[name]) for name in _lengths(robot) if given.get(name)]
+    usual = factor * (sum(known) / len(known) if known else 1.0)
+    values = {name: usual * (1.0 + spread * place) for place, name in enumerate(robot.ring.parameters)}
+    for joint in robot.joints:
+        for atom, _ in (*joint.theta.terms, *joint.alpha.terms):
+            values.update({name: _ANGLE for name, _ in atom if len(atom) == 1})
+    values.update(dict.fromkeys(names_in(*(turn for _, turn in robot.base_turns)), _ANGLE))
+    values.update(given)
+    values["pi"] = math.pi
+    for q in robot.coordinates:
+        values.update({q.name: 0.0, q.velocity: 0.0, q.acceleration: 0.0})
+    return values
+
+
+def _lengths(robot: Robot) -> list[str]:
+    """The parameters that stand in the columns d and a."""
+    columns = [node for joint in robot.joints for node in joint.written[1:3]]
+    names = names_in(*columns)
+    coordinates = {q.name for q in robot.coordinates}
+    return [name for name in robot.ring.parameters if name in names - coordinates]
+
+
+def finite(expr: Expr, values: Mapping[str, float]) -> float:
+    """The value of an expression; ValueError where it has none that is finite."""
+    value = evaluate(expr, values)
+    if not math.isfinite(value):
+        raise ValueError(value)
+    return value
+
+
+def angle(form: Angle, values: Mapping[str, float]) -> float:
+    """The value of an angle in radians."""
+    total = math.radians(float(form.degrees))
+    for atom, rate in form.terms:
+        total += float(rate) * math.prod(values[name] ** exponent for name, exponent in atom)
+    return total
+
+
+def drawn_length(ratio: float) -> float:
+    """How long a length is drawn: 0 stays 0, 1 stays 1, and nothing else is too short to be seen.
+
+    >>> drawn_length(0.0), drawn_length(1.0), drawn_length(-1.0)
+    (0.0, 1.0, -1.0)
+    """
+    if abs(ratio) < _TINY:
+        return 0.0
+    return math.copysign(SHORTEST + (1.0 - SHORTEST) * abs(ratio), ratio)
+
+
+# The geometry of a robot at one pose: its frames, and the legs d and a of its rows
 
 
 @dataclass(frozen=True, slots=True)

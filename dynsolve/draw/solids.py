@@ -1,32 +1,195 @@
-"""Cylinders, boxes, links and the ground, each as paths with a depth to sort by."""
+"""Cylinders, boxes, links and the ground, each as paths with a depth to sort by.
+
+Links: tubes cut into short pieces, so that each can be sorted by depth, and put together again.
+
+Uniform bodies as solids: what of them lies inside a joint is left out.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import groupby
 
 from dynsolve.draw import paths
-from dynsolve.draw.bodies import DrawnBody
-from dynsolve.draw.body_solids import body_solids
-from dynsolve.draw.links import joined, link_pieces
-from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, JointBody, Parts
+from dynsolve.draw.mass_centers import DrawnBody, Form
+from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, JointBody, Parts, is_inside
 from dynsolve.draw.paths import Path
-from dynsolve.draw.primitives import END_ON, JOINT, Solid, block, drum, nearer
+from dynsolve.draw.primitives import BODY, END_ON, JOINT, Solid, ball, block, drum, nearer
 from dynsolve.draw.vectors import (
     Point,
     Vector,
+    View,
     along,
     any_normal,
     between,
     cross,
+    distance,
     dot,
     length,
     scale,
     subtract,
     unit,
 )
-from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType
+
+# Uniform bodies as solids: what of them lies inside a joint is left out
+
+_STEP = 2.0
+"""How finely a body is looked through for joints, in picture units."""
+
+_SHORTEST = 6.0
+"""What is left of a body between two joints, and is shorter, is not drawn."""
+
+
+def body_solids(bodies: Sequence[DrawnBody], parts: Parts, view: View, up: Vector) -> Iterator[Solid]:
+    """Every body, in as many pieces as joints and thicker bodies leave of it."""
+    sink = 0.4 if view.flat else 0.0  # in a plane joints lie on bodies, and bodies on links
+    for body in bodies:
+        halves = list(body.on_paper(view.size))
+        if body.form is Form.BALL:
+            yield ball(body.center, halves[0], view, up, BODY)
+            continue
+        lengthwise = max(range(3), key=lambda k: halves[k])
+        thicker = [other for other in bodies if _thickness(other, view) > _thickness(body, view)]
+        for start, end in _pieces(body, lengthwise, halves[lengthwise], parts, thicker, view):
+            center = along(body.center, body.axes[lengthwise], view.space((start + end) / 2))
+            halves[lengthwise] = (end - start) / 2
+            yield nearer(_piece(body, center, halves, view, up), -sink)
+
+
+def _piece(body: DrawnBody, center: Vector, halves: Sequence[float], view: View, up: Vector) -> Solid:
+    if body.form is Form.BOX:
+        return block(center, body.axes, halves, view, up, BODY)
+    across = halves[(body.main + 1) % 3]
+    return drum(center, body.axes[body.main], across, halves[body.main], view, BODY)
+
+
+def _pieces(
+    body: DrawnBody,
+    lengthwise: int,
+    half: float,
+    parts: Parts,
+    thicker: Sequence[DrawnBody],
+    view: View,
+) -> Iterator[tuple[float, float]]:
+    """From where to where a body is outside of joints and thicker ones, along its longest side, on paper."""
+    steps = max(1, math.ceil(2 * half / _STEP))
+    width = 2 * half / steps
+
+    def hidden(k: int) -> bool:
+        middle = along(body.center, body.axes[lengthwise], view.space(-half + (k + 0.5) * width))
+        return is_inside(middle, parts, view) or covers(thicker, middle, view)
+
+    for inside, run in groupby(range(steps), hidden):
+        places = list(run)
+        if not inside and (len(places) * width >= _SHORTEST or len(places) == steps):
+            yield -half + places[0] * width, -half + (places[-1] + 1) * width
+
+
+def _thickness(body: DrawnBody, view: View) -> float:
+    """The second of its three sides on paper, by size: how thick a long body is."""
+    return sorted(body.on_paper(view.size))[1]
+
+
+def covers(bodies: Sequence[DrawnBody], point: Vector, view: View) -> bool:
+    """Whether a point lies in a body."""
+    for body in bodies:
+        offset = subtract(point, body.center)
+        halves = body.on_paper(view.size)
+        if all(
+            abs(dot(offset, axis)) * view.size < half - 0.5
+            for axis, half in zip(body.axes, halves, strict=True)
+        ):
+            return True
+    return False
+
+
+# Links
+
+_PIECE = 5.0
+"""How long the pieces are that a link is cut into."""
+
+
+def link_pieces(parts: Parts, view: View, bodies: Sequence[DrawnBody] = ()) -> Iterator[Solid]:
+    """The tubes between the parts in pieces, and the elbows between the tubes; nothing inside a body."""
+    sink = 0.5 if view.flat else 0.0
+    tube = 0
+    for number, way in enumerate(parts.links):
+        for k, point in enumerate(way):
+            if (number or k) and not _hidden(point, parts, view, bodies):
+                elbow = Path(paths.circle(view.point(point), TUBE), fill=paths.LINK)
+                yield Solid(view.depth(point) - 1e-3 - sink, (elbow,))
+            if k:
+                tube += 1
+                for piece in _tube(way[k - 1], point, view, sink, tube):
+                    if not _hidden(between(way[k - 1], point, piece[0]), parts, view, bodies):
+                        yield piece[1]
+
+
+def _hidden(point: Vector, parts: Parts, view: View, bodies: Sequence[DrawnBody]) -> bool:
+    """Whether a point of a link is inside a joint or a body."""
+    return is_inside(point, parts, view) or covers(bodies, point, view)
+
+
+def _tube(a: Vector, b: Vector, view: View, sink: float, tube: int) -> Iterator[tuple[float, Solid]]:
+    """A straight tube in short pieces, each with the part of the way at which its middle is."""
+    if math.dist(view.point(a), view.point(b)) < 0.5:
+        return
+    pieces = max(1, math.ceil(distance(a, b) * view.size / _PIECE))
+    for k in range(pieces):
+        part = (k + 0.5) / pieces
+        ends = view.point(between(a, b, k / pieces)), view.point(between(a, b, (k + 1) / pieces))
+        yield part, Solid(view.depth(between(a, b, part)) - sink, _drawn(*ends), tube, k, k, ends)
+
+
+def _drawn(a: Point, b: Point) -> tuple[Path, ...]:
+    """A straight tube on paper: its area and its two sides."""
+    reach = math.dist(a, b)
+    x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    sides = [
+        ((a[0] - s * y * TUBE, a[1] + s * x * TUBE), (b[0] - s * y * TUBE, b[1] + s * x * TUBE))
+        for s in (1.0, -1.0)
+    ]
+    area = paths.polygon([*sides[0], *reversed(sides[1])])
+    return (Path(area, None, fill=paths.LINK), *(Path(paths.line(*side)) for side in sides))
+
+
+def joined(solids: Sequence[Solid]) -> list[Solid]:
+    """Solids in order, with the pieces of a tube put together where nothing comes between them."""
+    done: list[Solid] = []
+    for solid in solids:
+        place = _before(done, solid)
+        if place is None:
+            done.append(solid)
+        else:
+            done[place] = _merged(done[place], solid)
+    return done
+
+
+def _before(done: Sequence[Solid], solid: Solid) -> int | None:
+    """Where the neighbouring piece of a tube stands, if what was drawn since leaves this one free."""
+    if solid.tube < 0:
+        return None
+    box = solid.box
+    for place in range(len(done) - 1, -1, -1):
+        other = done[place]
+        if other.tube == solid.tube and solid.first in (other.first - 1, other.last + 1):
+            return place
+        if other.tube != solid.tube and box.overlaps(other.box):
+            return None
+    return None
+
+
+def _merged(a: Solid, b: Solid) -> Solid:
+    if b.first < a.first:
+        a, b = b, a
+    ends = a.ends[0], b.ends[1]
+    return replace(a, paths=_drawn(*ends), last=b.last, ends=ends)
+
+
+# Cylinders, boxes, links and the ground, each as paths with a depth to sort by
 
 _GROUND, _PLATE = 30.0, 40.0
 """Half the length of the ground in a plane, and half the side of its plate, on which an angle may stand."""

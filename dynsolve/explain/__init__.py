@@ -53,7 +53,7 @@ from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Words, equation
 from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import quantities
-from dynsolve.quantities.robot_stages import stages_of
+from dynsolve.quantities.owners import stages_of
 from dynsolve.quantities.stages import Stage
 
 __all__ = ["Detail", "Step", "explain"]

@@ -28,7 +28,7 @@ from itertools import count
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
-from dynsolve.derivation.vectorized import christoffel_symbols
+from dynsolve.derivation.euler_lagrange import christoffel_symbols
 from dynsolve.explain.context import is_short
 from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric, pairs
 from dynsolve.explain.parameters import BaseParameters
@@ -49,9 +49,11 @@ from dynsolve.notation.tree import (
     Relation,
     Sum,
     Symbol,
+    children,
     equation,
+    walk,
+    with_children,
 )
-from dynsolve.notation.walk import children, walk, with_children
 from dynsolve.quantities import letters
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]

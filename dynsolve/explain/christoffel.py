@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.derivation.agreement import agreement
+from dynsolve.derivation.euler_lagrange import agreement
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

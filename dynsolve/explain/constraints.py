@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.algebra.fraction_matrix import quotient
-from dynsolve.algebra.minors import determinant
-from dynsolve.algebra.pseudoinverse import adjugate
-from dynsolve.algebra.spans import nullspace
+from dynsolve.algebra.linear_systems import adjugate, nullspace, quotient
+from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.constraints import holonomic
+from dynsolve.derivation.forward_dynamics import Reduced, reduced
 from dynsolve.derivation.graph import Skipped
-from dynsolve.derivation.reduced import Reduced, reduced
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step, not_derived
@@ -28,8 +26,7 @@ from dynsolve.explain.terms import (
 )
 from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small, mls, scalar
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Negative, Node, Number, Parenthesized, Power, Sum, column, equation
-from dynsolve.notation.walk import mapped
+from dynsolve.notation.tree import Negative, Node, Number, Parenthesized, Power, Sum, column, equation, mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 

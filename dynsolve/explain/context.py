@@ -9,16 +9,16 @@ from dataclasses import dataclass, field
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
-from dynsolve.derivation.agreement import Agreement
+from dynsolve.derivation.euler_lagrange import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import are_counted, craig, machine, spong
 from dynsolve.notation import tree
-from dynsolve.notation.names import split
+from dynsolve.notation.characters import split
 from dynsolve.notation.printing import Style, decimal_text
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
-from dynsolve.robot.drawing.procedure import Normals
+from dynsolve.robot.drawing.normals import Normals
 from dynsolve.robot.model import Body, Convention, JointType, Robot
 
 
@@ -149,7 +149,7 @@ def shown_digits(robot: Robot) -> int:
     """The digits with which numbers are shown: as many as the longest number of the problem has.
 
     >>> from dynsolve.problem import load
-    >>> from dynsolve.problem.library import find
+    >>> from dynsolve.problem.reader import find
     >>> shown_digits(load(find("numeric-2r")).robot)
     4
     """

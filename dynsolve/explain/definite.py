@@ -18,7 +18,7 @@ from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters
-from dynsolve.robot.candidates import Candidate
+from dynsolve.robot.actions import Candidate
 
 _CONCLUSIONS = {
     Answer.YES: "it can be an inertia matrix.",

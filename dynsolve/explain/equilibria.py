@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.derivation import linearization
-from dynsolve.derivation.equilibria import Equilibria, SpecialCase
+from dynsolve.derivation.equilibria import Equilibria, Point, SpecialCase, Stability
 from dynsolve.derivation.graph import Skipped
-from dynsolve.derivation.stability import Point, Stability
-from dynsolve.derivation.steady import may_be_held, steady_energy, steady_forces
+from dynsolve.derivation.linearization import may_be_held, steady_energy, steady_forces
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
@@ -27,8 +25,9 @@ from dynsolve.notation.tree import (
     Relation,
     Symbol,
     equation,
+    names_in,
+    walk,
 )
-from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import letters
 
 _SOURCE = SLOTINE_LI.section("3.3")

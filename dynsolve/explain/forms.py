@@ -15,14 +15,14 @@ from functools import cached_property
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import trig_factors
 from dynsolve.algebra.fraction import RationalExpr, with_integers
-from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
-from dynsolve.algebra.transfer import Transfer
-from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.graph import Derivation, Skipped
-from dynsolve.derivation.inverse.unknowns import search_ring
+from dynsolve.derivation.inverse.equations import search_ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
@@ -31,8 +31,8 @@ from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
+from dynsolve.robot.geometry import Turn, parallel_groups
 from dynsolve.robot.model import Convention, JointType, Robot
-from dynsolve.robot.parallel import Turn, parallel_groups
 
 Factor = tuple[Node, int]
 """A factor of a product, and its exponent."""

@@ -15,9 +15,7 @@ from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words, column, equation
 from dynsolve.quantities import letters
-from dynsolve.robot.drawing.drawn import Drawing
-from dynsolve.robot.drawing.normals import Relation
-from dynsolve.robot.drawing.procedure import Normals, frames
+from dynsolve.robot.drawing.normals import Drawing, Normals, Relation, frames
 from dynsolve.robot.model import Convention
 
 FRAMES = Group("frames", "The frames")

@@ -36,14 +36,14 @@ from dynsolve.notation.tree import (
     Symbol,
     Words,
     equation,
+    mapped,
 )
-from dynsolve.notation.walk import mapped
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.robot import units
 from dynsolve.robot.actions import JointFriction, Motor
-from dynsolve.robot.drawing.procedure import Normals
+from dynsolve.robot.drawing.normals import Normals
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
 from dynsolve.robot.questions import TIP, Load
 from dynsolve.robot.shapes import AXES, KINDS, Shape

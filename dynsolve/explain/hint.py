@@ -22,7 +22,7 @@ from dynsolve.notation.tree import Node, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import kinematic_families, letters
 from dynsolve.quantities.index import quantities
-from dynsolve.quantities.robot_stages import heading_of, stages_of
+from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
 

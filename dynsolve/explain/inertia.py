@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.derivation import inertia
+from dynsolve.derivation import link_frame
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
@@ -41,8 +41,8 @@ from dynsolve.notation.tree import (
     Symbol,
     Transpose,
     equation,
+    mapped,
 )
-from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.robot.model import AxesKind, Body
 from dynsolve.robot.shapes import MASS
@@ -251,7 +251,7 @@ def _shape(context: Context, body: Body) -> _Told | None:
 def _parallel_axis(context: Context, body: Body) -> Step:
     b, tensor = body.name, letters.tensor(context.robot, body)
     shift = formula("{m} ({square} - 𝐝 𝐝ᵀ)", m=context.mass(body), square=formula("𝐝ᵀ 𝐝 𝐄"))
-    relative = inertia.axes_in_link(context.robot, body, context.values[f"H{body.link}"])
+    relative = link_frame.axes_in_link(context.robot, body, context.values[f"H{body.link}"])
     assert body.about_point is not None
     offset = relative.T @ (body.center - body.about_point)
     return Step(
@@ -265,7 +265,7 @@ def _parallel_axis(context: Context, body: Body) -> Step:
         source="parallel-axis theorem; Craig 6.3",
         working=(
             formula("𝐝 = {d}", d=context.show(offset)),
-            equation(shift, context.show(inertia.steiner(body.mass, offset))),
+            equation(shift, context.show(link_frame.steiner(body.mass, offset))),
         ),
         result=(equation(tensor, context.form(f"I_body{b}")),),
         uses=(),
@@ -328,7 +328,7 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
             return turning, Product((frame, Transpose(Parenthesized(at_rest)), *base)), ()
         case AxesKind.BASE:
-            fixed = not inertia.turns_with_link(robot, body, context.values[f"H{link}"])
+            fixed = not link_frame.turns_with_link(robot, body, context.values[f"H{link}"])
             note = ("They may still be used: the kinetic energy is the same as with axes that do.",)
             return why_axes(context, body), product_of_axes(context, body), (note,) if fixed else ()
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 from math import inf
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.positivity import is_nonnegative, is_positive
-from dynsolve.derivation.configuration_check import Conditions
+from dynsolve.algebra.factors import is_nonnegative, is_positive
+from dynsolve.derivation.configurations import Conditions
 from dynsolve.derivation.inverse.equations import (
     Direct,
     Equation,
@@ -44,8 +44,9 @@ from dynsolve.notation.tree import (
     Symbol,
     column,
     equation,
+    names_in,
+    with_formulas,
 )
-from dynsolve.notation.walk import names_in, with_formulas
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Robot
 

@@ -12,7 +12,7 @@ from itertools import product
 from math import cos, pi, sin
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.positivity import is_nonnegative
+from dynsolve.algebra.factors import is_nonnegative
 from dynsolve.derivation.inverse.equations import Equation, Given, OfPoint, Squared, Turned
 from dynsolve.derivation.inverse.subproblems import OneLine, Solved, TwoLines
 from dynsolve.document.figures import Figure, FigureAngle, FigureLine, LineKind, Place

@@ -13,15 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import is_nonnegative, is_positive, ratio, trig_factors
 from dynsolve.algebra.fraction import RationalExpr, cancelled
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix as Values
-from dynsolve.algebra.positivity import is_nonnegative, is_positive
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.trig_factor import ratio, trig_factors
-from dynsolve.derivation.configuration_check import Condition as Equality
-from dynsolve.derivation.configuration_check import Conditions
-from dynsolve.derivation.configurations import Inverse, without_number
+from dynsolve.derivation.configurations import Condition as Equality
+from dynsolve.derivation.configurations import Conditions, Inverse, without_number
 from dynsolve.derivation.equilibria import SpecialCase
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.inverse.equations import Squared
@@ -33,8 +31,8 @@ from dynsolve.derivation.inverse.subproblems import (
     Solved,
     TwoLines,
 )
-from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.sets import SingularSet
+from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.forms import Forms, is_numeric, leading_names, parallel_coordinates
@@ -56,8 +54,8 @@ from dynsolve.notation.tree import (
     Symbol,
     column,
     equation,
+    with_formulas,
 )
-from dynsolve.notation.walk import with_formulas
 from dynsolve.robot.model import Robot
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from itertools import pairwise
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.expr import Expr
-from dynsolve.derivation.jacobian import joint_frame
-from dynsolve.derivation.kinematics import axis, origin
+from dynsolve.derivation.kinematics import axis, joint_frame, origin
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
@@ -52,8 +51,8 @@ from dynsolve.notation.tree import (
     column,
     equation,
     number,
+    walk,
 )
-from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation import inertia
+from dynsolve.derivation import link_frame
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose, Reference, Table
 from dynsolve.document.sentences import say
@@ -376,9 +376,9 @@ def why_axes(context: Context, body: Body) -> Prose:
     """That the problem gives the axes, and how they lie in the frame of the link."""
     given = f"The problem gives the axes of {name_of(body)} from the base. "
     H, frame = context.values[f"H{body.link}"], f"frame {body.link}"
-    if not inertia.turns_with_link(context.robot, body, H):
+    if not link_frame.turns_with_link(context.robot, body, H):
         return (given, f"They do not turn with link {body.link}.")
-    relative = rotation(H).T @ inertia.body_rotation(context.robot, body, H)
+    relative = rotation(H).T @ link_frame.body_rotation(context.robot, body, H)
     if relative == Matrix.identity(relative.ring, 3):
         return (given, f"They are those of {frame}.")
     told = list(_parallel(relative, body.link))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from dynsolve.algebra.compact.matrix_factor import matrix_factor
+from dynsolve.algebra.compact.collect import matrix_factor
 from dynsolve.explain.context import Context, style_of
 from dynsolve.explain.step import Step
 from dynsolve.notation.build import factors_of, number_in_front

@@ -47,8 +47,9 @@ from dynsolve.notation.tree import (
     Symbol,
     column,
     equation,
+    walk,
+    with_children,
 )
-from dynsolve.notation.walk import walk, with_children
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 

@@ -20,7 +20,7 @@ from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Function, Letter, Node, Relation, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.robot_stages import stages_of
+from dynsolve.quantities.owners import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.shapes import MASS

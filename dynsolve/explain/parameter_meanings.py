@@ -16,13 +16,13 @@ from string import ascii_letters, digits
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.positivity import is_positive
 from dynsolve.explain.writing import agreeing, and_joined
-from dynsolve.notation.names import split
+from dynsolve.notation.characters import split
 from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import names_in as names_in_trees
 from dynsolve.notation.unicode import lowered, to_unicode
-from dynsolve.notation.walk import names_in as names_in_trees
 from dynsolve.quantities import letters
 from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions

@@ -11,16 +11,16 @@ from typing import TypeVar
 
 from flint import fmpq
 
-from dynsolve.algebra.build import with_symbols
 from dynsolve.algebra.compact.terms import Exponents, primitive
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr
-from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
-from dynsolve.derivation.energy import accelerations
+from dynsolve.algebra.ring_values import with_symbols
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.link_frame import accelerations
 from dynsolve.derivation.regressor import combinations, known_names
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say

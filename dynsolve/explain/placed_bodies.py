@@ -28,7 +28,7 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.mechanism import BodyTurn, GivenModel
+from dynsolve.robot.actions import BodyTurn, GivenModel
 from dynsolve.robot.model import Body
 
 

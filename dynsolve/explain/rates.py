@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from dynsolve.algebra.at_state import AtState
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant, work
-from dynsolve.algebra.pseudoinverse import is_solvable, rank_parts
+from dynsolve.algebra.linear_systems import is_solvable, rank_parts
+from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
 from dynsolve.derivation import statics
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.derivation.rates import MOST_PRODUCTS, squared, wanted_by_accelerations
-from dynsolve.derivation.static_rules import jacobians
+from dynsolve.derivation.statics import jacobians
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

@@ -16,8 +16,19 @@ from math import gcd, lcm
 
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.printing import flat_factors
-from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
-from dynsolve.notation.walk import children, with_children
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+    children,
+    with_children,
+)
 
 SHORTEST_SUM = 5
 """The operations from which on a recurring sum is worth a name."""

@@ -41,9 +41,10 @@ from dynsolve.notation.tree import (
     Symbol,
     Transpose,
     Words,
+    children,
+    walk,
 )
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.notation.walk import children, walk
 from dynsolve.quantities import letters
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot

@@ -15,13 +15,20 @@ from itertools import groupby
 from math import degrees, floor, pi
 from typing import TYPE_CHECKING
 
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
-from dynsolve.algebra.surd_angles import SurdAngle
-from dynsolve.algebra.surd_values import Exact, NoValue, Undetermined, decimal, exact_value, number_of
-from dynsolve.algebra.surds import NotExact
-from dynsolve.derivation.configuration_check import Condition, Conditions, holds
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.algebra.surds import (
+    Exact,
+    NotExact,
+    NoValue,
+    SurdAngle,
+    Undetermined,
+    decimal,
+    exact_value,
+    number_of,
+)
+from dynsolve.derivation.configurations import Condition, Conditions, holds
 from dynsolve.derivation.reached import CLOSE, angle_rows, gap, near, same_configuration
 from dynsolve.document import Prose, Table
 from dynsolve.document.sentences import say
@@ -42,8 +49,10 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     equation,
+    mapped,
+    names_in,
+    walk,
 )
-from dynsolve.notation.walk import mapped, names_in, walk
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Target
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rates import squared, whole_or_task
 from dynsolve.document import Prose
@@ -30,9 +30,9 @@ from dynsolve.notation.tree import (
     Words,
     column,
     equation,
+    mapped,
 )
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
 

@@ -24,7 +24,7 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
-from dynsolve.quantities.robot_stages import asked_stages
+from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, JointType, Robot
 

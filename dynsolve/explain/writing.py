@@ -10,8 +10,20 @@ from types import MappingProxyType
 
 from dynsolve.document import Inline, Prose
 from dynsolve.notation.build import split_sign
-from dynsolve.notation.tree import ZERO, BigSum, Letter, Matrix, Node, Number, Row, Sum, Symbol, Words
-from dynsolve.notation.walk import mapped, walk
+from dynsolve.notation.tree import (
+    ZERO,
+    BigSum,
+    Letter,
+    Matrix,
+    Node,
+    Number,
+    Row,
+    Sum,
+    Symbol,
+    Words,
+    mapped,
+    walk,
+)
 from dynsolve.robot import units
 from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 

@@ -1,20 +1,183 @@
-"""What the record comes to: the marks of every student, and what is counted for the teacher's page."""
+"""What the record comes to: the marks of every student, and what is counted for the teacher's page.
+
+What waits for a human: one list, for the teacher's page, for `queue.csv` and for the terminal.
+
+An entry is an answer that waits for marks, alone or with the others of a file that no program can
+judge, or a file that should be looked at.  An answer leaves the list when a teacher has given it marks,
+a file beside a hand-in that was judged, or a picture in one, when a teacher has said a word on one of its
+answers.
+
+How an answer did in a cohort: its mean, who had it right, and how well it tells strong from weak students.
+
+The last is the corrected item-total correlation: Pearson's r of the marks x of the answer with
+what the same students earned for everything else, t - x, where t is all that they earned,
+
+    r_x(t-x) = (r_xt s_t - s_x) / sqrt(s_x^2 + s_t^2 - 2 r_xt s_x s_t),
+
+with the standard deviations s.  It is near 1 where those who have the answer are those who have the
+rest, near 0 where it has nothing to do with the rest, and below 0 where something is wrong with the
+answer or its key.  (Nunnally and Bernstein, Psychometric Theory, 3rd edition, 1994, chapter 8.)
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby
+from statistics import correlation, fmean
 
-from dynsolve.answers.marking.marks import Marked, deduction, maximum
-from dynsolve.answers.marking.policy import points
-from dynsolve.grading.item_analysis import Item
-from dynsolve.grading.problem_set import ProblemSet, stored_policy
-from dynsolve.grading.queue import Entry
+from dynsolve.answers.judge import BY_PARTS
+from dynsolve.answers.marking.marks import Marked, deduction, maximum, points
+from dynsolve.answers.verdict import PICTURE
 from dynsolve.grading.record import Key, Record, RecordedAnswer
+from dynsolve.grading.set_file import ProblemSet, stored_policy
 from dynsolve.quantities.index import quantities
+
+# How an answer did in a cohort
+
+FEWEST = 3
+"""Two students always lie on a line."""
+
+
+@dataclass
+class Item:
+    """The marks of one answer, of those whose hand-in does not wait; `totals` are theirs for everything.
+
+    Of whom another hand-in waits for a human there is no total yet: None.
+    """
+
+    of: float
+    marks: list[float] = field(default_factory=list)
+    totals: list[float | None] = field(default_factory=list)
+    correct: int = 0
+
+    def add(self, marks: float, total: float | None, correct: bool) -> None:
+        """Count one student."""
+        self.marks.append(marks)
+        self.totals.append(total)
+        self.correct += correct
+
+    @property
+    def mean(self) -> float | None:
+        """The mean of the marks."""
+        return fmean(self.marks) if self.marks else None
+
+    @property
+    def share_correct(self) -> float | None:
+        """The share of the students who had it right."""
+        return self.correct / len(self.marks) if self.marks else None
+
+    @property
+    def item_rest(self) -> float | None:
+        """The corrected item-total correlation of those who have a total."""
+        both = [(x, t) for x, t in zip(self.marks, self.totals, strict=True) if t is not None]
+        return item_rest([x for x, _ in both], [t for _, t in both])
+
+
+def item_rest(marks: Sequence[float], totals: Sequence[float]) -> float | None:
+    """The correlation of marks with the rest of the totals.
+
+    None for fewer than three students, and where all have the same marks or the same rest.
+
+    >>> item_rest([0, 2, 1], [1, 4, 4]), item_rest([1, 1, 1], [1, 2, 3]), item_rest([0, 1], [0, 2])
+    (0.5, None, None)
+    """
+    rest = [t - x for x, t in zip(marks, totals, strict=True)]
+    if len(marks) < FEWEST or _is_flat(marks) or _is_flat(rest):
+        return None
+    return correlation(marks, rest)
+
+
+def _is_flat(values: Sequence[float]) -> bool:
+    """Whether all are the same, but for what is lost where decimals are taken from each other."""
+    return max(values) - min(values) < 1e-9
+
+
+# What waits for a human
+
+OVERTAKEN = "its marks were set by hand for an earlier hand-in"
+LEFT_ASIDE = "left aside: a newer copy counts"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """Something for a human: `what` it is, a file or an answer, why, and the answer that waits for marks."""
+
+    student: str
+    problem: str
+    what: str
+    why: str
+    answer: RecordedAnswer | None = None
+
+
+def queue(record: Record, stems: Collection[str]) -> list[Entry]:
+    """All that waits, files first; `stems` are the problems of the set."""
+    unjudged = {(s, p): why for s, found in record.unjudged().items() for p, why in found.items()}
+    judged_by_hand = {(s, p) for s, p, _ in record.overrides()}
+    answers, single = _answers(record, unjudged, judged_by_hand)
+    hand_ins = [replace(row, html=b"", markdown=b"") for row in record.rows()]
+    reasons = {(row.student, row.problem): row.reason for row in hand_ins}
+    found: list[Entry] = []
+    for w in record.waiting():
+        keys = [(w.student, stem) for stem in ((w.problem,) if w.problem else stems)]
+        open_ = [key for key in keys if key in unjudged]
+        settled = not open_ and any(reasons.get(key) or key in judged_by_hand for key in keys)
+        if not settled:
+            own = [answer for key in open_ for answer in answers.pop(key, ())]
+            found += _each(Entry(w.student, w.problem, w.file, w.reason), own)
+    for row in hand_ins:
+        key = (row.student, row.problem)
+        if key in answers:
+            found += _each(Entry(*key, ", ".join(row.files), row.reason), answers[key])
+        if row.left and key not in judged_by_hand:
+            found.append(Entry(*key, ", ".join(row.left), LEFT_ASIDE))
+    return found + single
+
+
+def _each(entry: Entry, answers: Sequence[RecordedAnswer]) -> list[Entry]:
+    """An entry for each of some answers; without any it stands alone."""
+    return [replace(entry, problem=a.problem, answer=a) for a in answers] or [entry]
+
+
+def _answers(
+    record: Record, unjudged: Collection[Key], judged_by_hand: Collection[Key]
+) -> tuple[dict[Key, list[RecordedAnswer]], list[Entry]]:
+    """The answers of the hand-ins that nobody has judged, and the single answers of others that wait."""
+    of_unjudged: dict[Key, list[RecordedAnswer]] = {}
+    single: list[Entry] = []
+    overtaken = record.overtaken()
+    for a in record.answers():
+        key, what = (a.student, a.problem), f"{a.answer} {a.label}".strip()
+        if (*key, a.answer) in overtaken:
+            single.append(Entry(*key, what, OVERTAKEN, a))
+        elif a.of == "0" or a.said or (a.fault == PICTURE and key in judged_by_hand):
+            continue
+        elif key in unjudged:
+            of_unjudged.setdefault(key, []).append(a)
+        elif reason := for_a_human(a):
+            single.append(Entry(*key, what, reason, a))
+    return of_unjudged, single
+
+
+def for_a_human(a: RecordedAnswer) -> str:
+    """Why an answer that was judged should be looked at by a human, or an empty text.
+
+    A wrong whole whose parts have a diagnosis need not be.
+    """
+    if a.verdict == "unreadable":
+        return a.fault or "it could not be read"
+    if a.verdict == "missing" and a.fault:
+        return f"no answer was read, but line {a.line} names it: {a.fault}"
+    if a.loss:
+        return f"{a.verdict}, but {a.loss}"
+    if a.verdict == "wrong" and not a.diagnosis and BY_PARTS not in a.note:
+        return "it is wrong, and no slip was found that explains it"
+    return ""
+
+
+# What the record comes to
 
 
 @dataclass(frozen=True, slots=True)

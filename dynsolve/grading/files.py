@@ -14,7 +14,7 @@ from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 
-from dynsolve.answers.marking.policy import shown
+from dynsolve.answers.marking.marks import shown
 from dynsolve.render.files import temporary_of, write_changed
 
 

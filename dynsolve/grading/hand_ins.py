@@ -14,16 +14,13 @@ from pathlib import PurePosixPath
 
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.errors import InputError
-from dynsolve.grading.extensions import days_late
-from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
-from dynsolve.grading.platforms.members import Groups
-from dynsolve.grading.platforms.owner import FileOwner
-from dynsolve.grading.platforms.owners import FileOwners
-from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.platforms.gradescope import METADATA, FileOwner, Submitters, exports, read_metadata
+from dynsolve.grading.platforms.members import FileOwners, Groups
 from dynsolve.grading.record import Waiting
-from dynsolve.grading.sections import Span
-from dynsolve.grading.uploads import Upload, Uploads, digest, printable
+from dynsolve.grading.set_file import ProblemSet
+from dynsolve.grading.uploads import Upload, Uploads, days_late, digest, printable
 from dynsolve.grading.which_problem import (
+    Span,
     also_named,
     beginning,
     by_name,

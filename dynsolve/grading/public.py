@@ -1,24 +1,25 @@
-"""`dynsolve.grade` and `dynsolve.override`: grading a course from Python."""
+"""`dynsolve.grade` and `dynsolve.override`: grading a course from Python.
+
+Which student a teacher means: as in `grades.csv`, or by name, number or address as the roster says.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from unicodedata import normalize
 
-from dynsolve.answers.marking.policy import shown
+from dynsolve.answers.marking.marks import shown
 from dynsolve.errors import Finding, InputError, UsageError
-from dynsolve.grading.by_hand import read_by_hand
-from dynsolve.grading.cohort import standings
-from dynsolve.grading.copies import write_copies
+from dynsolve.grading.cohort import Entry, queue, standings
 from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
-from dynsolve.grading.keys import keep_keys
-from dynsolve.grading.meant import meant_student
-from dynsolve.grading.outputs import write_outputs
+from dynsolve.grading.outputs import read_by_hand, write_outputs
 from dynsolve.grading.platforms import canvas
 from dynsolve.grading.platforms.members import Groups
 from dynsolve.grading.platforms.registry import (
@@ -32,12 +33,58 @@ from dynsolve.grading.platforms.registry import (
     people,
 )
 from dynsolve.grading.pool import Bounds, LocalPool
-from dynsolve.grading.problem_set import ProblemSet, store_set, stored_set
-from dynsolve.grading.queue import Entry, queue
 from dynsolve.grading.record import FILE, Record, Waiting
-from dynsolve.grading.run import Pool, grade_all
-from dynsolve.grading.set_file import load_set
-from dynsolve.grading.uploads import Refused, Uploads
+from dynsolve.grading.run import Pool, grade_all, keep_keys
+from dynsolve.grading.set_file import ProblemSet, load_set, store_set, stored_set
+from dynsolve.grading.uploads import Refused, Uploads, write_copies
+from dynsolve.problem.kinds import did_you_mean
+
+# Which student a teacher means
+
+_MOST = 10
+
+
+def meant_student(record: Record, said: str) -> str:
+    """The student who is called so, by a whole name and as the only one.
+
+    Raises UsageError with those who may be meant.
+    """
+    known = record.students()
+    if said in known:
+        return said
+    called, words = names(record), _words(said)
+    whole = [s for s, name in called.items() if _words(name) == words]
+    listed = [person for person in people(record) if person.is_called(said)]
+    whole += [s for s, id in known.items() for p in listed if s == p.student or (id and id == p.id)]
+    found = list(dict.fromkeys(whole))
+    if len(found) == 1:
+        return found[0]
+    if found:
+        raise UsageError(f"{len(found)} students are called `{said}`: name one as {_listed(found, called)}")
+    near = [s for s in known if words and set(words) <= set(_words(f"{s} {called.get(s, '')}"))]
+    help = (
+        f"did you mean {_listed(near, called)}?" if near else did_you_mean(said, (*known, *called.values()))
+    )
+    raise UsageError(f"there is no student `{said}` in grades.csv" + (f"; {help}" if help else ""))
+
+
+def _listed(students: list[str], called: dict[str, str]) -> str:
+    more = f" or {len(students) - _MOST} others" if len(students) > _MOST else ""
+    return " or ".join(_with_names(students[:_MOST], called)) + more
+
+
+def _with_names(students: list[str], called: dict[str, str]) -> Iterator[str]:
+    for student in students:
+        name = called.get(student, "")
+        yield f"`{student}` ({name})" if name and name not in student else f"`{student}`"
+
+
+def _words(name: str) -> list[str]:
+    """The words of a name in no order: Lovelace, Ada is Ada Lovelace."""
+    return sorted(re.findall(r"[^\W_]+", normalize("NFC", name).casefold()))
+
+
+# `dynsolve.grade` and `dynsolve.override`: grading a course from Python
 
 
 @dataclass(frozen=True, slots=True)

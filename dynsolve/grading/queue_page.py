@@ -19,17 +19,16 @@ from itertools import groupby
 from pathlib import Path, PurePosixPath
 from urllib.parse import quote
 
-from dynsolve.answers.marking.policy import points, shown
-from dynsolve.answers.reading.documents import FORMATS
-from dynsolve.answers.reading.files import ENDINGS
+from dynsolve.answers.marking.marks import points, shown
+from dynsolve.answers.reading.files import ENDINGS, FORMATS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import ReadError
-from dynsolve.grading.copies import FOLDER, PICTURES, copy_name
+from dynsolve.grading.cohort import Entry
 from dynsolve.grading.files import decimal, folder_name, safe
-from dynsolve.grading.keys import kept_keys
-from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.queue import Entry
 from dynsolve.grading.record import Key, Record, RecordedAnswer
+from dynsolve.grading.run import kept_keys
+from dynsolve.grading.set_file import ProblemSet
+from dynsolve.grading.uploads import FOLDER, PICTURES, copy_name
 from dynsolve.grading.which_problem import as_text
 from dynsolve.render.html import stylesheet
 from dynsolve.render.prose import visible

@@ -3,6 +3,10 @@
 Every hand-in is one transaction of a write-ahead log, so that whatever ends the
 process leaves the record as it was after some hand-in.  The connection holds the file
 alone: a second run on the same OUT is told so.  Nothing in it depends on time.
+
+Marks anew: the record keeps of each answer what its marks are made from (`Kept`).
+
+So other points, or another policy, need no hand-in to be judged again (`rescored`).
 """
 
 from __future__ import annotations
@@ -12,15 +16,83 @@ import json
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from dynsolve.answers.marking.marks import Marked, deduction
-from dynsolve.answers.marking.policy import Policy, points
+from dynsolve.answers.marking.marks import Marked, Policy, deduction, mark, points
+from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.errors import UsageError
-from dynsolve.grading.marking import Kept
+from dynsolve.quantities.index import Quantities
+
+# Marks anew: the record keeps of each answer what its marks are made from (`Kept`)
+
+
+class Kept(NamedTuple):
+    """What the record keeps of an answer for marking it again; `basis` is the text that `basis` made."""
+
+    name: str
+    verdict: str
+    loss: str
+    basis: str
+
+
+def basis(answer: JudgedAnswer) -> str:
+    """What the marks of an answer depend on besides its verdict and its loss, as text for the record.
+
+    >>> basis(JudgedAnswer("K", Verdict.FOLLOWS, follows_from=("K1",)))
+    '[["K1"], [], [], 0, 0]'
+    """
+    entries = [[*entry.index, *_piece(entry)] for entry in answer.entries]
+    parts = [_piece(part) for part in answer.parts]
+    return json.dumps([list(answer.follows_from), entries, parts, int(answer.zero), int(answer.empty)])
+
+
+def _piece(piece: EntryVerdict | JudgedAnswer) -> list[str | int]:
+    return [str(piece.verdict), int(piece.zero), int(piece.empty)]
+
+
+def rescored(
+    kept: Iterable[Kept],
+    points: Mapping[str, Fraction],
+    quantities: Quantities,
+    policy: Policy,
+) -> tuple[Marked, ...]:
+    """The marks of a hand-in's answers as they are now.
+
+    >>> from dynsolve.quantities.owners import Owners
+    >>> quantities = Quantities(Owners(1, (), ("1",)))
+    >>> kept = [Kept("K", "follows", "", '[["K1"], [], [], 0, 0]')]
+    >>> policy = Policy(follow=Fraction(1, 2))
+    >>> rescored(kept, {"K": Fraction(4)}, quantities, policy)[0].marks
+    Fraction(2, 1)
+    """
+    answers = (_restored(one, points.get(one.name, Fraction(0))) for one in kept)
+    return mark(answers, quantities, policy)
+
+
+def _restored(kept: Kept, of: Fraction) -> JudgedAnswer:
+    """The answer as far as its marks depend on it."""
+    follows_from, entries, parts, zero, empty = json.loads(kept.basis)
+    return JudgedAnswer(
+        kept.name,
+        Verdict(kept.verdict),
+        follows_from=tuple(follows_from),
+        entries=tuple(
+            EntryVerdict(tuple(index), Verdict(verdict), zero=bool(zero), empty=bool(empty))
+            for *index, verdict, zero, empty in entries
+        ),
+        of=of,
+        zero=bool(zero),
+        empty=bool(empty),
+        loss=kept.loss,
+        parts=tuple(JudgedAnswer("", Verdict(v), zero=bool(z), empty=bool(e)) for v, z, e in parts),
+    )
+
+
+# The record of a run: SQLite in OUT, written a hand-in at a time
 
 Key = tuple[str, str]
 """A hand-in: the student and the problem."""

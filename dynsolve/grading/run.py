@@ -3,13 +3,15 @@
 What a hand-in's result was made from is its fingerprint: its files, the problem, the
 marks, the policy and the program.  Where that is in the record already nothing is
 computed; so a run that was stopped goes on, and a regrade does only what is affected.
+
+The keys of the problems of which something waits, kept in the record for the page of the queue.
 """
 
 from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from functools import partial
@@ -17,24 +19,27 @@ from itertools import islice
 from pathlib import Path, PurePath
 from typing import Any, Protocol
 
-from dynsolve.answers.marking.policy import to_data
+from dynsolve.answers.marking.marks import to_data
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,
     fingerprint,
     fingerprints,
+    program,
+    row_of_result,
+    rows_of_absent,
+    short,
     touches_marks_alone,
 )
 from dynsolve.grading.hand_ins import File, HandIn, Intake
-from dynsolve.grading.marking import rescored
 from dynsolve.grading.pool import Bounds
-from dynsolve.grading.problem_set import Item, ProblemSet
-from dynsolve.grading.record import Record
-from dynsolve.grading.rows import row_of_result, rows_of_absent
-from dynsolve.grading.sections import without
+from dynsolve.grading.record import Record, rescored
+from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.grading.uploads import Uploads, digest
-from dynsolve.grading.which_problem import CONVERTED, as_text
+from dynsolve.grading.which_problem import CONVERTED, as_text, without
 from dynsolve.quantities.index import quantities
+
+# The run: everything that was handed in goes through the workers into the record, then out
 
 Data = dict[str, Any]
 
@@ -183,3 +188,31 @@ def _same(uploads: Uploads, file: File) -> bytes:
         message = "it was changed while it was graded: grade again"
         raise InputError([Finding(message, "", str(file.upload.path))])
     return content
+
+
+# The keys of the problems of which something waits, kept in the record for the page of the queue
+
+
+def keep_keys(record: Record, problems: ProblemSet, stems: Iterable[str], pool: Pool) -> None:
+    """Have the keys of these problems set, as far as the record has not those of today."""
+    due = {stem: problems.item(stem) for stem in stems}
+    due = {stem: item for stem, item in due.items() if _kept(record, stem).get("of") != _of(item)}
+    asked = {stem: pool.submit({**payload_of_problem(item), "key": True}) for stem, item in due.items()}
+    for stem, future in asked.items():
+        data = {"of": _of(due[stem]), "keys": future.result().get("result", {})}
+        record.set_run(f"key {stem}", json.dumps(data))
+
+
+def kept_keys(record: Record, stem: str) -> dict[str, str]:
+    """The keys of a problem's answers, in HTML, as far as they are known."""
+    found: dict[str, str] = _kept(record, stem).get("keys", {})
+    return found
+
+
+def _kept(record: Record, stem: str) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(record.run(f"key {stem}") or "{}")
+    return found
+
+
+def _of(item: Item) -> str:
+    return short([item.text, sorted(item.problem.marks), program()])

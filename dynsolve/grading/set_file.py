@@ -8,40 +8,258 @@
 Beside it may lie an `extensions.csv` (`extensions`) and a `groups.csv` (`groups`).
 
 Every fault of the file is reported at its place, as in problem files.
+
+Every key of a `set.yaml`, said once: for its reader, its JSON Schema and the documentation.
+
+To add one, write its record here and read it in `set_file.py`.
+
+What is graded: problems with their marks and a policy, and how the record keeps them.
+
+Groups: what a group handed in counts for each of its members, in `groups.csv` beside the `set.yaml`.
+
+    group,student
+    Group A,41
+    Group A,ada@uni.example
+
+A group is called as its files are; a student as in `grades.csv`, or as the platform's list says:
+by number, name or address.  `platforms.members` has whose the files are.
 """
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from dynsolve.algebra.rationals import rational_value
-from dynsolve.answers.marking.policy import Policy, shown
-from dynsolve.errors import Finding, ProblemError
-from dynsolve.grading.extensions import read_extensions
-from dynsolve.grading.groups import read_groups
-from dynsolve.grading.problem_set import Item, ProblemSet
-from dynsolve.grading.set_keys import CAPS, POLICY, SET
+from dynsolve.answers.marking.marks import Policy, from_data, shown, to_data
+from dynsolve.errors import Finding, ProblemError, UsageError
+from dynsolve.grading.record import Record
+from dynsolve.grading.uploads import Extension, Fault, read_extensions, read_list
 from dynsolve.problem.answer_names import answer_meant
 from dynsolve.problem.cells import read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, items, mapping, whole_number
-from dynsolve.problem.library import find
+from dynsolve.problem.kinds import (
+    NAME,
+    TEXT,
+    Fields,
+    Key,
+    Keyed,
+    ListOf,
+    MapOf,
+    OneOf,
+    Plain,
+    describe,
+    did_you_mean,
+    free_text,
+    items,
+    mapping,
+    whole_number,
+)
 from dynsolve.problem.model import Problem
-from dynsolve.problem.reader import Reading, read_file, read_whole
-from dynsolve.problem.source import Faults, as_source
+from dynsolve.problem.reader import Reading, find, read_file, read_problem, read_whole
+from dynsolve.problem.schema import Schema, schema_of_file
 from dynsolve.problem.yaml_nodes import (
+    Faults,
     FaultyNode,
     ListNode,
     MappingNode,
     ScalarNode,
     Span,
     YamlNode,
+    as_source,
     read_nodes,
 )
 from dynsolve.quantities.index import Quantities
+from dynsolve.quantities.stages import Stage
+
+# Groups
+
+FILE = "groups.csv"
+_KEYS = ("group", "student")
+
+
+@dataclass(frozen=True, slots=True)
+class Membership:
+    """A student of a group."""
+
+    group: str
+    student: str
+
+
+def read_groups(folder: Path) -> tuple[Membership, ...]:
+    """The members that a folder's `groups.csv` names; raises ProblemError for a faulty one."""
+    return read_list(folder / FILE, _KEYS, _KEYS, _membership)
+
+
+def _membership(cells: dict[str, str]) -> Membership | Fault:
+    if not (cells["group"] and cells["student"]):
+        return "a row names a group and a student", "write Group A,41"
+    return Membership(cells["group"], cells["student"])
+
+
+# What is graded: problems with their marks and a policy, and how the record keeps them
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """One problem of a set, with the text it was read from; its `marks` are those that count."""
+
+    problem: Problem
+    text: str
+
+    @property
+    def stem(self) -> str:
+        """The name by which hand-ins refer to it."""
+        return self.problem.stem
+
+
+@dataclass(frozen=True, slots=True)
+class ProblemSet:
+    """The problems of a course's assignment, in order, and how they are marked."""
+
+    title: str
+    items: tuple[Item, ...]
+    policy: Policy = field(default_factory=Policy)
+    extensions: tuple[Extension, ...] = ()
+    groups: tuple[Membership, ...] = ()
+
+    @property
+    def stems(self) -> tuple[str, ...]:
+        """The problems by the name that hand-ins call them."""
+        return tuple(item.stem for item in self.items)
+
+    def item(self, stem: str) -> Item:
+        """The problem of this name."""
+        return next(item for item in self.items if item.stem == stem)
+
+
+# -- in the record -----------------------------------------------------------------------------------
+
+_NAME = "set"
+
+
+def store_set(record: Record, problems: ProblemSet) -> None:
+    """Keep a problem set in the record, without the paths of its files."""
+    items = [
+        {
+            "file": PurePath(item.problem.file).name,
+            "text": item.text,
+            "marks": {name: str(of) for name, of in item.problem.marks.items()},
+        }
+        for item in problems.items
+    ]
+    data = {"title": problems.title, "items": items, "policy": to_data(problems.policy)}
+    record.set_run(_NAME, json.dumps(data, ensure_ascii=False))
+
+
+def stored_set(record: Record) -> ProblemSet:
+    """The problem set that the record was made with.
+
+    Raises UsageError where there is none yet.
+    """
+    text = record.run(_NAME)
+    if not text:
+        raise UsageError("there are no grades in that folder yet: `dynsolve grade` makes them")
+    data = json.loads(text)
+    items = []
+    for entry in data["items"]:
+        marks = {name: Fraction(of) for name, of in entry["marks"].items()}
+        problem = replace(read_problem(entry["text"], entry["file"]), marks=marks)
+        items.append(Item(problem, entry["text"]))
+    return ProblemSet(data["title"], tuple(items), from_data(data["policy"]))
+
+
+def stored_policy(record: Record) -> Policy:
+    """The policy that the record was made with."""
+    text = record.run(_NAME)
+    return from_data(json.loads(text)["policy"]) if text else Policy()
+
+
+# Every key of a `set.yaml`, said once
+
+_POINTS = Plain("a number", {"type": ["string", "number"], "description": "4, 0.5 or 1/2"})
+
+CAPS = Keyed(tuple(Key(stage, _POINTS) for stage in Stage))
+
+POLICY = Keyed(
+    (
+        Key(
+            "follow",
+            _POINTS,
+            "The share that an answer earns which follows from an earlier slip. Default 1.",
+            "1/2",
+            "1",
+        ),
+        Key(
+            "caps",
+            CAPS,
+            "The most marks that the answers of a stage earn together.",
+            "{energy: 5}",
+            "no caps",
+        ),
+        Key(
+            "rounding",
+            _POINTS,
+            "The step that the marks of an answer are rounded to. Default 0.01.",
+            "1/2",
+            "0.01",
+        ),
+        Key(
+            "late",
+            OneOf((_POINTS, ListOf(_POINTS, "a list of shares"))),
+            "The share that a late hand-in keeps of what it earns, where the platform says who was late; a "
+            "list has the share of each day, the last for all later ones. Default 1.",
+            "[0.9, 0.8, 0.5]",
+            "1",
+        ),
+        Key(
+            "hints",
+            Plain("1, 2 or 3", {"enum": [1, 2, 3]}),
+            "1 says where, 2 what kind of slip, 3 how. Default 3.",
+            "2",
+            "3",
+            remedy="write 1 (where), 2 (what kind) or 3 (how)",
+        ),
+    )
+)
+
+SET = Keyed(
+    (
+        Key("title", TEXT, "The name of the assignment.", "Assignment 2", "the name of the folder"),
+        Key(
+            "problems",
+            ListOf(NAME, "a list of files"),
+            "The problem files, in order. Default: all of the folder.",
+            "[a.yaml, b.yaml]",
+            "all of the folder",
+        ),
+        Key(
+            "marks",
+            MapOf(MapOf(_POINTS, "points by answer"), "points by problem and answer"),
+            "Points by problem and answer: {in3140-rp: {P: 2, K: 4}}.",
+            "{in3140-rp: {P: 2, K: 4}}",
+            "those of the problem files",
+        ),
+        Key("policy", POLICY, example="{follow: 1/2, hints: 2}"),
+    )
+)
+"""The keys of a `set.yaml`, in the order of the documentation."""
+
+
+def set_schema() -> Schema:
+    """The schema, as data that `json.dumps` prints.
+
+    >>> sorted(set_schema()["properties"])
+    ['marks', 'policy', 'problems', 'title']
+    """
+    description = "The problems of a folder, and how hand-ins to them are marked."
+    return schema_of_file(SET, "dynsolve problem set", description)
+
+
+# Reading what is graded: a problem, or a folder of problems with a `set.yaml`
 
 SET_FILE = "set.yaml"
 

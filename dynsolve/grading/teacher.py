@@ -1,25 +1,75 @@
-"""The teacher's page: the cohort at a glance, in one file that fetches nothing."""
+"""The teacher's page: the cohort at a glance, in one file that fetches nothing.
+
+A histogram of marks: inline SVG that is read without a script, and by a screen reader.
+
+Students' pages as they travel and are kept: packed, with a place for the marks.
+"""
 
 from __future__ import annotations
 
+import base64
+import zlib
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from fractions import Fraction
 from html import escape
 from importlib.resources import files
+from math import floor
 from pathlib import PurePosixPath
 from urllib.parse import quote
 
 from dynsolve.answers.diagnosis.slips import SLIPS
-from dynsolve.answers.marking.policy import shown
-from dynsolve.grading.cohort import VERDICTS, WAITS, Cohort, counted, most
-from dynsolve.grading.copies import FOLDER, copy_name
+from dynsolve.answers.feedback import FeedbackView, not_recognized, opening, readings, slips
+from dynsolve.answers.marking.marks import shown
+from dynsolve.answers.verdict import Report
+from dynsolve.document import Block, Document, Note, Text
+from dynsolve.explain.context import style_of
+from dynsolve.grading.cohort import VERDICTS, WAITS, Cohort, Entry, Item, counted, most
 from dynsolve.grading.files import decimal, folder_name
-from dynsolve.grading.histogram import histogram
-from dynsolve.grading.item_analysis import Item
-from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.queue import Entry
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
+from dynsolve.grading.uploads import FOLDER, copy_name
+from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.problem.model import Problem
+from dynsolve.render.html import stylesheet
 from dynsolve.render.prose import visible
+
+# A histogram of marks: inline SVG that is read without a script, and by a screen reader
+
+BINS = 10
+_WIDTH, _HEIGHT, _FOOT = 44, 150, 170
+
+
+def histogram(title: str, marks: Sequence[Fraction], of: Fraction) -> str:
+    """A figure of how many earned which share of `of`, in ten bins; nothing where there is nothing."""
+    if not of or not marks:
+        return ""
+    bins = Counter(min(floor(one / of * BINS), BINS - 1) for one in marks)
+    top = max(bins.values())
+    labels = [
+        f"{decimal(of * i / BINS)} to {decimal(of * (i + 1) / BINS)} marks: {bins[i]}" for i in range(BINS)
+    ]
+    bars = "".join(_bar(i, bins[i], _HEIGHT * bins[i] / top, labels[i]) for i in range(BINS))
+    mean = float(sum(marks, Fraction(0)) / len(marks))
+    who = "1 student" if len(marks) == 1 else f"{len(marks)} students"
+    caption = f"{title}: {who}, mean {mean:.2f} of {shown(of)}"
+    said = escape(visible(caption))
+    return (
+        f'<figure><svg class="bars" viewBox="0 0 {_WIDTH * BINS + 10} 190" role="img" '
+        f'aria-label="{said}. {"; ".join(labels)}">{bars}</svg>\n<figcaption>{said}</figcaption></figure>\n'
+    )
+
+
+def _bar(place: int, count: int, height: float, label: str) -> str:
+    left, middle = place * _WIDTH + 4, place * _WIDTH + _WIDTH // 2
+    return (
+        f'<g><title>{label}</title><rect x="{left}" y="{_FOOT - height:.1f}" width="{_WIDTH - 8}" '
+        f'height="{height:.1f}"/><text x="{middle}" y="{_FOOT - 5 - height:.1f}">{count or ""}</text>'
+        f'<text x="{middle}" y="186">{100 * place // BINS} %</text></g>'
+    )
+
+
+# The teacher's page: the cohort at a glance, in one file that fetches nothing
 
 MOST_SLIPS = 40
 MOST_ALIKE = 100
@@ -302,3 +352,65 @@ def _students(problems: ProblemSet, cohort: Cohort, copies: Set[str]) -> str:
     caption = "The marks of each student lead to the page that the student reads"
     late = ["for being late"] if is_any_late else []
     return _table(caption, ("student", *problems.stems, "total", *late, "handed in"), rows())
+
+
+# Students' pages as they travel and are kept: packed, with a place for the marks
+
+HEAD_HERE = "Whose it is, and the marks"
+"""Where the page gets its head when it is written: names may be learnt, and marks set, later."""
+
+
+STYLES_HERE = "/* The styles stand here */"
+"""Where a page gets its styles when it is written, for they are the same in all of them."""
+
+
+def pack(text: str) -> str:
+    """A page compressed, for the way from the worker and for the record."""
+    text = text.replace(stylesheet(), STYLES_HERE)
+    return base64.b64encode(zlib.compress(text.encode("utf-8", errors="replace"), 6)).decode()
+
+
+def unpack(packed: bytes) -> str:
+    """A page out of the record."""
+    return zlib.decompress(packed).decode().replace(STYLES_HERE, stylesheet(), 1)
+
+
+def student_page(report: Report, problem: Problem, hints: int) -> tuple[str, str]:
+    """A student's page in HTML and Markdown, packed, but for its head."""
+    view = FeedbackView(hints, readings=True)
+    blocks = (
+        *(Note((fault.message,)) for fault in report.faults),
+        *opening(report),
+        *slips(report, view),
+        *readings(report, view),
+        *not_recognized(report),
+    )
+    return _packed(_rendered(blocks, style_of(problem.robot)))
+
+
+def bare_page(reason: str) -> tuple[str, str]:
+    """The page of a hand-in that could not be judged."""
+    said = f"The program could not judge this hand-in: {reason}. It is on your teacher's list."
+    return _packed(_only_said(said))
+
+
+def absent_page() -> tuple[str, str]:
+    """The page of what was not handed in, for which a teacher gives marks; as it is, not packed."""
+    return _only_said("Nothing was handed in here that the program could judge.")
+
+
+def _only_said(said: str) -> tuple[str, str]:
+    return _rendered((Text((said,)),), PLAIN)
+
+
+def _packed(pages: tuple[str, str]) -> tuple[str, str]:
+    html, markdown = pages
+    return pack(html), pack(markdown)
+
+
+def _rendered(blocks: tuple[Block, ...], style: Style) -> tuple[str, str]:
+    from dynsolve.render.html import render as render_html
+    from dynsolve.render.markdown import render as render_markdown
+
+    document = Document((Text((HEAD_HERE,)), *blocks))
+    return render_html(document, style), render_markdown(document, style)

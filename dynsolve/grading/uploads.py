@@ -3,25 +3,47 @@
 A name that leads out of the folder, a link, a name that cannot be seen, a file that
 unpacks to far more than it is: each is refused by name, and the rest is taken.
 Nothing is unpacked to disk.
+
+Copies of what was handed in, in OUT, where the teacher's page links to them.
+
+A download may be a zip, which no page can link into.  What a browser would run, or not show, is
+a text there: nothing that a student wrote runs when the teacher opens it.
+
+Extensions: who was given more days, in `extensions.csv` beside the `set.yaml`.
+
+    student,days,problem
+    lovelaceada_101,3,
+    102,7,planar-2r
+
+A student is named as in `grades.csv`, or by the platform's number, or by the name before it;
+without a problem the days hold for all of them.
+
+The lists that a teacher lays beside the `set.yaml`: CSV with the names of its columns first.
 """
 
 from __future__ import annotations
 
+import csv
 import hashlib
 import io
 import os
 import re
 import stat
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import reduce
+from hashlib import sha256
 from operator import or_
 from pathlib import Path, PurePosixPath
-from typing import IO
+from typing import IO, TypeVar
 
-from dynsolve.errors import Finding, InputError
+from dynsolve.errors import Finding, InputError, ProblemError
+from dynsolve.problem.kinds import did_you_mean
+from dynsolve.render.files import write_changed
+
+# The files that were handed in, out of a folder or a zip, and those that are refused
 
 MAX_FILE = 2_000_000
 """A larger file is not read: what is handed in takes a few pages."""
@@ -323,3 +345,143 @@ def _of_size(name: str, size: int) -> str:
 def _most(name: str) -> int:
     """How many bytes a file may have."""
     return _MAX_WHOSE if _WHOSE.fullmatch(name) else MAX_FILE
+
+
+# Copies of what was handed in, in OUT, where the teacher's page links to them
+
+FOLDER = "hand-ins"
+
+PICTURES = (".png", ".jpg", ".jpeg", ".gif", ".webp", ".bmp")
+_SHOWN = (".pdf", *PICTURES)
+_SAVED = (
+    ".docx", ".doc", ".odt", ".rtf", ".pages", ".xlsx", ".pptx", ".zip", ".rar", ".7z", ".gz", ".tar",
+    ".heic", ".tif", ".tiff", ".mp4", ".mov",
+)  # fmt: skip
+"""What a browser hands on to another program."""
+
+
+def copy_name(path: str) -> str:
+    """The name of the copy of a file, from its path within what was handed in.
+
+    >>> copy_name("ada/rp.yaml"), copy_name("ada/Scan 1.pdf")
+    ('ccd1e0b72fa6-rp.yaml.txt', '14d91d99e36b-Scan 1.pdf')
+    """
+    name = PurePosixPath(path).name
+    plain = re.sub(r"[^\w .@+-]", "_", name)[-80:]
+    text = "" if PurePosixPath(name).suffix.lower() in (*_SHOWN, *_SAVED) else ".txt"
+    return f"{sha256(path.encode('utf-8', errors='replace')).hexdigest()[:12]}-{plain}{text}"
+
+
+def write_copies(folder: Path, uploads: Uploads, files: Iterable[Upload]) -> None:
+    """Write the copies of these files, and remove those of files that are there no more."""
+    written: set[Path] = set()
+    for upload in files:
+        path = folder / FOLDER / copy_name(printable(str(upload.path)))
+        try:
+            content = uploads.read(upload)
+        except InputError:
+            continue  # it was there a moment ago, or is told as what cannot be read
+        written.add(path)
+        write_changed(path, content, durable=False)
+    for path in (folder / FOLDER).glob("*"):
+        if path not in written and path.is_file():
+            path.unlink()
+
+
+# The lists that a teacher lays beside the `set.yaml`
+
+Fault = tuple[str, str]
+"""What is wrong with a row, and what to do."""
+
+Entry = TypeVar("Entry")
+
+
+def read_list(
+    path: Path,
+    columns: tuple[str, ...],
+    needed: Collection[str],
+    read: Callable[[dict[str, str]], Entry | Fault],
+) -> tuple[Entry, ...]:
+    """What `read` makes of each row of a file, nothing where there is no such file.
+
+    The separator is a comma, a semicolon or a tab.  Raises ProblemError with every faulty row.
+    """
+    if not path.is_file():
+        return ()
+    found: list[Entry] = []
+    findings: list[Finding] = []
+    for line, cells in _rows(path, columns, needed):
+        entry = read(cells)
+        if isinstance(entry, tuple):
+            findings.append(Finding(entry[0], entry[1], str(path), line, 1))
+        else:
+            found.append(entry)
+    if findings:
+        raise ProblemError(findings)
+    return tuple(found)
+
+
+def _rows(
+    path: Path, columns: tuple[str, ...], needed: Collection[str]
+) -> Iterator[tuple[int, dict[str, str]]]:
+    """Each row with its line, its cells by their columns."""
+    text = path.read_text(encoding="utf-8-sig", errors="replace")
+    first = text.partition("\n")[0]
+    rows = csv.DictReader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=first.count))
+    header = [name.strip().casefold() for name in rows.fieldnames or ()]
+    if not set(needed) <= set(header) or not set(header) <= set(columns):
+        message = f"the first line is `{first[:60].strip()}`, not the names of the columns"
+        raise ProblemError([Finding(message, f"write {','.join(columns)}", str(path), 1, 1)])
+    rows.fieldnames = header
+    for row in rows:
+        yield rows.line_num, {key: (row.get(key) or "").strip() for key in columns}
+
+
+# Extensions: who was given more days, in `extensions.csv` beside the `set.yaml`
+
+FILE = "extensions.csv"
+_KEYS = ("student", "days", "problem")
+
+
+@dataclass(frozen=True, slots=True)
+class Extension:
+    """So many days more for a student, for one problem or (an empty name) for all."""
+
+    student: str
+    days: int
+    problem: str = ""
+
+    def is_for(self, student: str, id: str) -> bool:
+        """Whether it is this student's.
+
+        >>> [Extension(name, 1).is_for("Ada L_7", "7") for name in ("Ada L_7", "7", "Ada L", "Ada")]
+        [True, True, True, False]
+        """
+        return self.student in (student, id, student.removesuffix(f"_{id}") if id else student)
+
+
+def read_extensions(folder: Path, stems: Collection[str]) -> tuple[Extension, ...]:
+    """The extensions of a folder, none where it has no such file; raises ProblemError for a faulty one."""
+
+    def read(cells: dict[str, str]) -> Extension | Fault:
+        fault = _fault(cells, stems)
+        return fault or Extension(cells["student"], int(cells["days"]), cells["problem"])
+
+    return read_list(folder / FILE, _KEYS, ("student", "days"), read)
+
+
+def _fault(cells: dict[str, str], stems: Collection[str]) -> Fault | None:
+    if not cells["student"]:
+        return "no student is named", "write the name as in grades.csv"
+    if not (cells["days"].isascii() and cells["days"].isdigit() and len(cells["days"]) < 5):
+        return f"`{cells['days'][:40]}` is no number of days", "write 1, 2, 3, ..."
+    if cells["problem"] and cells["problem"] not in stems:
+        help = did_you_mean(cells["problem"], stems) or f"the problems are {', '.join(stems)}"
+        return f"there is no problem `{cells['problem'][:40]}`", help
+    return None
+
+
+def days_late(extensions: Iterable[Extension], student: str, id: str, problem: str, days: int) -> int:
+    """How many days late a hand-in is that is so many days after the date for all."""
+    given = [e.days for e in extensions if e.problem in ("", problem) and e.is_for(student, id)]
+    return max(0, days - max(given, default=0))

@@ -2,6 +2,8 @@
 
 A pure function of a payload that travels as JSON, so that it runs in this process, in
 a worker on this machine or on a cluster alike; nothing in it depends on time.
+
+The key of each answer as the page of the queue sets it; a worker, which has derived it, makes it.
 """
 
 from __future__ import annotations
@@ -9,30 +11,72 @@ from __future__ import annotations
 import base64
 import os
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 from hashlib import sha256
 from typing import Any, TypeVar
 
-from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.marking.marks import Marked, mark
-from dynsolve.answers.marking.policy import from_data
-from dynsolve.answers.reading.occurrences import readable
-from dynsolve.answers.sandbox import REMEDY, Stopped, limited
-from dynsolve.answers.submission import (
+from dynsolve.answers.judge import REMEDY, Checker, Judge, Stopped, limited
+from dynsolve.answers.marking.marks import Marked, from_data, mark
+from dynsolve.answers.reading.answer_list import readable
+from dynsolve.answers.verdict import (
     Answer,
     ConfigurationAnswer,
+    JudgedAnswer,
     NotRecognized,
     Submission,
+    Verdict,
     VerdictAnswer,
 )
-from dynsolve.answers.verdict import JudgedAnswer, Verdict
-from dynsolve.grading.key_forms import key_pages
-from dynsolve.grading.marking import basis
-from dynsolve.grading.pages import student_page
+from dynsolve.document import Document, Formula
+from dynsolve.explain.context import style_of
+from dynsolve.explain.forms import Forms
+from dynsolve.grading.record import basis
+from dynsolve.grading.teacher import student_page
+from dynsolve.notation.tree import Matrix, Node
 from dynsolve.problem.reader import read_problem
 from dynsolve.quantities.index import Quantities
+from dynsolve.render.html import render
+
+# The key of each answer as the page of the queue sets it
+
+SECONDS = 5.0
+"""The processor time in which the keys of a problem are set; else the page does without."""
+
+_LONGEST = 200_000
+
+
+def key_pages(checker: Checker) -> dict[str, str]:
+    """The key of each answer that has marks, in HTML; sets and tables have none."""
+    with suppress(Stopped):
+        return limited(partial(_key_pages, checker), SECONDS)
+    return {}
+
+
+def _key_pages(checker: Checker) -> dict[str, str]:
+    robot, style = checker.problem.robot, style_of(checker.problem.robot)
+    compare = Judge(checker, Submission("", "", "", ())).hand_in.compare
+    forms = Forms(robot, checker.key)
+    found = {}
+    for name in checker.problem.marks:
+        target = compare.target(name)
+        node, entry = (name, ()) if name in checker.answer_ring.rules else (target.node, target.entry)
+        if node in checker.answer_ring.rules:
+            page = render(Document((Formula(_entry(forms(node), entry)),)), style)
+            found[name] = page.partition("<main>")[2].partition("</main>")[0].strip()
+    return {name: page for name, page in found.items() if len(page) <= _LONGEST}
+
+
+def _entry(node: Node, entry: tuple[int, ...]) -> Node:
+    if not entry or not isinstance(node, Matrix):
+        return node
+    row, column = (*entry, 0)[:2]
+    return node.rows[row][column]
+
+
+# The work on one hand-in: its verdicts, its marks and the student's page
 
 Data = dict[str, Any]
 

@@ -1,19 +1,17 @@
 """Formulas as they are written: the tree, its readers and its printers.
 
-`tree`: the classes of nodes.  `walk`: visiting a tree and rebuilding it.  `build`: sums and
-products as they are written, and how many operations a formula has.
+`tree`: the classes of nodes, visiting a tree and rebuilding it.  `build`: sums and products as they are
+written, and how many operations a formula has.
 
 Read: `text` reads plain text, `tokens` cuts it, `mistakes` says what is wrong with it; `template` reads the
-formulas of the textbook that steps are written with;
-`characters` and `names` say what names are made of and how they are set.  `size` measures a
-tree before it is multiplied out, `limits` bounds it for problem files.
+formulas of the textbook that steps are written with; `characters` says what names are made of and how they
+are set.  `size` measures a tree before it is multiplied out, and bounds it for problem files.
 
 Printed: `printing` is what all printers share, `formulas` what those of whole formulas share;
 `unicode`, `latex`, `mathml`, `typst` and `python` are one notation each.  `extent` measures
-how wide a formula is when it is set.  `tree_values` puts numbers into trees; `bounded_cache` holds
-memories of limited size.
+how wide a formula is when it is set.  `tree_values` puts numbers into trees.
 
 To add a notation, derive a printer from `FormulaPrinter` (`formulas` says how).  To add a
-kind of node, write its dataclass in `tree` and its case in each printer; `walk` knows its
-parts from its fields.
+kind of node, write its class in `tree` and its case in each printer; `walk` knows its parts from its
+fields.
 """

@@ -7,8 +7,7 @@ is set in type: LaTeX, Typst, MathML.
 
 from __future__ import annotations
 
-from dynsolve.notation.characters import GREEK
-from dynsolve.notation.names import split
+from dynsolve.notation.characters import GREEK, split
 from dynsolve.notation.printing import PLAIN, Style, decimal_text, shorthand
 from dynsolve.notation.tree import (
     Arguments,
@@ -36,8 +35,8 @@ from dynsolve.notation.tree import (
     Symbol,
     Transpose,
     Words,
+    children,
 )
-from dynsolve.notation.walk import children
 
 # Advance width and italic correction, in hundredths of an em.
 _ITALIC = dict(

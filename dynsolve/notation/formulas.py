@@ -12,8 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from dynsolve.notation.characters import GREEK
-from dynsolve.notation.names import describes, runs, split
+from dynsolve.notation.characters import GREEK, describes, runs, split
 from dynsolve.notation.printing import (
     PLAIN,
     Printer,

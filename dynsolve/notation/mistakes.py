@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.characters import GREEK
-from dynsolve.notation.limits import MAX_EXPONENT, MAX_NESTING
+from dynsolve.notation.size import MAX_EXPONENT, MAX_NESTING
 from dynsolve.notation.tokens import FUNCTIONS, FormulaToken
 
 _FUNCTIONS = ", ".join(FUNCTIONS[:-1]) + f" and {FUNCTIONS[-1]}"

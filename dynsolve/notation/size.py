@@ -5,6 +5,8 @@ ten lines of `a = b b` name a tree of a thousand leaves.  So a tree is measured 
 evaluated; parts that stand in several places are measured once.  How much is too much, and
 what is said about it, is up to the reader: `notation.limits` for the formulas of problem
 files, `answers.reading.limits` for those of hand-ins.
+
+How large a formula of a problem file may be.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ from collections.abc import Callable, Mapping
 from math import comb
 from typing import Any, NamedTuple
 
+from dynsolve.errors import ReadError
 from dynsolve.notation.tree import (
     Arguments,
     Degrees,
@@ -28,8 +31,10 @@ from dynsolve.notation.tree import (
     Reference,
     Sum,
     Symbol,
+    children,
 )
-from dynsolve.notation.walk import children
+
+# How large a formula is, known from its tree alone, before anything is multiplied out
 
 _BITS = 32
 """A number counts as a factor more for each so many bits."""
@@ -138,3 +143,36 @@ _RULES: Mapping[type[Node], Callable[[Any, _Counts, _Counts, Size], tuple[int, i
     Matrix: _beside,
 }
 """How the terms and the degree of a node come from those of its parts; every other node is a leaf."""
+
+
+# How large a formula of a problem file may be
+
+MAX_LENGTH = 10_000
+MAX_NESTING = 50
+MAX_DIGITS = 60
+MAX_EXPONENT = 20
+MAX_DEPTH = 100
+MAX_TERMS = 20_000
+MAX_DEGREE = 100
+
+
+_MOST = Size(nodes=4 * MAX_LENGTH, depth=MAX_DEPTH, terms=MAX_TERMS, degree=MAX_DEGREE)
+_NAME = "name a part of it with a symbol of its own"
+_SAID = {
+    "nodes": ("this is too large: it has too many parts", _NAME),
+    "depth": ("this is nested too deeply", "write it in fewer levels of / and parentheses"),
+    "terms": (f"this is too large: multiplied out it would have over {MAX_TERMS} terms", _NAME),
+    "degree": (f"this is too large: multiplied out it would have powers over {MAX_DEGREE}", _NAME),
+}
+
+
+def check_size(tree: Node, length: int = 1) -> None:
+    """Raise ReadError for a tree that is too deep, or too large when multiplied out.
+
+    `length` is that of the text it was read from, for the error.
+    """
+    try:
+        size(tree, _MOST)
+    except TooLargeError as error:
+        message, help = _SAID[error.measure]
+        raise ReadError(message, 0, length, help) from None

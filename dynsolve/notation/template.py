@@ -30,8 +30,7 @@ from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
-from dynsolve.notation.characters import GREEK, bold_letter, bold_script_letter, script_letter
-from dynsolve.notation.names import describes
+from dynsolve.notation.characters import GREEK, bold_letter, bold_script_letter, describes, script_letter
 from dynsolve.notation.tree import (
     Arguments,
     BigSum,
@@ -54,8 +53,8 @@ from dynsolve.notation.tree import (
     Symbol,
     Transpose,
     Words,
+    mapped,
 )
-from dynsolve.notation.walk import mapped
 
 Value = Node | str | int
 """What is put in for a name in braces."""

@@ -16,9 +16,8 @@ from fractions import Fraction
 
 from dynsolve.errors import ReadError
 from dynsolve.notation import mistakes
-from dynsolve.notation.characters import SUPERSCRIPT_DIGITS
-from dynsolve.notation.limits import MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
-from dynsolve.notation.names import normalize
+from dynsolve.notation.characters import SUPERSCRIPT_DIGITS, normalize
+from dynsolve.notation.size import MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
 from dynsolve.notation.tokens import ARCS, FUNCTIONS, FormulaToken, rational, tokens
 from dynsolve.notation.tree import (
     Arguments,

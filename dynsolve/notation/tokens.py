@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.characters import SPELLED, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS, character_error
-from dynsolve.notation.limits import MAX_DIGITS
+from dynsolve.notation.size import MAX_DIGITS
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt")
 """The functions of a formula."""

@@ -3,6 +3,8 @@
 Trees share their parts heavily, so they are compiled once into a flat list of
 operations, each part of which is computed once; the list is then run at as many
 points as wanted.
+
+Caches of bounded size, so that the memory of a long process does not grow without end.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import Any, TypeVar
 
 from dynsolve.notation.tree import (
     Arguments,
@@ -29,8 +31,10 @@ from dynsolve.notation.tree import (
     Quotient,
     Sum,
     Symbol,
+    children,
 )
-from dynsolve.notation.walk import children
+
+# Numeric values of trees
 
 DOTS = ("", "_dot", "_ddot")
 
@@ -239,3 +243,30 @@ def _raised_to(exponent: int) -> Callable[[float], float]:
     if exponent == 2:
         return lambda x: x * x
     return lambda x: x**exponent
+
+
+# Caches of bounded size, so that the memory of a long process does not grow without end
+
+_K = TypeVar("_K")
+_V = TypeVar("_V")
+
+
+def recalled(memory: dict[_K, _V], key: _K, make: Callable[[], _V], most: int) -> _V:
+    """The value under a key of a cache of at most `most` entries; made and kept if there is none.
+
+    >>> squares: dict[int, int] = {}
+    >>> recalled(squares, 3, lambda: 9, most=10), squares
+    (9, {3: 9})
+    """
+    try:
+        return memory[key]
+    except KeyError:
+        return keep(memory, key, make(), most)
+
+
+def keep(memory: dict[_K, _V], key: _K, value: _V, most: int) -> _V:
+    """Put a value into a cache and return it; a full cache is emptied first."""
+    if len(memory) >= most:
+        memory.clear()
+    memory[key] = value
+    return value

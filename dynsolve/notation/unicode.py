@@ -49,8 +49,8 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     Words,
+    children,
 )
-from dynsolve.notation.walk import children
 
 _DOTS = ("", "\u0307", "\u0308", "\u20db")
 _SUBSCRIPTS = dict(zip("0123456789ijkn+-=()", SUBSCRIPT_DIGITS + "ᵢⱼₖₙ₊₋₌₍₎", strict=True))

@@ -1,4 +1,12 @@
-"""The bodies of a problem file: what each entry of `masses:` says, before anything is computed."""
+"""The bodies of a problem file: what each entry of `masses:` says, before anything is computed.
+
+Points of a drawing in the frames of their links: `{drawn: [x, y, z]}`, and `axes: base`.
+
+In frame i with origin o and axes x, y, z a point p of the drawing is (x·(p - o), y·(p - o), z·(p - o)).
+The letter of a slide is its drawn value there, and falls out of what is fixed in its link.
+
+A point of a link in a problem file: the mass centre of a body, a named point, where a force acts.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +15,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import Node, Number
-from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix
-from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
-from dynsolve.problem.places import ParsedPlace, read_link, read_place
-from dynsolve.problem.rotations import ParsedRotation, check_moving, read_rotation
-from dynsolve.problem.source import Faults
+from dynsolve.problem.base import ParsedRotation, check_moving, read_rotation
+from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix, read_vector
+from dynsolve.problem.kinds import (
+    CENTERS,
+    MEASURED,
+    Fields,
+    describe,
+    did_you_mean,
+    items,
+    whole_number,
+    word,
+)
 from dynsolve.problem.specification import (
     ABOUT,
     AXIS,
@@ -25,9 +42,141 @@ from dynsolve.problem.specification import (
     TENSOR,
     dimensions,
 )
-from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
-from dynsolve.robot.model import AxesKind
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
+from dynsolve.robot.drawing.normals import Normals, frames
+from dynsolve.robot.model import AxesKind, Convention, JointType
 from dynsolve.robot.shapes import AXES, KINDS, Density
+
+# A point of a link in a problem file
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedPlace:
+    """A point of a link: `kind` is tip, origin, midpoint, along (one cell), near, drawn or at (three)."""
+
+    kind: str
+    span: Span
+    cells: tuple[Cell, ...] = ()
+
+
+def read_link(faults: Faults, node: YamlNode | None, rows: int, ground: str) -> int | None:
+    """The row of the table that something moves with; `ground` says what there is none of on row 0."""
+    help = f"links are counted by the rows of the table, from 1 to {rows}" if rows else "write link: 1"
+    link = whole_number(faults, node, "link", help)
+    if node is None or link is None:
+        return None
+    if link == 0:
+        faults.error(node.span, f"link 0 is the ground, {ground}", help)
+        return None
+    if rows and link > rows:
+        faults.error(node.span, f"there is no link {link}: the table has {rows} row{'s' * (rows > 1)}", help)
+        return None
+    return link
+
+
+def read_place(faults: Faults, node: YamlNode | None, what: str, help: str) -> ParsedPlace | None:
+    """The point that a value says, None (reported) where it is none."""
+    if node is None or isinstance(node, FaultyNode):
+        return None
+    if isinstance(node, ListNode):
+        cells = read_vector(faults, node, what)
+        return ParsedPlace("at", node.span, cells) if cells else None
+    if isinstance(node, MappingNode):
+        return _read_measured(faults, node, what, help)
+    kind = word(faults, node, CENTERS.choices, what, help)
+    return ParsedPlace(kind, node.span) if kind else None
+
+
+def _read_measured(faults: Faults, node: MappingNode, what: str, help: str) -> ParsedPlace | None:
+    fields = Fields(faults, node, MEASURED.names, what)
+    given = tuple(fields)
+    if len(given) > 1 or not node.entries:
+        faults.error(node.span, f"{what} takes one of along, near and drawn", help)
+    if len(given) != 1:
+        return None
+    if "along" in fields:
+        cell = read_cell(faults, fields.get("along"), f"along in {what}")
+        return ParsedPlace("along", node.span, (cell,)) if cell else None
+    (kind,) = given
+    cells = read_vector(faults, fields.get(kind), f"{kind} in {what}")
+    return ParsedPlace(kind, node.span, cells) if cells else None
+
+
+# Points of a drawing in the frames of their links: `{drawn: [x, y, z]}`, and `axes: base`
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnFrames:
+    """The frames in the pose that is drawn, each as the trees of x, y, z and the origin, the hand's last.
+
+    Of a table there are none.
+    """
+
+    frames: tuple[tuple[tuple[Node, ...], ...], ...] = ()
+    slides: frozenset[str] = frozenset()
+    turns_are_drawn: bool = True
+
+    @staticmethod
+    def of(normals: Normals | None, names: Sequence[tuple[str, str]]) -> DrawnFrames:
+        """Those of a drawing; `names` are (coordinate, kind)."""
+        if normals is None:
+            return DrawnFrames()
+        drawing = normals.drawing
+        form = Compactor(drawing.ring).form
+
+        def trees(vector: Matrix) -> tuple[Node, ...]:
+            return tuple(map(form, vector.entries))
+
+        found = [
+            (trees(x), trees(cross(z, x)), trees(z), trees(origin))
+            for origin, x, z in frames(normals, drawing.convention is Convention.MODIFIED)
+        ]
+        slides = frozenset(name for name, kind in names if kind == JointType.PRISMATIC.value)
+        hand, x = normals.hand, normals.hand_x
+        found.append((trees(x), trees(cross(hand.direction, x)), trees(hand.direction), trees(hand.point)))
+        return DrawnFrames(tuple(found), slides, drawing.zero_is_drawn)
+
+    def place(self, faults: Faults, place: ParsedPlace | None, link: int | None) -> ParsedPlace | None:
+        """A place in the frame of its link; one that is not drawn as it is, None where it was reported."""
+        if place is None or place.kind != "drawn":
+            return place
+        if not self.frames:
+            help = "give the point in the frame of its link: [x, y, z], or the joint axes with `axes`"
+            faults.error(place.span, "there is no drawing in which this point could be", help)
+            return None
+        if link is None:
+            return None
+        *axes, origin = self.frames[link]
+        away = [total([cell.tree, negated(start)]) for cell, start in zip(place.cells, origin, strict=True)]
+        pairs = zip(place.cells, axes, strict=True)
+        return replace(place, cells=tuple(self._cell(cell, _dot(axis, away)) for cell, axis in pairs))
+
+    def _cell(self, cell: Cell, tree: Node) -> Cell:
+        names = tuple(name for name in cell.names if name.name not in self.slides)
+        return replace(cell, tree=tree, names=names)
+
+    def axes_of_base(self, link: int | None, span: Span) -> ParsedRotation | None:
+        """Frame 0 seen from a link's frame in the pose that is drawn; None where that is q = 0 anyhow."""
+        if not self.frames or self.turns_are_drawn or link is None:
+            return None
+        frame, base = self.frames[link], self.frames[0]
+        rows = tuple(
+            tuple(Cell("the axes of the base", _dot(mine, theirs), (), "", span[0]) for theirs in base[:3])
+            for mine in frame[:3]
+        )
+        return ParsedRotation(span, "base", rows=rows)
+
+
+def _dot(a: Sequence[Node], b: Sequence[Node]) -> Node:
+    """a · b of trees."""
+    return total([times(1, [(x, 1), (y, 1)]) for x, y in zip(a, b, strict=True)])
+
+
+NOT_DRAWN = DrawnFrames()
+"""The frames of a file with a table."""
+
+
+# The bodies of a problem file
 
 _NAME = re.compile(r"[A-Za-uxyzXYZ]?[0-9]*")
 _EXAMPLE = PROBLEM["masses"].help

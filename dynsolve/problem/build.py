@@ -13,22 +13,20 @@ from typing import TYPE_CHECKING
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.actions import NO_ACTIONS
 from dynsolve.problem.bodies import ParsedBody, ParsedShape
-from dynsolve.problem.body_values import mass_value, tensor_value
-from dynsolve.problem.parsed_file import ParsedFile
-from dynsolve.problem.positions import PlaceBuilder
+from dynsolve.problem.model import ParsedFile
 from dynsolve.problem.questions_build import load, named_point, with_questions
-from dynsolve.problem.source import Faults
 from dynsolve.problem.table import COLUMNS, DHRow
-from dynsolve.problem.values import CellValues, evaluate
+from dynsolve.problem.values import CellValues, PlaceBuilder, evaluate, mass_value, tensor_value
+from dynsolve.problem.yaml_nodes import Faults
 from dynsolve.quantities.families import HOLD_FORCES
 from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
-from dynsolve.robot.model_questions import reference
+from dynsolve.robot.questions import reference
 from dynsolve.robot.shapes import AXES, KINDS, Density, Shape
 
 if TYPE_CHECKING:
     from dynsolve.problem.mechanism import ParsedModel
-    from dynsolve.robot.mechanism import GivenModel
+    from dynsolve.robot.actions import GivenModel
 
 
 def build_robot(
@@ -89,7 +87,7 @@ def _with_candidates(values: CellValues, parsed: ParsedFile, robot: Robot) -> Ro
     """The robot with the matrices that may be its inertia matrix, where a file has any."""
     if parsed.candidates is None:
         return robot
-    from dynsolve.problem.candidates_build import assumed, candidates
+    from dynsolve.problem.candidates import assumed, candidates
 
     judged = candidates(values, parsed.candidates, robot.given.D if robot.given else None)
     asks = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
@@ -98,14 +96,14 @@ def _with_candidates(values: CellValues, parsed: ParsedFile, robot: Robot) -> Ro
 
 def _placed(values: CellValues, model: ParsedModel) -> Sequence[Body | None]:
     """The bodies of a mechanism by positions; a file with a table does not import what makes them."""
-    from dynsolve.problem.mechanism_build import placed_bodies
+    from dynsolve.problem.mechanism import placed_bodies
 
     return placed_bodies(values, model)
 
 
 def _given(values: CellValues, model: ParsedModel) -> GivenModel | None:
     """The energies that a file gives in the place of bodies."""
-    from dynsolve.problem.mechanism_build import given_model
+    from dynsolve.problem.mechanism import given_model
 
     return given_model(values, model)
 

@@ -1,4 +1,7 @@
-"""`candidates`, `assume` and `chain` of a problem file: matrices to be judged, and what is assumed."""
+"""`candidates`, `assume` and `chain` of a problem file: matrices to be judged, and what is assumed.
+
+Matrices that are to be judged, and what is assumed of their parameters, with exact values.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +10,19 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
+from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.errors import ReadError
-from dynsolve.notation.names import normalize
+from dynsolve.notation.characters import normalize
+from dynsolve.problem.action_keys import ASSUME, CANDIDATES, CHAIN, MAX_ASSUMED, MAX_CANDIDATES
 from dynsolve.problem.cells import Cell, forbid, read_text
-from dynsolve.problem.definite_keys import ASSUME, CANDIDATES, CHAIN, MAX_ASSUMED, MAX_CANDIDATES
-from dynsolve.problem.fields import Fields, describe, did_you_mean, word
+from dynsolve.problem.kinds import Fields, describe, did_you_mean, word
 from dynsolve.problem.mechanism import read_square
-from dynsolve.problem.source import Faults
-from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, YamlNode
+from dynsolve.problem.values import CellValues
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, YamlNode
+from dynsolve.robot.actions import Candidate
+
+# `candidates`, `assume` and `chain` of a problem file
 
 _SIGN = re.compile(r">=|<=|[<>≥≤]")
 EVERY = ""
@@ -131,3 +139,35 @@ def _inequality(faults: Faults, node: ScalarNode) -> Iterator[ParsedInequality]:
         if left is not None and right is not None:
             is_strict = sign[0] in "<>"
             yield ParsedInequality(*((left, right) if sign[0][0] in ">≥" else (right, left)), is_strict)
+
+
+# Matrices that are to be judged, and what is assumed of their parameters, with exact values
+
+
+def candidates(values: CellValues, parsed: ParsedCandidates, given: Matrix | None) -> tuple[Candidate, ...]:
+    """The matrices to be judged, or the D that a model is given by; what is wrong is reported."""
+    every = _bounds(values, parsed.assumed.get(EVERY, ()))
+    if not parsed.matrices:
+        return (Candidate("D", given, every, parsed.is_relative),) if given is not None else ()
+    made = []
+    for name, cells in parsed.matrices.items():
+        rows = [[values.expr(cell) for cell in row] for row in cells]
+        known = [[entry for entry in row if entry is not None] for row in rows]
+        if all(len(row) == len(cells) for row in known):
+            own = _bounds(values, parsed.assumed.get(name, ()))
+            made.append(Candidate(name, Matrix.of(values.ring, known), (*every, *own), parsed.is_relative))
+    return tuple(made)
+
+
+def assumed(values: CellValues, parsed: ParsedCandidates) -> tuple[Bound, ...]:
+    """What is assumed of the parameters, whatever matrix they stand in."""
+    return _bounds(values, parsed.assumed.get(EVERY, ()))
+
+
+def _bounds(values: CellValues, parsed: tuple[ParsedInequality, ...]) -> tuple[Bound, ...]:
+    found = []
+    for one in parsed:
+        left, right = values.expr(one.left), values.expr(one.right)
+        if left is not None and right is not None:
+            found.append(Bound(left - right, one.is_strict))
+    return tuple(found)

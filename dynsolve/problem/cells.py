@@ -1,20 +1,38 @@
-"""Expressions in a problem file: read where they stand, their errors at the very character."""
+"""Expressions in a problem file: read where they stand, their errors at the very character.
+
+Expressions in which rates of coordinates may stand: x' or x_dot.
+
+Expressions in which coordinates of points may stand: tip.x, P.y.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+import re
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
 from math import pi
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
 from dynsolve.errors import AlgebraError, ReadError
 from dynsolve.notation.text import Name, read
 from dynsolve.notation.tokens import rational, tokens
-from dynsolve.notation.tree import Function, Negative, Node, Power, Quotient
-from dynsolve.notation.walk import walk
-from dynsolve.problem.fields import describe
-from dynsolve.problem.source import Faults
-from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, ScalarNode, Span, YamlNode, too_many
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Power,
+    Quotient,
+    Reference,
+    Symbol,
+    mapped,
+    names_in,
+    walk,
+)
+from dynsolve.problem.kinds import describe, did_you_mean
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, ScalarNode, Span, YamlNode, too_many
+from dynsolve.robot.questions import TIP, coordinate_of
+
+# Expressions in a problem file: read where they stand, their errors at the very character
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,3 +213,113 @@ def forbid(faults: Faults, cells: Iterable[Cell | None], coordinates: Iterable[s
             if cell and name.name in coordinates:
                 message = f"{cell.what} contains the coordinate {name.name}"
                 faults.error(cell.span_of(name), message, help)
+
+
+# Expressions in which rates of coordinates may stand: x' or x_dot
+
+_PRIMES = re.compile(r"(?<=\w)'{1,2}")
+
+
+def read_rate_cell(
+    faults: Faults, node: YamlNode | None, what: str, coordinates: Collection[str]
+) -> Cell | None:
+    """The expression of a node, None (reported) where it cannot be read; its names are those of no rate."""
+    if not isinstance(node, ScalarNode) or not node.text.strip():
+        return read_cell(faults, node, what)
+    text = _PRIMES.sub(_spelled_out, node.text)
+    try:
+        reading = read(text, dots=True)
+    except ReadError as error:
+        at, end = (node.start + _place(node.text, error.offset + k) for k in (0, error.length))
+        faults.error((at, max(end, at + 1)), error.message, error.help)
+        return None
+    rates = {f"{part.name}_{'d' * part.dots}ot": part for part in _rates(reading.tree)}
+    cell = Cell(what, reading.tree, (), node.text, node.start)
+    names = [_placed(node.text, name) for name in reading.names]
+    for name in names:
+        if name.name in rates and not _is_rate(faults, cell, name, rates[name.name], coordinates):
+            return None
+    return replace(cell, names=tuple(name for name in names if name.name not in rates))
+
+
+def _spelled_out(primes: re.Match[str]) -> str:
+    return f"_{'d' * len(primes[0])}ot"
+
+
+def _rates(tree: Node) -> list[Symbol]:
+    return [part for part in walk(tree) if isinstance(part, Symbol) and part.dots]
+
+
+def _is_rate(faults: Faults, cell: Cell, name: Name, rate: Symbol, coordinates: Collection[str]) -> bool:
+    """Whether it is the first derivative of a coordinate; what it is else is reported."""
+    if rate.name not in coordinates:
+        message = f"{rate.name} is no coordinate, and so has no rate"
+        help = f"coordinates are {', '.join(coordinates)}"
+    elif rate.dots > 1:
+        message = f"the acceleration of {rate.name} stands in {cell.what}"
+        help = "energies hold coordinates and rates alone"
+    else:
+        return True
+    faults.error(cell.span_of(name), message, help)
+    return False
+
+
+def _placed(text: str, name: Name) -> Name:
+    """A name where it stands in the text before its primes were spelled out."""
+    start, end = _place(text, name.offset), _place(text, name.offset + name.length)
+    return replace(name, offset=start, length=end - start)
+
+
+def _place(text: str, offset: int) -> int:
+    """The place in the text of a character of it with its primes spelled out."""
+    for primes in _PRIMES.finditer(text):
+        if primes.start() >= offset:
+            break
+        longer = len(_spelled_out(primes)) - len(primes[0])
+        offset -= min(longer, offset - primes.start())
+    return offset
+
+
+# Expressions in which coordinates of points may stand: tip.x, P.y
+
+_COORDINATE = re.compile(r"(?<![\w.])([A-Za-z]\w*)\.([xyz])(?!\w)")
+
+
+def read_point_expression(
+    faults: Faults, node: YamlNode, what: str, points: Collection[str], coordinates: Collection[str]
+) -> Cell | None:
+    """An expression in which P.x is a coordinate of a point; what is wrong with it is reported.
+
+    A `Reference` stands for that coordinate.  Nothing that moves may stand in a denominator.
+    """
+    dotted = list(_COORDINATE.finditer(node.text)) if isinstance(node, ScalarNode) else []
+    for found in dotted:
+        if found[1] not in (TIP, *points):
+            start = node.start + found.start() if isinstance(node, ScalarNode) else 0
+            help = did_you_mean(found[1], (TIP, *points)) or "points are the tip and those of `points:`"
+            faults.error((start, start + len(found[1])), f"there is no point {found[1]}", help)
+            return None
+    plain = replace(node, text=_COORDINATE.sub(r"\1_\2", node.text)) if isinstance(node, ScalarNode) else node
+    cell = read_cell(faults, plain, what)
+    if cell is None:
+        return None
+    places = {found.start() for found in dotted}
+    meant = {f"{found[1]}_{found[2]}": coordinate_of(found[1], "xyz".index(found[2])) for found in dotted}
+
+    def with_references(part: Node) -> Node:
+        return meant.get(part.name, part) if isinstance(part, Symbol) else part
+
+    names = tuple(name for name in cell.names if name.offset not in places)
+    sound = replace(cell, tree=mapped(cell.tree, with_references), names=names)
+    return sound if _is_polynomial(faults, sound, coordinates) else None
+
+
+def _is_polynomial(faults: Faults, cell: Cell, coordinates: Collection[str]) -> bool:
+    """Whether no coordinate, and no coordinate of a point, stands in a denominator or under a root."""
+    roots = [part for part in walk(cell.tree) if isinstance(part, Function) and part.name == "sqrt"]
+    for part in (*denominators(cell.tree), *roots):
+        if names_in(part) & set(coordinates) or any(isinstance(p, Reference) for p in walk(part)):
+            message = f"{cell.what}: a coordinate stands in a denominator or under a root"
+            faults.error(cell.span, message, "it is made of sums, products, sines and cosines")
+            return False
+    return True

@@ -5,16 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from dynsolve.notation.tree import Node, Symbol
-from dynsolve.notation.walk import names_in, walk
-from dynsolve.problem.cells import Cell, denominators
-from dynsolve.problem.constraint_keys import MAX_CONSTRAINTS, RATES
-from dynsolve.problem.fields import Fields, items
-from dynsolve.problem.point_expressions import read_point_expression
-from dynsolve.problem.rate_cells import read_rate_cell
-from dynsolve.problem.source import Faults
+from dynsolve.notation.tree import Node, Symbol, names_in, walk
+from dynsolve.problem.action_keys import MAX_CONSTRAINTS, RATES
+from dynsolve.problem.cells import Cell, denominators, read_point_expression, read_rate_cell
+from dynsolve.problem.kinds import Fields, items
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.yaml_nodes import MappingNode, YamlNode
+from dynsolve.problem.yaml_nodes import Faults, MappingNode, YamlNode
 
 _LINEAR = "a constraint on rates is a sum of rates, each times a function of the coordinates"
 

@@ -11,19 +11,17 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import times
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Function, Node, Symbol
-from dynsolve.notation.walk import mapped, names_in, walk
+from dynsolve.notation.tree import Function, Node, Symbol, mapped, names_in, walk
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.source import Faults
+from dynsolve.problem.yaml_nodes import Faults
 from dynsolve.robot.shapes import AXES, KINDS, Density, ShapeKind, SliceMoment
 
 ALONG = "x"

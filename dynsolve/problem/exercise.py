@@ -11,18 +11,15 @@ from math import radians
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, ReadError
-from dynsolve.notation.names import normalize
+from dynsolve.notation.characters import normalize
 from dynsolve.notation.tree import Node as Tree
 from dynsolve.notation.tree_values import evaluate
-from dynsolve.problem.answer_names import answer_meant
+from dynsolve.problem.answer_names import Remark, answer_meant, read_remarks
 from dynsolve.problem.cells import Cell, read_cell
-from dynsolve.problem.fields import Fields, describe, items
-from dynsolve.problem.model import FIND
-from dynsolve.problem.parsed_file import ParsedFile
-from dynsolve.problem.remarks import Remark, read_remarks
-from dynsolve.problem.source import Faults
+from dynsolve.problem.kinds import Fields, describe, items
+from dynsolve.problem.model import FIND, ParsedFile
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, MappingNode, ScalarNode, YamlNode
 from dynsolve.quantities.index import Quantities
 
 _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9²³⁻¹·*/^ .()-]{1,30}")

@@ -2,14 +2,26 @@
 
 A kind knows no file: `schema.py` says what JSON Schema makes of it, `documentation.py` how
 it is written.
+
+Kinds of values that several keys of a problem file have.
+
+The structure of a problem file: which keys a mapping has, what kind of value each holds.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any
+
+from dynsolve.errors import ReadError
+from dynsolve.notation.characters import normalize
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
+
+# The kinds of values that a key of a file may have, and the key itself
 
 BRACKETS = re.compile(r"\{[^{}]*(?:\{[^{}]*\})?[^{}]*\}|\[[^]]*\]")
 """An example in a sentence: [0, 0, -g], {rod: {length: l1}}."""
@@ -148,3 +160,206 @@ def either(names: Iterable[str]) -> str:
     """
     *most, last = names
     return f"{', '.join(most)} or {last}" if most else last
+
+
+# Kinds of values that several keys of a problem file have
+
+TEXT = Plain("a line of text", {"type": ["string", "number"]})
+NUMBER = Plain("a number", {"type": ["string", "number"]})
+NAME = Plain("a name", {"type": "string"})
+EXPRESSION = Shared(
+    "expression",
+    Plain("an expression", {"type": ["string", "number"]}),
+    "an expression",
+    "A number, a name or a formula: m1*lc1^2, 9.81, sqrt(3)/2, 90deg.",
+)
+VECTOR = Shared("vector", ListOf(EXPRESSION, "", 3, 3), "`[x, y, z]`")
+MATRIX = Shared("matrix", ListOf(VECTOR, "", 3, 3), "a 3×3 list")
+ROTATION = Shared(
+    "rotation",
+    OneOf((Plain("`Rz(90deg) Rx(30deg)`", {"type": "string", "pattern": "^R[xyz] ?\\("}), MATRIX)),
+    "a rotation",
+    "A product of rotations, left to right: Rz(90deg) Rx(30deg); or a 3×3 list.",
+)
+
+# -- a point of a link -----------------------------------------------------------------------------
+
+CENTERS = Word(("tip", "origin", "midpoint"))
+ALONG = Keyed((Key("along", EXPRESSION, example="1/2", required=True),))
+NEAR = Keyed((Key("near", VECTOR, example="[lc1, 0, 0]", required=True),))
+DRAWN = Keyed((Key("drawn", VECTOR, example="[l1, 0, h]", required=True),))
+MEASURED = Keyed((*ALONG.keys, *NEAR.keys, *DRAWN.keys))
+PLACE = OneOf((CENTERS, ALONG, NEAR, DRAWN, VECTOR))
+LINK = Plain("a whole number", {"type": "integer", "minimum": 1})
+FRAME = Plain("a whole number", {"type": "integer", "minimum": 0})
+
+
+# The structure of a problem file: which keys a mapping has, what kind of value each holds
+
+
+def describe(node: YamlNode) -> str:
+    """The kind of a node in words, for a message."""
+    if isinstance(node, MappingNode):
+        return "a mapping"
+    if isinstance(node, ListNode):
+        return "a list"
+    return f"`{_short(node.text)}`" if isinstance(node, ScalarNode) and node.text else "nothing"
+
+
+def _short(text: str) -> str:
+    text = " ".join(text.split())
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The known word that was probably meant, or nothing where none is near.
+
+    >>> nearest("mas", ("mass", "link")), nearest("zx", ("xx", "xz")), nearest("foo", ("mass",))
+    ('mass', 'xz', '')
+    """
+    folded = {name.lower(): name for name in known}
+    word = word.lower()[:60]
+    if word in folded:
+        return folded[word]
+    if word[::-1] in folded:
+        return folded[word[::-1]]
+    close = get_close_matches(word, folded, 1, 0.6)
+    return folded[close[0]] if close else ""
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The question whether the nearest known word was meant, or nothing."""
+    meant = nearest(word, known)
+    return f"did you mean `{meant}`?" if meant else ""
+
+
+def odd_letter(word: str) -> str:
+    """A remark on the first letter that is not Latin but may look so."""
+    for character in word:
+        if not character.isascii():
+            name = unicodedata.name(character, "?").lower()
+            return f"`{character}` is U+{ord(character):04X} ({name})"
+    return ""
+
+
+def _spelled_out(word: str, known: Sequence[str]) -> str:
+    """The known word that is written with a Greek letter, as in the table on paper."""
+    try:
+        spelled = normalize(word) if not word.isascii() else ""
+    except ReadError:
+        return ""
+    return spelled if spelled in known else ""
+
+
+def unknown(faults: Faults, key: ScalarNode, value: YamlNode, known: Sequence[str], what: str) -> str:
+    """Note an unknown key; the known one that was probably meant, or nothing."""
+    word = key.decoded
+    name, colon, _ = word.partition(":")
+    if colon and name.strip() in known and isinstance(value, ScalarNode) and not value.text:
+        message = f"a blank is missing after the colon of `{name}:`"
+        help = f"write `{name}: {word.partition(':')[2].strip()}`"
+        faults.error(key.span, message, help)
+        return name.strip()
+    odd = odd_letter(word)
+    plain = "".join(c if c.isascii() else "?" for c in word)
+    meant = _spelled_out(word, known) or nearest(plain, known)
+    help = f"did you mean `{meant}`?" if meant else f"known are {', '.join(known)}"
+    if odd:
+        help = f"{odd}; {help}"
+    faults.error(key.span, f"unknown key `{_short(word)}` in {what}", help)
+    return meant
+
+
+class Fields:
+    """A mapping with known keys; unknown ones are reported when it is made."""
+
+    def __init__(self, faults: Faults, node: MappingNode, known: Sequence[str], what: str) -> None:
+        self.faults, self.span, self.what = faults, node.span, what
+        self._values: dict[str, YamlNode] = {}
+        self._keys: dict[str, ScalarNode] = {}
+        self._meant: set[str] = set()
+        for key, value in node.entries:
+            if key.decoded in known:
+                self._values[key.decoded], self._keys[key.decoded] = value, key
+            else:
+                self._meant.add(unknown(faults, key, value, known, what))
+
+    def __contains__(self, key: str) -> bool:
+        return key in self._values
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def lacks(self, key: str) -> bool:
+        """Whether a key is not given, not even misspelled."""
+        return key not in self._values and key not in self._meant
+
+    def get(self, key: str) -> YamlNode | None:
+        """The value of a key, None where it is not given."""
+        return self._values.get(key)
+
+    def key_span(self, key: str) -> Span:
+        """Where a key stands; where it does not, the mapping."""
+        return self._keys[key].span if key in self._keys else self.span
+
+    def span_of(self, key: str) -> Span:
+        """Where the value of a key stands; where it does not, the mapping."""
+        node = self._values.get(key)
+        if node is None:
+            return self.span
+        return node.span if node.span[1] > node.span[0] else self.key_span(key)
+
+
+def mapping(
+    faults: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str
+) -> Fields | None:
+    """A mapping's fields, or None (reported) where it is none."""
+    if isinstance(node, MappingNode):
+        return Fields(faults, node, known, what)
+    if node is not None and not isinstance(node, FaultyNode):
+        faults.error(node.span, f"{what} must be a mapping, not {describe(node)}", help)
+    return None
+
+
+def items(faults: Faults, node: YamlNode | None, what: str, help: str) -> tuple[YamlNode, ...]:
+    """The items of a list; empty (and reported) where it is none."""
+    if isinstance(node, ListNode):
+        return node.items
+    if node is not None and not isinstance(node, FaultyNode):
+        faults.error(node.span, f"{what} must be a list, not {describe(node)}", help)
+    return ()
+
+
+def word(
+    faults: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str = ""
+) -> str | None:
+    """One of a few words, None (reported, with `help` unless one is close) where it is another."""
+    if node is None or isinstance(node, FaultyNode):
+        return None
+    text = node.text if isinstance(node, ScalarNode) else ""
+    if text in known:
+        return text
+    choices = ", ".join(known)
+    close = did_you_mean(text, known) if text else ""
+    message = f"{what} is one of {choices}, not {describe(node)}"
+    faults.error(node.span, message, close or help or f"write one of {choices}")
+    return None
+
+
+def whole_number(faults: Faults, node: YamlNode | None, what: str, help: str) -> int | None:
+    """A number 0, 1, 2, ... of few digits, None (reported) where it is none."""
+    if node is None or isinstance(node, FaultyNode):
+        return None
+    if isinstance(node, ScalarNode) and node.text.isascii() and node.text.isdigit() and len(node.text) <= 4:
+        return int(node.text)
+    faults.error(node.span, f"{what} is a whole number, not {describe(node)}", help)
+    return None
+
+
+def free_text(faults: Faults, node: YamlNode | None, what: str) -> str:
+    """A line of prose; empty where there is none."""
+    if isinstance(node, ScalarNode):
+        return " ".join(node.decoded.split())
+    if node is not None and not isinstance(node, FaultyNode):
+        faults.error(node.span, f"{what} is a line of text, not {describe(node)}", "write it on one line")
+    return ""

@@ -1,19 +1,90 @@
-"""A problem: a robot, its exercise, and the place of each part in the file."""
+"""A problem: a robot, its exercise, and the place of each part in the file.
+
+A whole problem file as it was read, before anything is computed.
+
+What else counts as an answer DH: `also` and `strict` in a problem file.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import PurePath
 from re import compile as pattern
+from typing import TYPE_CHECKING
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.errors import Finding
-from dynsolve.problem.accepted_tables import AcceptedTables
-from dynsolve.problem.remarks import Remark
-from dynsolve.robot.drawing.procedure import Normals
-from dynsolve.robot.model import Convention, Robot
+from dynsolve.notation.tree import Node
+from dynsolve.problem.actions import NO_ACTIONS, ParsedActions
+from dynsolve.problem.answer_names import Remark
+from dynsolve.problem.base import ParsedBase, ParsedRotation
+from dynsolve.problem.bodies import ParsedBody
+from dynsolve.problem.cells import Cell
+from dynsolve.problem.kinds import Fields, describe, items, word
+from dynsolve.problem.questions import ParsedQuestions
+from dynsolve.problem.specification import MAX_ROWS, PROBLEM, STRICT
+from dynsolve.problem.table import COLUMNS, DHTable, read_listed_row
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, YamlNode
+from dynsolve.quantities.owners import Owners
+from dynsolve.quantities.stages import ASKED_FOR
+from dynsolve.robot.drawing.normals import Normals
+from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType, Robot
+
+if TYPE_CHECKING:
+    from dynsolve.problem.candidates import ParsedCandidates
+    from dynsolve.problem.mechanism import ParsedModel
+
+
+# What else counts as an answer DH: `also` and `strict` in a problem file
+
+Table = tuple[tuple[Node, ...], ...]
+"""Rows of θ, d, a, α as they are written."""
+
+_MOST_TABLES = 20
+_HELP = PROBLEM["also"].help
+
+
+@dataclass(frozen=True, slots=True)
+class AcceptedTables:
+    """Further tables that count as they stand, and whether coordinates must be counted as the key does."""
+
+    also: tuple[Table, ...] = ()
+    strict: bool = False
+
+
+def read_accepted_tables(faults: Faults, fields: Fields) -> AcceptedTables:
+    """What `also` and `strict` say; everything wrong with them is reported."""
+    strict = word(faults, fields.get("strict"), STRICT.choices, "strict", PROBLEM["strict"].help)
+    nodes = items(faults, fields.get("also"), "also", _HELP)
+    if len(nodes) > _MOST_TABLES:
+        faults.error(fields.key_span("also"), f"{len(nodes)} tables; at most {_MOST_TABLES} are read", _HELP)
+    tables = [_read_table(faults, node, i) for i, node in enumerate(nodes[:_MOST_TABLES], 1)]
+    return AcceptedTables(tuple(table for table in tables if table), strict == "true")
+
+
+def _read_table(faults: Faults, node: YamlNode, number: int) -> Table | None:
+    rows = items(faults, node, f"table {number} of also", _HELP)
+    if len(rows) > MAX_ROWS:
+        faults.error(node.span, f"{len(rows)} rows; at most {MAX_ROWS} are read", _HELP)
+    read = [_read_row(faults, row, i) for i, row in enumerate(rows[:MAX_ROWS], 1)]
+    return tuple(row for row in read if row) if read and None not in read else None
+
+
+def _read_row(faults: Faults, node: YamlNode, index: int) -> tuple[Node, ...] | None:
+    if isinstance(node, FaultyNode):
+        return None
+    if not isinstance(node, ListNode):
+        message = f"row {index} of this table is [θ, d, a, α], not {describe(node)}"
+        faults.error(node.span, message, _HELP)
+        return None
+    cells = read_listed_row(faults, node, index)
+    return tuple(cell.tree for cell in cells.values()) if len(cells) == len(COLUMNS) else None
+
+
+# A problem: a robot, its exercise, and the place of each part in the file
 
 Path = tuple[str | int, ...]
 """The way to a part of a file: ("masses", 0, "axes"), list items from 0."""
@@ -95,3 +166,158 @@ class Problem:
             return Finding(message, help, self.file, code=code)
         place = self.places[path]
         return Finding(message, help, self.file, place.line, place.column, place.length, place.excerpt, code)
+
+
+# A whole problem file as it was read, before anything is computed
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedFile:
+    """The parts of a problem file that make a robot."""
+
+    convention: Convention
+    table: DHTable
+    gravity: tuple[Cell, ...] | None
+    base: ParsedBase
+    bodies: tuple[ParsedBody, ...]
+    questions: ParsedQuestions
+    normals: Normals | None = None
+    """Of a drawing, the normals that its table was made from."""
+    actions: ParsedActions = NO_ACTIONS
+    model: ParsedModel | None = None
+    """In the place of a table and its bodies: a mechanism by positions, or given energies."""
+    candidates: ParsedCandidates | None = None
+    """Matrices to be judged, alone or beside a model, and what is assumed of their parameters."""
+
+    @property
+    def has_matrices(self) -> bool:
+        """Whether there are matrices to be judged: candidates, or the D of a model."""
+        if self.candidates is None:
+            return False
+        return bool(self.candidates.matrices) or (self.model is not None and self.model.D is not None)
+
+    @property
+    def is_of_matrices(self) -> bool:
+        """Whether matrices stand in the place of a robot."""
+        return self.candidates is not None and self.model is None and not self.table.rows
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing of the table, its bodies or the model was reported."""
+        if self.candidates is not None and self.candidates.faulty:
+            return False
+        if self.model is not None or self.is_of_matrices:
+            return self.model is None or not self.model.faulty
+        return self.table.sound and not any(body.faulty for body in self.bodies)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """The generalized coordinates in their order."""
+        return tuple(
+            Coordinate(name, JointType(kind), index)
+            for index, (name, kind) in enumerate(self.table.coordinates, 1)
+        )
+
+    @property
+    def owners(self) -> Owners:
+        """What the answers to this problem can belong to, whatever of it is asked for."""
+        bodies = self.model.bodies if self.model else self.bodies
+        return Owners(
+            rows=len(self.table.rows),
+            coordinates=self.coordinates,
+            bodies=tuple(body.name for body in bodies),
+            points=frozenset(body.name for body in bodies if body.is_point),
+            named=self.questions.names,
+            stages=frozenset(ASKED_FOR),
+            is_twist=self.questions.task is not None and self.questions.task.is_twist,
+            constraints=len(self.questions.constraints),
+            rates=self.questions.rates,
+            given=frozenset(
+                name
+                for name, there in (
+                    ("mass", self.bodies or self.model),
+                    ("linearize", self.questions.model.linearize),
+                    ("references", True),
+                )
+                if there
+            ),
+            actions=self.actions.kinds,
+            has_matrices=self.has_matrices,
+            has_robot=not self.is_of_matrices,
+        )
+
+    @property
+    def rotations(self) -> Iterator[ParsedRotation]:
+        """Every rotation that is given."""
+        if self.base.rotation:
+            yield self.base.rotation
+        for body in self.bodies:
+            if body.axes and body.axes.rotation:
+                yield body.axes.rotation
+        yield from self.questions.rotations
+
+    @property
+    def moving(self) -> Iterator[Cell]:
+        """The values that may hold coordinates: d, and rotations given from the base."""
+        for row in self.table.rows:
+            if not row.faulty:
+                yield row.cells["d"]
+        for body in self.bodies:
+            if body.axes and body.axes.kind is AxesKind.BASE and body.axes.rotation:
+                yield from body.axes.rotation.entries
+        if self.model:
+            yield from self.model.moving
+        if self.candidates:
+            yield from self.candidates.moving
+        yield from self.questions.moving
+        yield from self.actions.moving
+
+    @property
+    def constant(self) -> Iterator[Cell]:
+        """The values that are constant."""
+        for row in self.table.rows:
+            if not row.faulty:
+                yield row.cells["a"]
+        for body in self.bodies:
+            yield from body.values
+        if self.model:
+            yield from self.model.constant
+        if self.candidates:
+            yield from self.candidates.constant
+        yield from self.gravity or ()
+        yield from self.base.move or ()
+        if self.base.rotation:
+            yield from self.base.rotation.entries
+        yield from self.questions.constant
+        yield from self.actions.constant
+
+    @property
+    def angles(self) -> Iterator[tuple[Cell, Angle]]:
+        """Every angle that is turned by, with the cell it stands in."""
+        for row in self.table.rows:
+            if not row.faulty:
+                yield from ((row.cells[column], angle) for column, angle in row.angles.items())
+        for rotation in self.rotations:
+            yield from ((turn.cell, turn.angle) for turn in rotation.turns)
+        if self.model:
+            yield from ((turn.cell, turn.angle) for turn in self.model.turns)
+
+    @property
+    def cells(self) -> Iterator[Cell]:
+        """Every cell that was read."""
+        for row in self.table.rows:
+            yield from row.cells.values()
+        for rotation in self.rotations:
+            yield from rotation.cells
+        for body in self.bodies:
+            yield from body.values
+        if self.model:
+            yield from self.model.cells
+        if self.candidates:
+            yield from (*self.candidates.moving, *self.candidates.constant)
+        yield from self.gravity or ()
+        yield from self.base.move or ()
+        yield from self.questions.constant
+        yield from self.questions.moving
+        yield from self.actions.constant
+        yield from self.actions.moving

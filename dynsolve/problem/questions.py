@@ -1,31 +1,291 @@
-"""What a problem file asks around the model, as it is written: named points, the task, forces, the state."""
+"""What a problem file asks around the model, as it is written: named points, the task, forces, the state.
+
+What a problem file asks of the equations of motion: which parameters are known, the entries of a.
+
+`reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from dynsolve.problem.cells import Cell, forbid, read_expressions
-from dynsolve.problem.constraints import ParsedConstraint, read_constraints
-from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
-from dynsolve.problem.fields import Fields, items, whole_number, word
-from dynsolve.problem.kinematic_keys import ALL, IN_LINK, MAX_POINTS, MAX_TASK, POINT, WHOLE
-from dynsolve.problem.loads import ParsedLoad, read_loads
-from dynsolve.problem.model_questions import (
-    NO_MODEL_QUESTIONS,
-    ParsedModelQuestions,
-    read_model_questions,
+from dynsolve.errors import ReadError
+from dynsolve.notation.characters import normalize
+from dynsolve.notation.tree import Symbol
+from dynsolve.problem.actions import ParsedLoad, ParsedWeights, read_loads, read_weights
+from dynsolve.problem.base import ParsedRotation
+from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames, ParsedPlace, read_link, read_place
+from dynsolve.problem.cells import (
+    Cell,
+    forbid,
+    read_angle,
+    read_cell,
+    read_expressions,
+    read_point_expression,
 )
-from dynsolve.problem.places import ParsedPlace, read_link, read_place
-from dynsolve.problem.point_expressions import read_point_expression
-from dynsolve.problem.reach import NO_REACH, ParsedLimits, ParsedReach, read_limits, read_reach
-from dynsolve.problem.rotations import ParsedRotation
-from dynsolve.problem.source import Faults
+from dynsolve.problem.constraints import ParsedConstraint, read_constraints
+from dynsolve.problem.kinds import Fields, describe, did_you_mean, items, mapping, whole_number, word
+from dynsolve.problem.kinematic_keys import (
+    ALL,
+    BALANCE,
+    IN_LINK,
+    INPUTS,
+    KNOWN,
+    MAX_PARAMETERS,
+    MAX_POINTS,
+    MAX_TASK,
+    POINT,
+    WHOLE,
+)
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.state import ParsedState, is_reached, read_state
-from dynsolve.problem.weights import ParsedWeights, read_weights
-from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
+from dynsolve.problem.state import ParsedState, is_reached, read_equilibrium, read_state, read_steady
+from dynsolve.problem.table import by_coordinate
+from dynsolve.problem.yaml_nodes import (
+    Faults,
+    FaultyNode,
+    ListNode,
+    MappingNode,
+    ScalarNode,
+    Span,
+    YamlNode,
+    too_many,
+)
+
+# What a problem file asks of the equations of motion
+
+_HELP = PROBLEM["parameters"].help
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedModelQuestions:
+    """The names that are known, each with its place, and the entries of a by their names."""
+
+    known: tuple[tuple[str, Span], ...] = ()
+    parameters: tuple[tuple[str, Cell], ...] = ()
+    linearize: ParsedState | None = None
+    steady: ParsedState | None = None
+    inputs_given: bool = False
+    balanced: tuple[Cell, ...] = ()
+
+    @property
+    def constant(self) -> Iterator[Cell]:
+        """The values that are constant."""
+        yield from (cell for _, cell in self.parameters)
+        for state in (self.linearize, self.steady):
+            yield from state.cells.values() if state else ()
+
+
+NO_MODEL_QUESTIONS = ParsedModelQuestions()
+"""What a file asks that asks nothing of its model."""
+
+
+def read_model_questions(
+    faults: Faults, fields: Fields, coordinates: Mapping[str, str]
+) -> ParsedModelQuestions:
+    """The keys of a file that ask something of the equations of motion; what is wrong is reported."""
+    parameters = _read_parameters(faults, fields.get("parameters"), coordinates)
+    given = word(faults, fields.get("inputs"), INPUTS.choices, "inputs", PROBLEM["inputs"].help)
+    equilibrium = read_equilibrium(faults, fields.get("linearize"), coordinates)
+    return replace(
+        parameters,
+        linearize=equilibrium,
+        steady=read_steady(faults, fields.get("steady"), coordinates),
+        inputs_given=given is not None,
+        balanced=_read_balanced(faults, fields.get("balance"), len(coordinates)),
+    )
+
+
+def _read_balanced(faults: Faults, node: YamlNode | None, n: int) -> tuple[Cell, ...]:
+    help = PROBLEM["balance"].help
+    fields = mapping(faults, node, BALANCE.names, "balance", help)
+    cells = read_expressions(faults, fields.get("g"), "g", help) if fields else None
+    if fields is None or cells is None:
+        return ()
+    if len(cells) != n:
+        faults.error(fields.span, f"g has {len(cells)} entries, for {n} coordinates", help)
+    return cells if len(cells) == n else ()
+
+
+def _read_parameters(
+    faults: Faults, node: YamlNode | None, coordinates: Collection[str]
+) -> ParsedModelQuestions:
+    if node is None or isinstance(node, FaultyNode):
+        return NO_MODEL_QUESTIONS
+    if not isinstance(node, MappingNode):
+        faults.error(node.span, f"parameters is a mapping, not {describe(node)}", _HELP)
+        return NO_MODEL_QUESTIONS
+    known: tuple[tuple[str, Span], ...] = ()
+    cells: dict[str, Cell] = {}
+    for key, value in node.entries:
+        if key.decoded == KNOWN:
+            known = tuple(_names(faults, value))
+            continue
+        name, cell = _name(faults, key), read_cell(faults, value, f"the parameter {key.decoded}")
+        if name in cells:
+            faults.error(key.span, f"{name} is given twice", "keep one of them")
+        elif name and cell:
+            forbid(faults, [cell], coordinates, "a parameter is free of coordinates: they stand in Y")
+            cells[name] = cell
+    if len(cells) > MAX_PARAMETERS:
+        faults.error(
+            node.span, f"{len(cells)} parameters; at most {MAX_PARAMETERS} are read", "leave some out"
+        )
+        return NO_MODEL_QUESTIONS
+    return ParsedModelQuestions(known, tuple(cells.items()))
+
+
+def _names(faults: Faults, node: YamlNode) -> Iterator[tuple[str, Span]]:
+    for item in items(faults, node, KNOWN, _HELP):
+        name = _name(faults, item)
+        if name:
+            yield name, item.span
+
+
+def _name(faults: Faults, node: YamlNode) -> str | None:
+    if not isinstance(node, ScalarNode):
+        if not isinstance(node, FaultyNode):
+            faults.error(node.span, "the name of a parameter is expected", _HELP)
+        return None
+    try:
+        return normalize(node.decoded)
+    except ReadError as error:
+        at = node.start + error.offset
+        faults.error((at, at + error.length), error.message, error.help)
+        return None
+
+
+def check_model_questions(faults: Faults, asked: ParsedModelQuestions, parameters: Collection[str]) -> None:
+    """What is known, and what parameters are made of, occurs in the problem, whose `parameters` these are."""
+    for name, span in asked.known:
+        if name not in parameters:
+            _unknown(faults, name, span, parameters)
+    for _, cell in asked.parameters:
+        for found in cell.names:
+            if found.name not in parameters and found.name != "pi":
+                _unknown(faults, found.name, cell.span_of(found), parameters)
+
+
+def _unknown(faults: Faults, name: str, span: Span, parameters: Collection[str]) -> None:
+    help = did_you_mean(name, parameters) or f"its parameters are {', '.join(sorted(parameters))}"
+    faults.error(span, f"{name} is no parameter of this problem", help)
+
+
+# `reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedReach:
+    """The values of r(q), names or expressions, and where they stand."""
+
+    cells: tuple[Cell, ...] = ()
+    span: Span = (0, 0)
+
+    def names(self, parameters: Collection[str]) -> tuple[str, ...]:
+        """The names that are new here, one for each value that is nothing but such a name."""
+        found = (cell.tree.name for cell in self.cells if isinstance(cell.tree, Symbol))
+        return tuple(name for name in found if name != "pi" and name not in parameters)
+
+
+NO_REACH = ParsedReach()
+"""What a file without the key has."""
+
+
+def read_reach(faults: Faults, node: YamlNode | None, coordinates: Collection[str]) -> ParsedReach:
+    """The values under `reach`; what is wrong with one is reported."""
+    help = PROBLEM["reach"].help
+    listed = list(_rejoined(faults, items(faults, node, "reach", help)))
+    if node is None or isinstance(node, FaultyNode):
+        return NO_REACH
+    if len(listed) > MAX_TASK:
+        faults.error(node.span, f"{len(listed)} values; at most {MAX_TASK} are read", "leave some out")
+        return NO_REACH
+    cells = tuple(
+        read_cell(faults, item, f"value {i} of reach", arcs=True) for i, item in enumerate(listed, 1)
+    )
+    known = tuple(cell for cell in cells if cell)
+    names: set[str] = set()
+    for cell in known:
+        if not isinstance(cell.tree, Symbol):
+            forbid(faults, [cell], coordinates, "a value holds numbers and parameters")
+        elif cell.tree.name in coordinates or cell.tree.name in names:
+            message = f"{cell.tree.name} means something else already"
+            faults.error(cell.span, message, "give the value another name")
+        else:
+            names.add(cell.tree.name)
+    return ParsedReach(known, node.span) if len(known) == len(cells) else NO_REACH
+
+
+def _rejoined(faults: Faults, listed: Sequence[YamlNode]) -> Iterator[YamlNode]:
+    """The items, those that a comma inside parentheses has cut made one again: atan2(4, 3)."""
+    waiting = list(listed)
+    while waiting:
+        node = waiting.pop(0)
+        while isinstance(node, ScalarNode) and waiting and node.text.count("(") > node.text.count(")"):
+            end = waiting.pop(0).span[1]
+            node = replace(node, text=faults.source.text[node.start : end])
+        yield node
+
+
+def check_reach(faults: Faults, reach: ParsedReach, rows: int) -> None:
+    """There is a value for each component of the task."""
+    if reach.cells and len(reach.cells) != rows:
+        faults.error(
+            reach.span,
+            f"reach has {len(reach.cells)} value{'s' * (len(reach.cells) > 1)}; the task has {rows}",
+            "give one value for each component of the task, in their order",
+        )
+
+
+# -- joint ranges ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedLimits:
+    """The range of one coordinate, and where it stands."""
+
+    coordinate: str
+    low: Cell
+    high: Cell
+    span: Span
+
+
+def read_limits(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> tuple[ParsedLimits, ...]:
+    """The ranges under `limits`; what is wrong with one is reported."""
+    if node is None or isinstance(node, FaultyNode):
+        return ()
+    if not isinstance(node, MappingNode):
+        faults.error(node.span, "limits is a mapping from coordinates to ranges", PROBLEM["limits"].help)
+        return ()
+    return tuple(_ranges(faults, node, kinds))
+
+
+def _ranges(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> Iterator[ParsedLimits]:
+    help = PROBLEM["limits"].help
+    for name, value in by_coordinate(faults, node, kinds, help):
+        if not isinstance(value, ListNode) or len(value.items) != 2:
+            if not isinstance(value, FaultyNode):
+                message = f"the range of {name} is a list [low, high], not {describe(value)}"
+                if isinstance(value, ListNode):
+                    message = f"the range of {name} has {len(value.items)} ends, not 2"
+                remedy = too_many(value, help) if isinstance(value, ListNode) else help
+                faults.error(value.span, message, remedy)
+        else:
+            low, high = (_end(faults, item, name, kinds) for item in value.items)
+            if low and high:
+                yield ParsedLimits(name, low, high, value.span)
+
+
+def _end(faults: Faults, node: YamlNode, name: str, kinds: Mapping[str, str]) -> Cell | None:
+    cell = read_cell(faults, node, f"the range of {name}")
+    forbid(faults, [cell], kinds, "a range holds numbers and parameters")
+    if cell and kinds[name] == "revolute" and read_angle(faults, cell) is None:
+        return None
+    return cell
+
+
+# What a problem file asks around the model, as it is written
 
 _NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
 

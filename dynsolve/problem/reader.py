@@ -3,6 +3,8 @@
 The way goes text -> YAML nodes -> parsed file (every expression read, every name known)
 -> robot (every value exact).  Each step reports what it finds and goes on with
 what is sound; the errors are raised together at the end.
+
+The problems that come with dynsolve, by the stem of their file.
 """
 
 from __future__ import annotations
@@ -10,35 +12,42 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dynsolve.errors import Finding, ProblemError
-from dynsolve.problem.accepted_tables import read_accepted_tables
 from dynsolve.problem.actions import KEYS as ACTING
 from dynsolve.problem.actions import NO_ACTIONS, check_bodies, read_actions
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
-from dynsolve.problem.bodies import read_bodies
+from dynsolve.problem.bodies import DrawnFrames, read_bodies
 from dynsolve.problem.build import build_robot
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.drawing import read_drawing
-from dynsolve.problem.drawn_places import DrawnFrames
+from dynsolve.problem.drawing import Framed, from_drawing, read_drawing
 from dynsolve.problem.exercise import read_exercise
-from dynsolve.problem.fields import Fields, describe, free_text, word
-from dynsolve.problem.framing import Framed, from_drawing
-from dynsolve.problem.model import FilePlace, Problem
-from dynsolve.problem.parsed_file import ParsedFile
+from dynsolve.problem.kinds import Fields, describe, free_text, word
+from dynsolve.problem.model import FilePlace, ParsedFile, Problem, read_accepted_tables
 from dynsolve.problem.questions import read_questions
-from dynsolve.problem.source import MAX_BYTES, Faults, as_source
 from dynsolve.problem.specification import CONVENTION, DRAWING, EDITION, OF_A_TABLE, PROBLEM
 from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import DHTable, read_table
-from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
+from dynsolve.problem.yaml_nodes import (
+    MAX_BYTES,
+    Faults,
+    ListNode,
+    MappingNode,
+    YamlNode,
+    as_source,
+    read_nodes,
+)
 from dynsolve.robot.model import Convention, Robot
 
-if TYPE_CHECKING:  # a file with a table needs neither
+if TYPE_CHECKING:
     from dynsolve.problem.candidates import ParsedCandidates
     from dynsolve.problem.mechanism import ParsedModel
+
+
+# Problem files: bytes -> Problem, with all errors of a file at once
 
 _AXES = "delete it, or give the joint axes of a drawing in place of `dh`"
 
@@ -263,3 +272,41 @@ def _places(faults: Faults, root: YamlNode | None) -> list[tuple[tuple[str | int
         elif isinstance(node, ListNode):
             waiting += [((*path, index), item) for index, item in enumerate(node.items)]
     return found
+
+
+# The problems that come with dynsolve, by the stem of their file
+
+ENDINGS = (".yaml", ".yml")
+
+
+def folder() -> Path:
+    """The folder of the bundled problems: in the installed package, or beside it in a source tree."""
+    package = Path(__file__).parent.parent
+    inside = package / "problems"
+    return inside if inside.is_dir() else package.parent / "problems"
+
+
+def bundled() -> Mapping[str, Path]:
+    """Every bundled problem file by its stem, in alphabetical order."""
+    return {path.stem: path for path in sorted(folder().glob("*.yaml"))}
+
+
+def find(name: str) -> Path:
+    """The file that a path or the stem of a bundled problem names.
+
+    Raises ProblemError where there is none.
+
+    >>> find("planar-2r").name
+    'planar-2r.yaml'
+    """
+    path = Path(name)
+    if path.exists() or path.suffix in ENDINGS or path.name != name:
+        return path
+    known = bundled()
+    if name in known:
+        return known[name]
+    close = get_close_matches(name, known, n=1)
+    help = (
+        f"did you mean `{close[0]}`?" if close else "`dynsolve problems` lists those that come with dynsolve"
+    )
+    raise ProblemError([Finding("no such file, and no bundled problem of that name", help, name)])

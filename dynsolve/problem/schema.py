@@ -2,14 +2,45 @@
 
 It is made from the specification of the keys.  It says what a file looks like;
 whether it makes sense only `dynsolve lint` can say.
+
+The documentation of the keys of a problem file, made from their specification.
+
+`template` is the file that `dynsolve new` writes: valid as it stands, with every key and
+its meaning; an `active` key stands with its example, any other as a comment that can be
+uncommented.  `tables` are those in `problems/README.md`, as Markdown; a test holds that
+they stand there, and
+
+    python -m dynsolve.problem.schema
+
+prints them, to be put there after a key was added.
 """
 
 from __future__ import annotations
 
+import re
+import sys
+from collections.abc import Iterable, Sequence
+from textwrap import wrap
 from typing import Any
 
-from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, ValueKind, Word
-from dynsolve.problem.specification import PROBLEM
+from dynsolve.problem.kinds import (
+    BRACKETS,
+    Key,
+    Keyed,
+    ListOf,
+    MapOf,
+    OneOf,
+    Plain,
+    Shared,
+    ValueKind,
+    Word,
+    either,
+    ways,
+)
+from dynsolve.problem.specification import BODY, PLACED_BODY, PROBLEM, ROW, SHAPE
+from dynsolve.robot.shapes import KINDS
+
+# The JSON Schema of a problem file, for editors: completion, descriptions, a first check
 
 Schema = dict[str, Any]
 
@@ -78,3 +109,96 @@ def _schema_of_key(key: Key, shared: dict[str, Schema]) -> Schema:
 
 def _given(entries: Schema) -> Schema:
     return {name: value for name, value in entries.items() if value is not None}
+
+
+# The documentation of the keys of a problem file, made from their specification
+
+_WIDTH = 110
+_SENTENCE_END = re.compile(r"(?<=[.]) (?=[A-Za-z])")
+_DEFAULT = re.compile(r" Default.*$")
+_FIXED_BLANK = "\N{NO-BREAK SPACE}"
+
+
+def template() -> str:
+    """A commented, valid example: the manipulator of the README."""
+    return "\n".join(map(_entry, PROBLEM.keys))
+
+
+def _entry(key: Key) -> str:
+    """A key with its example, under a comment that says what it means."""
+    sentences = _SENTENCE_END.split(f"{key.described} {key.more}".strip())
+    comment = [line for sentence in sentences for line in _wrapped("# ", sentence)]
+    example = f"{key.name}: {key.example}".replace(": \n", ":\n").replace("\n", "\n  ")
+    if not key.active:
+        example = "# " + example.replace("\n", "\n# ")
+    return "\n".join([*comment, *_parts(key), example, ""])
+
+
+def _parts(key: Key) -> list[str]:
+    """The keys of each item of a list, a line each."""
+    items = key.kind.items if isinstance(key.kind, ListOf) else None
+    items = items.kinds[0] if isinstance(items, OneOf) else items
+    record = items.kind if isinstance(items, Shared) else items
+    if not isinstance(record, Keyed):
+        return []
+    width = max(map(len, record.names)) + 2
+    return [
+        line
+        for part in record.keys
+        for line in _wrapped(f"#   {part.name:{width}}", part.described + _choice(part.kind))
+    ]
+
+
+def _choice(kind: ValueKind) -> str:
+    """The ways in which a value can be written, where there are several."""
+    kind = kind.kind if isinstance(kind, Shared) else kind
+    return f" Write {either(ways(kind))}.".replace("`", "") if isinstance(kind, OneOf | Word) else ""
+
+
+def _wrapped(head: str, text: str) -> list[str]:
+    """The lines of a comment after its head; what stands in brackets is not broken."""
+    whole = BRACKETS.sub(lambda found: found[0].replace(" ", _FIXED_BLANK), text)
+    indent = "#" + " " * (len(head) - 1)
+    lines = wrap(whole, _WIDTH, initial_indent=head, subsequent_indent=indent, break_on_hyphens=False)
+    return [line.replace(_FIXED_BLANK, " ") for line in lines]
+
+
+def tables() -> tuple[str, ...]:
+    """The keys of a file, the columns of a row, the keys of a body and of one by its position, the shapes."""
+    return (*map(table_of_keys, (PROBLEM, ROW, BODY, PLACED_BODY)), _shapes())
+
+
+def table_of_keys(record: Keyed) -> str:
+    """The keys of a mapping, a row each."""
+    return _table(("key", "value", "default", "meaning"), map(_row, record.keys))
+
+
+def _row(key: Key) -> tuple[str, ...]:
+    default = f"`{key.default}`" if isinstance(key.kind, Word) else key.default
+    values = key.kind.called if key.kind is SHAPE else either(ways(key.kind))
+    meaning = _DEFAULT.sub("", key.described)  # which has a column of its own
+    return (
+        f"`{key.name}`",
+        values,
+        "must be given" if key.required else default,
+        BRACKETS.sub(r"`\g<0>`", meaning),
+    )
+
+
+def _shapes() -> str:
+    rows = []
+    for shape in KINDS.values():
+        moments = shape.moments or ("0", "0", "0")
+        letters = [f"`{key}`" + (f" {letter}" if letter != key else "") for key, letter in shape.dimensions]
+        axis = "" if not shape.has_axis else "along the link" if shape.along_link else "`z`"
+        rows.append((f"`{shape.name}`", ", ".join(letters), axis, *(f"`{moment}`" for moment in moments)))
+    return _table(("shape", "dimensions", "axis, if not given", "I_xx", "I_yy", "I_zz"), rows)
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join(f"| {' | '.join(cells)} |\n".replace("|  |", "| |") for cells in lines)
+
+
+if __name__ == "__main__":
+    sys.stdout.write("\n".join(tables()))

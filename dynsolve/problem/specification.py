@@ -15,14 +15,15 @@ the module it belongs to, and give what was read a place in `Problem` or `Robot`
 
 from __future__ import annotations
 
-from dynsolve.problem.action_keys import ACTION_KEYS
-from dynsolve.problem.constraint_keys import CONSTRAINT_KEYS
-from dynsolve.problem.definite_keys import DEFINITE_KEYS
-from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
-from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
-from dynsolve.problem.mechanism_keys import COORDINATES, model, placed_body
-from dynsolve.problem.model_keys import MODEL_KEYS
-from dynsolve.problem.value_kinds import (
+from dynsolve.problem.action_keys import (
+    ACTION_KEYS,
+    CONSTRAINT_KEYS,
+    COORDINATES,
+    DEFINITE_KEYS,
+    model,
+    placed_body,
+)
+from dynsolve.problem.kinds import (
     EXPRESSION,
     FRAME,
     LINK,
@@ -33,7 +34,16 @@ from dynsolve.problem.value_kinds import (
     ROTATION,
     TEXT,
     VECTOR,
+    Key,
+    Keyed,
+    ListOf,
+    MapOf,
+    OneOf,
+    Plain,
+    Shared,
+    Word,
 )
+from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS, MODEL_KEYS
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
 

@@ -9,11 +9,10 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Function, Node, Symbol
 from dynsolve.problem.cells import Cell, forbid, read_angle, read_cell
-from dynsolve.problem.fields import did_you_mean
+from dynsolve.problem.kinds import did_you_mean
 from dynsolve.problem.kinematic_keys import REACHED
-from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, MappingNode, ScalarNode, YamlNode
 
 _HELP = PROBLEM["state"].help
 

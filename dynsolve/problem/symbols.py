@@ -12,11 +12,20 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.notation.text import Name
-from dynsolve.notation.tree import Function, Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Parenthesized,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+    walk,
+)
 from dynsolve.problem.cells import Cell, denominators
-from dynsolve.problem.parsed_file import ParsedFile
-from dynsolve.problem.source import Faults
+from dynsolve.problem.model import ParsedFile
+from dynsolve.problem.yaml_nodes import Faults
 
 MAX_SYMBOLS = 500
 """A six-axis arm with ten inertial parameters a link has about 70."""

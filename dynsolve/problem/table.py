@@ -1,22 +1,40 @@
-"""The Denavit-Hartenberg table of a problem file: its rows, its stars, its coordinates."""
+"""The Denavit-Hartenberg table of a problem file: its rows, its stars, its coordinates.
+
+The joint variable as a linear combination of coordinates with rational coefficients.
+
+The coordinates that motors bring: `turns: thm1*`, an angle that no row of the table has.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+import re
+from collections.abc import Collection, Container, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import ReadError
-from dynsolve.notation.names import normalize
+from dynsolve.notation.characters import normalize
 from dynsolve.notation.text import Name
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+    names_in,
+)
 from dynsolve.problem.cells import Cell, made_cell, read_angle, read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
-from dynsolve.problem.linear import NotLinear, linear_rates
-from dynsolve.problem.motor_coordinates import motor_coordinates
-from dynsolve.problem.source import Faults
+from dynsolve.problem.kinds import Fields, describe, did_you_mean, items, word
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW
 from dynsolve.problem.yaml_nodes import (
+    Faults,
     FaultyNode,
     ListNode,
     MappingNode,
@@ -25,6 +43,121 @@ from dynsolve.problem.yaml_nodes import (
     YamlNode,
     too_many,
 )
+
+# The joint variable as a linear combination of coordinates with rational coefficients
+
+Rates = dict[str, Fraction]
+
+
+class NotLinear(Exception):
+    """A coordinate occurs otherwise than times a rational number."""
+
+    def __init__(self, message: str, help: str) -> None:
+        super().__init__(message)
+        self.message, self.help = message, help
+
+
+_HELP = (
+    "a joint variable is a sum of coordinates times rational numbers, plus a constant: p2* - p1*/2 + 90deg"
+)
+
+
+def linear_rates(node: Node, coordinates: Container[str]) -> Rates:
+    """Σ rate·coordinate of a formula, its constant part left out; rates of 0 are left out.
+
+    Raises NotLinear.
+
+    >>> from dynsolve.notation.text import read
+    >>> linear_rates(read("2*(p2 - p1/3) + 90deg").tree, ("p1", "p2"))
+    {'p2': Fraction(2, 1), 'p1': Fraction(-2, 3)}
+    """
+    return {name: rate for name, rate in _linear_rates(node, coordinates).items() if rate}
+
+
+def _linear_rates(node: Node, coordinates: Container[str]) -> Rates:
+    found = sorted(name for name in names_in(node) if name in coordinates)
+    if not found:
+        return {}
+    match node:
+        case Symbol(name):
+            return {name: Fraction(1)}
+        case Negative(argument):
+            return _scaled(_linear_rates(argument, coordinates), Fraction(-1))
+        case Parenthesized(argument):
+            return _linear_rates(argument, coordinates)
+        case Sum(terms):
+            total: Rates = {}
+            for term in terms:
+                for name, rate in _linear_rates(term, coordinates).items():
+                    total[name] = total.get(name, Fraction(0)) + rate
+            return total
+        case Product(factors):
+            return _product(factors, coordinates)
+        case Quotient(numerator, denominator):
+            if any(name in coordinates for name in names_in(denominator)):
+                raise NotLinear(f"the coordinate {found[0]} stands in a denominator", _HELP)
+            return _scaled(_linear_rates(numerator, coordinates), 1 / _rational(denominator, found[0]))
+        case Power(base, Number(1, 1)):
+            return _linear_rates(base, coordinates)
+        case Power() | Function():
+            what = "a power" if isinstance(node, Power) else f"{node.name}(...)"
+            raise NotLinear(f"the coordinate {found[0]} stands in {what}: not linear", _HELP)
+    raise NotLinear(f"not linear in the coordinate {found[0]}", _HELP)
+
+
+def _product(factors: tuple[Node, ...], coordinates: Container[str]) -> Rates:
+    moving = [f for f in factors if any(name in coordinates for name in names_in(f))]
+    first = min(name for name in names_in(moving[0]) if name in coordinates)
+    if len(moving) > 1:
+        raise NotLinear(f"a product of coordinates, {first} among them: not linear", _HELP)
+    rates = _linear_rates(moving[0], coordinates)
+    for factor in factors:
+        if factor is not moving[0]:
+            rates = _scaled(rates, _rational(factor, first))
+    return rates
+
+
+def _scaled(rates: Rates, factor: Fraction) -> Rates:
+    return {name: rate * factor for name, rate in rates.items()}
+
+
+def _rational(node: Node, coordinate: str) -> Fraction:
+    value = rational_value(node)
+    if value is None:
+        raise NotLinear(f"the coefficient of {coordinate} is not a rational number", _HELP)
+    if not value:
+        raise NotLinear(f"the coefficient of {coordinate} is zero, or divided by zero", _HELP)
+    return value
+
+
+# The coordinates that motors bring: `turns: thm1*`, an angle that no row of the table has
+
+STARRED = re.compile(r"(.*\S)\s*\*")
+"""A name with the mark of a joint variable."""
+
+
+def motor_coordinates(fields: Fields, known: Collection[str]) -> dict[str, str]:
+    """Their names with their kind, revolute, in the order of the file; those of the table are none.
+
+    What is wrong with a motor is reported where motors are read (`actions`).
+    """
+    listed = fields.get("motors")
+    found: dict[str, str] = {}
+    for item in listed.items if isinstance(listed, ListNode) else ():
+        for key, value in item.entries if isinstance(item, MappingNode) else ():
+            starred = STARRED.fullmatch(value.text.strip()) if isinstance(value, ScalarNode) else None
+            if key.decoded != "turns" or starred is None:
+                continue
+            try:
+                name = normalize(starred[1])
+            except ReadError:
+                continue
+            if name not in known:
+                found[name] = "revolute"
+    return found
+
+
+# The Denavit-Hartenberg table of a problem file: its rows, its stars, its coordinates
 
 START = "from"
 """The key of a row that says which frame it starts from."""

@@ -1,25 +1,33 @@
-"""The ring of a problem file, and the values of its cells in it."""
+"""The ring of a problem file, and the values of its cells in it.
+
+The exact position of a point that is fixed in a link; one that would not be is reported.
+
+The mass and the inertia tensor of a body, made exact; what is wrong with them is reported.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.at_state import needed_angles
-from dynsolve.algebra.build import build_ring, with_references, with_symbols
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.matrix import Matrix, needed_angles
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import build_ring, value_of, with_references, with_symbols
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Function, Node, Symbol
+from dynsolve.problem.base import ParsedRotation
+from dynsolve.problem.bodies import ParsedPlace, ParsedTensor
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.parsed_file import ParsedFile
-from dynsolve.problem.rotations import ParsedRotation
-from dynsolve.problem.source import Faults
-from dynsolve.robot.geometry import elementary, is_rotation
+from dynsolve.problem.model import ParsedFile
+from dynsolve.problem.yaml_nodes import Faults
+from dynsolve.robot.geometry import Links, Turn, absolute_angles, elementary, is_rotation
 from dynsolve.robot.model import Convention
-from dynsolve.robot.parallel import Turn, absolute_angles
+from dynsolve.robot.shapes import AXES
+
+# The ring of a problem file, and the values of its cells in it
 
 
 class CellValues:
@@ -151,3 +159,120 @@ def _fails(faults: Faults, parsed: ParsedFile, cell: Cell) -> bool:
         faults.error(cell.span, f"{cell.what}: {error.message}", error.help)
         return True
     return False
+
+
+# The exact position of a point that is fixed in a link; one that would not be is reported
+
+_TIP_ROW = (
+    "add a fixed row for the tip, {theta: 0, d: 0, a: l, alpha: 0} with its length, "
+    "or give the centre as [x, y, z]"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceBuilder:
+    """The exact positions of points; `links` is None where the table has errors, and geometry waits."""
+
+    faults: Faults
+    values: CellValues
+    links: Links | None
+
+    def position(self, place: ParsedPlace, link: int | None, key: str, written: str) -> Matrix | None:
+        """The point in frame `link`, 3×1; `key` is the one that says it, as `written`.
+
+        None (reported) for a point that would not be fixed there.
+        """
+        given = self.values.column(place.cells) if place.kind in ("near", "at", "drawn") else None
+        fraction = self.values.expr(place.cells[0]) if place.kind == "along" else None
+        if place.kind == "at":
+            return given
+        if place.kind == "drawn":
+            return self._drawn(place, given, link)
+        if self.links is None or link is None:
+            return None
+        if place.kind == "origin":
+            return self.links.origin()
+        near, far = self.links.near_end(link), self.links.far_end(link)
+        if place.kind == "near":
+            point = near + given if given else None
+        elif far is None:
+            message = f"link {link} has no far end: the table has no row {link + 1}"
+            self.faults.error(place.span, message, _TIP_ROW)
+            return None
+        elif place.kind == "tip":
+            point = far
+        else:
+            half = self.values.ring.constant(Fraction(1, 2)) if place.kind == "midpoint" else fraction
+            point = near + (far - near).scale(half) if half is not None else None
+        if point is not None and not self.links.is_fixed(point):
+            self._report_moving(self.links, place, link, key, written)
+            return None
+        return point
+
+    def _drawn(self, place: ParsedPlace, given: Matrix | None, link: int | None) -> Matrix | None:
+        """A point of the drawing, which must slide with what its link slides on."""
+        if given is None or self.links is None or self.links.is_fixed(given):
+            return given
+        message = f"this point is not fixed in link {link}: it slides otherwise than the drawing of the link"
+        help = "add the letters of the slides that come before the link, and no others"
+        self.faults.error(place.span, message, help)
+        return None
+
+    def _report_moving(self, links: Links, place: ParsedPlace, link: int, key: str, written: str) -> None:
+        shown = "tip" if place.kind == "tip" else written
+        message = f"`{shown}` would not be fixed in link {link}: "
+        if links.modified:
+            message += f"its far end moves with the prismatic joint {link + 1}"
+            help = f"add a fixed row for the tip before it, or give the centre in frame {link}: [x, y, z]"
+        else:
+            message += f"its near end slides along it, for joint {link} is prismatic"
+            help = f"measure from the tip, in frame {link}: {key}: {self._back(links, link)}"
+        self.faults.error(place.span, message, help)
+
+    def _back(self, links: Links, link: int) -> str:
+        """The point a length lc back from the tip of a prismatic link, as a list."""
+        ring, joint = self.values.ring, links.joints[link - 1]
+        entries = [ring.zero, -ring.sin(joint.alpha), -ring.cos(joint.alpha)]
+        words = {0: "0", 1: f"lc{link}", -1: f"-lc{link}"}
+        if all(entry.is_number and entry.number in words for entry in entries):
+            return "[" + ", ".join(words[int(entry.number)] for entry in entries) + "]"
+        return "[x, y, z]"
+
+
+# The mass and the inertia tensor of a body, made exact; what is wrong with them is reported
+
+
+def mass_value(values: CellValues, cell: Cell | None, index: int) -> Expr | None:
+    """The mass of body `index`; None where a fault of it was reported."""
+    mass = values.expr(cell) if cell else None
+    if mass is not None and cell and mass.is_number and mass.number < 0:
+        values.faults.error(cell.span, f"the mass of body {index} is negative", "masses are not negative")
+    return mass
+
+
+def tensor_value(values: CellValues, tensor: ParsedTensor, index: int) -> Matrix | None:
+    """The tensor of body `index`, 3×3; None where a fault of it was reported."""
+    zero = values.ring.zero
+    rows = [[values.expr(cell) if cell else zero for cell in row] for row in tensor.rows]
+    known = [[entry for entry in row if entry is not None] for row in rows]
+    asymmetric = False
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        above, below = rows[i][j], rows[j][i]
+        if tensor.listed and above is not None and below is not None and above != below:
+            asymmetric = True
+            _report_asymmetry(values, tensor, index, i, j)
+    if asymmetric or any(len(row) < 3 for row in known):
+        return None
+    return Matrix.of(values.ring, known)
+
+
+def _report_asymmetry(values: CellValues, tensor: ParsedTensor, index: int, i: int, j: int) -> None:
+    above, below = tensor.rows[i][j], tensor.rows[j][i]
+    assert above and below
+    key = AXES[i] + AXES[j]
+    message = (
+        f"the inertia of body {index} is not symmetric: I_{key[::-1]} = {below.text} is not "
+        f"I_{key} = {above.text}"
+    )
+    help = "an inertia tensor is symmetric: write the same entry in both places"
+    values.faults.error(below.span, message, help)

@@ -10,8 +10,8 @@ from itertools import groupby
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Owner
+from dynsolve.quantities.letters import key, open_index, other_names, subscripts
 from dynsolve.quantities.owners import MOST_INDEXED, Owners
-from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.units import LENGTH, Dimension, times

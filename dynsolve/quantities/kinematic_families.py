@@ -1,7 +1,7 @@
 """The families of what an exercise asks of the kinematics: points, the task, how Jacobians change.
 
 A robot has those of a stage of which something is asked (`quantities.stages`).  To add one,
-see `quantities.families`; its rule stands in `dynsolve.derivation.kinematic_rules`.
+see `quantities.families`; its rule stands in `dynsolve.derivation.task`.
 """
 
 from __future__ import annotations

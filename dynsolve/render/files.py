@@ -1,4 +1,7 @@
-"""Files that are written whole or not at all: what stood there before stays until the new one is complete."""
+"""Files that are written whole or not at all: what stood there before stays until the new one is complete.
+
+The forms that results have, and the suffixes of files that say them.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +10,14 @@ import stat
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from enum import StrEnum
 from filecmp import cmp
 from pathlib import Path
 from typing import IO
 
 from dynsolve.errors import UsageError
+
+# Files that are written whole or not at all
 
 
 def check_place(path: Path) -> None:
@@ -117,3 +123,35 @@ def _mode(path: Path) -> int:
     mask = os.umask(0)
     os.umask(mask)
     return 0o666 & ~mask
+
+
+# The forms that results have, and the suffixes of files that say them
+
+
+class Format(StrEnum):
+    """The forms of a solution."""
+
+    TEXT = "text"
+    JSON = "json"
+    LATEX = "latex"
+    PDF = "pdf"
+    HTML = "html"
+    MARKDOWN = "markdown"
+
+
+SUFFIXES = {
+    ".txt": Format.TEXT,
+    ".json": Format.JSON,
+    ".tex": Format.LATEX,
+    ".pdf": Format.PDF,
+    ".html": Format.HTML,
+    ".htm": Format.HTML,
+    ".md": Format.MARKDOWN,
+    ".markdown": Format.MARKDOWN,
+}
+"""What the suffix of a file says; the first of a form is the one that is written."""
+
+
+def suffix_of(format: Format) -> str:
+    """The suffix of a form's files."""
+    return next(suffix for suffix, named in SUFFIXES.items() if named is format)

@@ -41,11 +41,10 @@ from dynsolve.render.html_pieces import (
     laid_out,
     math,
 )
-from dynsolve.render.line_breaking import FormulaSplitter, together
-from dynsolve.render.matrices import entry_equations, holds_matrix
+from dynsolve.render.line_breaking import FormulaSplitter, numbered, together, with_results
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.prose import typographic, visible
-from dynsolve.render.references import numbered, with_results
+from dynsolve.render.terminal_boxes import entry_equations, holds_matrix
 from dynsolve.render.typesetting import listed
 
 _SHORT_CELL = 6

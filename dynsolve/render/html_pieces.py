@@ -15,8 +15,8 @@ from itertools import takewhile
 from dynsolve.notation.extent import FLAT
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.tree import Node
+from dynsolve.render.latex_displays import HEIGHTS, height_around
 from dynsolve.render.line_breaking import RELATION_BREAK, SUM_BREAK, Notation, Piece
-from dynsolve.render.parentheses import HEIGHTS, height_around
 
 PHONE = 16.5
 """What fits a phone beside a number, in em."""

@@ -1,8 +1,14 @@
-r"""Documents -> LaTeX: a complete document, or a fragment to \input; amsmath and nothing else."""
+r"""Documents -> LaTeX: a complete document, or a fragment to \input; amsmath and nothing else.
+
+What stands before a text in LaTeX: the page and its lengths, and the macros of what amsmath lacks.
+
+Any text as LaTeX text that pdflatex sets with its own fonts.
+"""
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import chain, groupby, pairwise, zip_longest
 
@@ -21,18 +27,204 @@ from dynsolve.document import (
     Text,
     Uses,
 )
+from dynsolve.notation.characters import GREEK
 from dynsolve.notation.extent import FLAT
 from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Row, Words
-from dynsolve.render.latex_displays import DisplayRow, aligned, gathered, in_columns
-from dynsolve.render.latex_macros import MACROS, NEEDS, PREAMBLE
-from dynsolve.render.latex_text import latex_text
-from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
-from dynsolve.render.page import PART, SHORT, TypesetPage, prose_columns
-from dynsolve.render.page_ends import before_closing, introduces
-from dynsolve.render.parentheses import HEIGHTS, height_around
-from dynsolve.render.references import is_long, numbered, running_title, sections, slug
+from dynsolve.render.latex_displays import HEIGHTS, DisplayRow, aligned, gathered, height_around, in_columns
+from dynsolve.render.line_breaking import (
+    FormulaSplitter,
+    Notation,
+    is_long,
+    numbered,
+    running_title,
+    sections,
+    slug,
+    together,
+)
+from dynsolve.render.page import PART, SHORT, TypesetPage, before_closing, introduces, prose_columns
+from dynsolve.render.prose import visible
+
+# What stands before a text in LaTeX
+
+PREAMBLE = r"""\documentclass[a4paper]{article}
+\usepackage{amsmath}
+\setlength{\textwidth}{469pt}
+\setlength{\oddsidemargin}{-8pt}
+\setlength{\evensidemargin}{-8pt}
+\setlength{\topmargin}{-60pt}
+\setlength{\textheight}{757pt}
+\setlength{\parindent}{0pt}
+\setlength{\parskip}{3pt plus 1pt minus 1pt}
+\setlength{\emergencystretch}{6em}
+\setlength{\jot}{2pt}
+\delimitershortfall=3pt % of brackets around a column of fractions
+\setcounter{MaxMatrixCols}{30}
+\renewcommand{\arraystretch}{1.12}
+\clubpenalty=10000 \widowpenalty=10000
+\AtBeginDocument{\setlength{\abovedisplayskip}{3pt plus 2pt minus 2pt}\belowdisplayskip=\abovedisplayskip
+  \abovedisplayshortskip=\abovedisplayskip \belowdisplayshortskip=\belowdisplayskip}
+\makeatletter
+\renewcommand\section{\@startsection{section}{1}{0pt}{-12pt plus -4pt minus -4pt}{4pt}{\Large\bfseries}}
+\renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-8pt plus -3pt minus -3pt}{2pt}%
+  {\normalsize\bfseries}}
+\def\@listi{\leftmargin\leftmargini \topsep=3pt plus 2pt minus 2pt \parsep=0pt \itemsep=0pt}\let\@listI\@listi
+\newcommand\contentsrow[2]{\@dottedtocline{1}{0pt}{1.6em}{#1}{\pageref{#2}}}
+% A reference that the first run does not know is as wide as the last number: pages stay where they are.
+\def\@setref#1#2#3{\ifx#1\relax\G@refundefinedtrue\theequation\@latex@warning{Reference `#3' undefined}%
+  \else\expandafter#2#1\null\fi}
+\makeatother
+\pagestyle{myheadings}
+"""
+
+# The source of a formula; equations in columns: a row moved in, a cell of a width with its name and the rest;
+# rows of a table that goes on, under its header where they begin a page;
+# what closes a document, on a page of its own where it fills enough of that and little is left of one.
+MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
+\providecommand{\equationrow}[2]{\par\noindent\strut\hspace*{#1\dimexpr\linewidth-3.4em\relax}#2}
+\providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
+  \makebox[#2em][r]{$\displaystyle #3$}$\displaystyle {}#4$}}
+\providecommand{\equationnumber}[1]{\hfill\refstepcounter{equation}(\theequation)#1}
+\ifdefined\tablerows\else\newsavebox\tablerows\fi
+\providecommand{\tablepart}[3]{{\parskip=0pt\lineskip=0pt
+  \setbox\tablerows=\hbox{\begin{tabular}{#1}#3\end{tabular}}%
+  \ifdim\dimexpr\ht\tablerows+\dp\tablerows>\dimexpr\pagegoal-\pagetotal\relax \ifinner\else
+  \ifdim\dimexpr\pagetotal-\pageshrink\relax>\pagegoal\else  % else what stands above goes there by itself
+  \newpage\setbox\tablerows=\hbox{\begin{tabular}{#1}#2#3\end{tabular}}\fi\fi\fi
+  {\centering\usebox\tablerows\par}}}
+\ifdefined\closingpage\else\newsavebox\closingpage\fi
+\providecommand{\putclosingpage}{\nobreak \ifdim\ht\closingpage>\textheight\else
+  \ifdim\ht\closingpage>.25\textheight
+  \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax
+  \ifdim\dimexpr\pagegoal-\pagetotal\relax<.35\textheight\newpage\fi\fi\fi\fi\unvbox\closingpage}
+"""
+
+
+NEEDS = r"""% Needs \usepackage{amsmath}, and where a matrix has more than ten columns
+% \setcounter{MaxMatrixCols}{30}.
+"""
+
+
+# Any text as LaTeX text that pdflatex sets with its own fonts
+
+_ESCAPES = {
+    "\\": r"\textbackslash{}",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    '"': r"\textquotedblright{}",
+    "`": r"\textasciigrave{}",
+    "'": r"{'}",
+    "[": "{[}",
+    "]": "{]}",
+    "!": "{!}",
+    "?": "{?}",
+    "–": r"\textendash{}",
+    "—": r"\textemdash{}",
+    "−": "$-$",
+    "“": r"\textquotedblleft{}",
+    "”": r"\textquotedblright{}",
+    "„": ",,",
+    "‘": r"\textquoteleft{}",
+    "’": r"\textquoteright{}",
+    "…": r"\textellipsis{}",
+    "°": r"$^\circ$",
+    "·": r"$\cdot$",
+    "•": r"$\bullet$",
+    "×": r"$\times$",
+    "÷": r"$\div$",
+    "±": r"$\pm$",
+    "½": r"$\tfrac12$",
+    "¼": r"$\tfrac14$",
+    "¾": r"$\tfrac34$",
+    "²": "$^2$",
+    "³": "$^3$",
+    "¹": "$^1$",
+    "≤": r"$\leq$",
+    "≥": r"$\geq$",
+    "≠": r"$\neq$",
+    "≈": r"$\approx$",
+    "→": r"$\rightarrow$",
+    "⇒": r"$\Rightarrow$",
+    "∂": r"$\partial$",
+    "√": r"$\surd$",
+    "Σ": r"$\Sigma$",
+    "⋆": r"$\star$",
+    "©": r"\textcopyright{}",
+    "§": r"$\S$",
+    "€": r"\texteuro{}",
+    "£": r"\pounds{}",
+    "ß": r"\ss{}",
+    "æ": r"\ae{}",
+    "Æ": r"\AE{}",
+    "œ": r"\oe{}",
+    "Œ": r"\OE{}",
+    "ø": r"\o{}",
+    "Ø": r"\O{}",
+    "å": r"\aa{}",
+    "Å": r"\AA{}",
+    "ł": r"\l{}",
+    "Ł": r"\L{}",
+    "ı": r"\i{}",
+    "\u00a0": "~",
+} | {character: "\\" + character for character in "{}$&#%_"}
+_ESCAPES |= {letter: rf"$\{name}$" for name, letter in GREEK.items()}
+
+_ACCENTS = {
+    "\u0300": r"\`",
+    "\u0301": r"\'",
+    "\u0302": r"\^",
+    "\u0303": r"\~",
+    "\u0304": r"\=",
+    "\u0306": r"\u",
+    "\u0307": r"\.",
+    "\u0308": r"\"",
+    "\u030a": r"\r",
+    "\u030b": r"\H",
+    "\u030c": r"\v",
+    "\u0323": r"\d",
+    "\u0327": r"\c",
+    "\u0331": r"\b",
+}
+
+
+def latex_text(text: str) -> str:
+    r"""Any text as LaTeX text; a letter that the fonts lack stands as its code point.
+
+    >>> print(latex_text(r"Ü_1 \input{x} 中"))
+    \"{U}\_1 \textbackslash{}input\{x\} {[}U+4E2D{]}
+    """
+    text = visible(text)
+    pieces: list[str] = []
+    for character in text:
+        if character in _ESCAPES:
+            pieces.append(_ESCAPES[character])
+        elif character.isascii():
+            pieces.append(character)
+        elif unicodedata.combining(character) and character in _ACCENTS and pieces:
+            pieces.append(f"{_ACCENTS[character]}{{{pieces.pop()}}}")
+        else:
+            pieces.append(_foreign(character))
+    return "".join(pieces).replace("--", "-{}-").replace("--", "-{}-")
+
+
+def _foreign(character: str) -> str:
+    parts = unicodedata.normalize("NFD", character)
+    if len(parts) == 2 and parts[0].isascii() and parts[1] in _ACCENTS:
+        base = (
+            {"i": r"\i", "j": r"\j"}.get(parts[0], parts[0]) if parts[1] not in "\u0323\u0327" else parts[0]
+        )
+        return f"{_ACCENTS[parts[1]]}{{{base}}}"
+    plain = unicodedata.normalize("NFKD", character)
+    if plain != character and plain.isascii() and plain.isalnum():
+        return plain
+    return f"{{[}}U+{ord(character):04X}{{]}}"
+
+
+# Documents -> LaTeX: a complete document, or a fragment to \input; amsmath and nothing else
 
 PAGE = 46.9
 """The width of our own page, in em of its letters of ten points."""

@@ -27,9 +27,9 @@ from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Words
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.latex_displays import level
+from dynsolve.render.line_breaking import numbered, with_sources
 from dynsolve.render.page import TypesetPage
 from dynsolve.render.prose import visible
-from dynsolve.render.references import numbered, with_sources
 from dynsolve.render.typesetting import Line
 
 PAGE = 40.0

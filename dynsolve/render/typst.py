@@ -24,14 +24,26 @@ from dynsolve.notation.extent import FLAT
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
-from dynsolve.render.columns import Columns
-from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
-from dynsolve.render.page import PART, SHORT, TypesetPage, prose_columns
-from dynsolve.render.page_ends import before_closing, introduces, runs_of_equations
-from dynsolve.render.parentheses import HEIGHTS, height_around
+from dynsolve.render.latex_displays import HEIGHTS, height_around
+from dynsolve.render.line_breaking import (
+    FormulaSplitter,
+    Notation,
+    is_long,
+    numbered,
+    running_title,
+    together,
+)
+from dynsolve.render.page import (
+    PART,
+    SHORT,
+    TypesetPage,
+    before_closing,
+    introduces,
+    prose_columns,
+    runs_of_equations,
+)
 from dynsolve.render.prose import typographic, visible
-from dynsolve.render.references import is_long, numbered, running_title
-from dynsolve.render.typesetting import Line
+from dynsolve.render.typesetting import Columns, Line
 
 PAGE = 45.0
 """The width of the page, in em."""

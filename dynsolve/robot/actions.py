@@ -3,6 +3,16 @@
 A `Robot` carries its `Actions`, exact values in its ring.  Friction and dampers take energy
 away, springs store it, and rotors have kinetic energy of their own.  A robot of which a file
 says none of this has `NOTHING_ACTS`.
+
+Constraints on the motion of a manipulator: A_c(q) q̇ = 0.
+
+Matrices of which an exercise asks whether they can be inertia matrices.
+
+Models without a Denavit-Hartenberg table: bodies by their positions, or energies that are given.
+
+Of a mechanism by positions a body's mass centre is a function of the coordinates, and its
+orientation a product of turns.  Otherwise the file gives the inertia matrix, the energies or
+the Lagrangian themselves, and no body is known.
 """
 
 from __future__ import annotations
@@ -11,6 +21,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.notation.tree import Node
+
+# What acts on a manipulator beside gravity: friction, springs, dampers, motors
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,3 +130,66 @@ def with_values(actions: Actions, changed: Callable[[Expr], Expr]) -> Actions:
         springs=tuple(Spring(changed(s.energy), law(s.law)) for s in actions.springs),
         motors=tuple(replace(m, inertia=changed(m.inertia), ratio=changed(m.ratio)) for m in actions.motors),
     )
+
+
+# Constraints on the motion of a manipulator: A_c(q) q̇ = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Constraint:
+    """One equation that every motion keeps.
+
+    `entry` is what is 0: h(q), holonomic, in which coordinates of points may stand as they do in a
+    task; or, `in_rates`, a sum of rates with factors that depend on the coordinates.
+    """
+
+    entry: Node
+    in_rates: bool = False
+
+
+# Matrices of which an exercise asks whether they can be inertia matrices
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A matrix, n×n, and what is assumed of its parameters.
+
+    `is_relative` says that the coordinates are those of a chain, each counted from the link before,
+    so that an inertia matrix is the same wherever the first one stands.
+    """
+
+    name: str
+    matrix: Matrix
+    assumed: tuple[Bound, ...] = ()
+    is_relative: bool = False
+
+
+# Models without a Denavit-Hartenberg table
+
+
+@dataclass(frozen=True, slots=True)
+class BodyTurn:
+    """A turn of a body about an axis that the turns before it carry along.
+
+    `axis` (3×1) is a unit vector in the axes so far turned.  The angle is linear in the
+    coordinates: `rates` (1×n) are its derivatives, free of coordinates, and `rotation` (3×3)
+    turns by it.  `angle` is the angle as the file writes it.
+    """
+
+    axis: Matrix
+    rates: Matrix
+    rotation: Matrix
+    angle: Node
+
+
+@dataclass(frozen=True, slots=True)
+class GivenModel:
+    """What a file gives in the place of bodies: D and P, K and P, or L; what it does not give is None.
+
+    D is n×n, the others are scalars.
+    """
+
+    D: Matrix | None = None
+    K: Expr | None = None
+    P: Expr | None = None
+    L: Expr | None = None

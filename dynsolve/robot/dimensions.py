@@ -11,11 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator, is_sign
+from dynsolve.algebra.expr import Expr, Generator, is_sign
 from dynsolve.algebra.ring import Ring
-from dynsolve.notation.bounded_cache import recalled
-from dynsolve.robot.mechanism import GivenModel
+from dynsolve.notation.tree_values import recalled
+from dynsolve.robot.actions import GivenModel
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.units import (
     ACCELERATION,

@@ -19,8 +19,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Node
-from dynsolve.robot.actions import NOTHING_ACTS, Actions
-from dynsolve.robot.mechanism import BodyTurn, GivenModel
+from dynsolve.robot.actions import NOTHING_ACTS, Actions, BodyTurn, GivenModel
 from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import Density, Shape
 

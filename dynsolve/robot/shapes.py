@@ -4,7 +4,7 @@ The principal moments are formulas in the letters of the textbook; the same text
 evaluated for a robot and printed in the explanation.  To add a shape, add its record to
 `KINDS`: the keys of its dimensions with their letters, and I_xx, I_yy, I_zz about the mass
 centre with the shape's own axis along z.  The reader of problem files, the JSON Schema and
-the file of `dynsolve new` know it from there, and `python -m dynsolve.problem.documentation`
+the file of `dynsolve new` know it from there, and `python -m dynsolve.problem.schema`
 prints the table for `problems/README.md`.
 
 Source: Spong, Hutchinson, Vidyasagar, Robot Modeling and Control (2006), section

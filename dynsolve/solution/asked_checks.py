@@ -1,30 +1,48 @@
-"""What only some exercises ask, verified by computations that share no formula with it."""
+"""What only some exercises ask, verified by computations that share no formula with it.
+
+`state: reach`: the one configuration within the limits that reaches the target, as a state.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 
-from dynsolve.derivation.balance_check import verify_balance
-from dynsolve.derivation.configuration_check import Singular, verify_inverse, verify_singular, verify_target
-from dynsolve.derivation.constraint_check import ACTING, verify_constraints
-from dynsolve.derivation.definite_check import verify_definite
+from dynsolve.algebra.matrix import needed_roots
+from dynsolve.derivation.balance import verify_balance
+from dynsolve.derivation.configurations import Singular, verify_inverse, verify_singular, verify_target
+from dynsolve.derivation.constraints import ACTING, verify_constraints
 from dynsolve.derivation.equilibrium_check import Case, balanced_forces, verify_equilibria
-from dynsolve.derivation.forward_check import COMPARED, verify_forward
+from dynsolve.derivation.forward_dynamics import COMPARED, verify_forward
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
-from dynsolve.derivation.linear_check import linear_names, verify_linear
-from dynsolve.derivation.model_check import model_names, verify_model, verify_references
-from dynsolve.derivation.rate_check import rate_names, verify_rates
+from dynsolve.derivation.linearization import linear_names, verify_linear
+from dynsolve.derivation.model_check import (
+    model_names,
+    recursion_names,
+    verify_definite,
+    verify_model,
+    verify_recursions,
+    verify_references,
+)
+from dynsolve.derivation.rate_check import rate_names, verify_rates, verify_statics
 from dynsolve.derivation.reached import angle_rows
-from dynsolve.derivation.recursion_check import recursion_names, verify_recursions
 from dynsolve.derivation.reduced_check import constrained_names, verify_reduced
-from dynsolve.derivation.static_check import verify_statics
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import AlgebraError, ProblemError
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inverse_formulas import ConfigurationForms
+from dynsolve.explain.target import Configuration
+from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Negative, Node, Sum
-from dynsolve.quantities.robot_stages import asked_stages
+from dynsolve.problem import Problem
+from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import State
+from dynsolve.solution.numbers.substitution import robot_with
+
+# What only some exercises ask, verified by computations that share no formula with it
 
 Verify = Callable[[Robot, Mapping[str, Node], int], object]
 """Holds results, as they are printed, at some states."""
@@ -107,3 +125,67 @@ def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wante
         ranks = [loss.rank for loss in found.losses]
         cases = [Singular(*case) for case in zip(shown.singular, ranks, shown.lost, strict=True)]
         verify_singular(robot, forms(jacobian), found.rank, cases)
+
+
+# `state
+
+
+def with_reached_state(problem: Problem) -> Problem:
+    """The problem with its state as values, in a ring that holds their sines and cosines.
+
+    Raises ProblemError where not exactly one configuration is within the limits, or it is not
+    known exactly.
+    """
+    robot = problem.robot
+    one = _within_limits(problem)
+    state = State(tuple((name, 0, one.formulas[name]) for name in robot.ring.names))
+    try:
+        needed = needed_roots(robot.ring, state.by_symbol)
+    except AlgebraError:
+        raise _fault(
+            problem,
+            "the configuration that reaches the target is known in decimals alone",
+            "give the state itself: state: {q1: 90deg}",
+        ) from None
+    questions = replace(robot.questions, state=state)
+    return replace(problem, robot=robot_with(replace(robot, questions=questions), {}, needed))
+
+
+def _within_limits(problem: Problem) -> Configuration:
+    """The one configuration within the limits, with no coordinate that is free."""
+    found = [one for one in _configurations(problem) if not one.outside]
+    if len(found) == 1 and not found[0].free:
+        return found[0]
+    if found and found[0].free:
+        message = f"{found[0].free[0]} may be anything where the target is reached"
+        raise _fault(problem, message, "give the state itself: state: {q1: 90deg}")
+    if not found:
+        message = "no configuration within the limits reaches the target"
+        raise _fault(
+            problem, message, "look at `reach` and `limits`: `find: [inverse]` shows the configurations"
+        )
+    named = " and ".join(_written(one) for one in found[:2])
+    message = f"{len(found)} configurations reach the target: {named}{', ...' * (len(found) > 2)}"
+    raise _fault(problem, message, "give `limits` that leave one of them: limits: {q2: [0, 180deg]}")
+
+
+def _configurations(problem: Problem) -> tuple[Configuration, ...]:
+    """Those that reach the target, whether they are asked for or not."""
+    questions = problem.robot.questions
+    robot = replace(
+        problem.robot,
+        questions=replace(questions, asked=questions.asked | {"inverse"}, state_is_reached=False),
+    )
+    forms = ConfigurationForms(robot, derive(robot))
+    if forms.target is None:
+        raise _fault(problem, "the target has no numbers", "give numbers for its parameters under `values`")
+    return forms.target.configurations
+
+
+def _written(one: Configuration) -> str:
+    values = (f"{name}: {to_python(value)}" for name, value in one.formulas.items())
+    return f"{{{', '.join(values)}}}"
+
+
+def _fault(problem: Problem, message: str, help: str) -> ProblemError:
+    return ProblemError([problem.finding(("state",), message, help)])

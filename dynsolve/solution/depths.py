@@ -35,12 +35,10 @@ from dynsolve.errors import attempted
 from dynsolve.explain.step import Detail, Group, Line, Part, Step
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import NAMED, Node, Relation, Row, equation
+from dynsolve.notation.tree import NAMED, Node, Relation, Row, equation, walk
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
-from dynsolve.notation.walk import walk
-from dynsolve.render.matrices import height, holds_matrix
-from dynsolve.render.page_ends import leads_on
-from dynsolve.render.terminal_boxes import TextBox, boxed, pieces
+from dynsolve.render.page import leads_on
+from dynsolve.render.terminal_boxes import TextBox, boxed, height, holds_matrix, pieces
 
 Drawn = Callable[[Figure | ArmFigure], Picture | None]
 """What makes a picture of a drawing; none where there is no such pose of the arm."""

@@ -1,18 +1,48 @@
-"""Solutions as documents: the choice and the order of the steps that are shown."""
+"""Solutions as documents: the choice and the order of the steps that are shown.
+
+The section that closes a solution: the model, its matrices, the forces row by row.
+
+Everything in it is the result of a step, taken from there, so that it cannot differ.
+
+The steps of a model in numbers as they are printed: ≈ before what is rounded, units behind results.
+
+A number that ends within the digits of the report is written whole, and = stands before it.  Any other is
+rounded where it is printed, and ≈ stands between the members of an equation of which one is rounded.
+
+A result that is a number alone has its unit behind it, and so has a matrix whose entries are all measured
+in one.  A formula of several factors or terms has none: the unit is that of its left side in the list of
+notation, which says so.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 from operator import attrgetter
+from types import MappingProxyType
+from typing import Any
 
 from dynsolve.derivation.rules import course_rules
-from dynsolve.document import Block, Document, Equations, Fold, Heading, List, Prose, Text, reworded
+from dynsolve.document import (
+    Block,
+    Document,
+    Equations,
+    Fold,
+    Formula,
+    Heading,
+    List,
+    Prose,
+    Reference,
+    Table,
+    Text,
+    reworded,
+)
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.given import statement
+from dynsolve.explain.given import CALLED, statement
+from dynsolve.explain.named_steps import labels_of_names
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
@@ -20,19 +50,336 @@ from dynsolve.explain.writing import (
     GAUTIER_KHALIL,
     KHALIL_DOMBRE,
     cited,
+    is_small,
     listed,
     machine,
+    measured,
     of_second_edition,
+    side_by_side,
     titled,
 )
-from dynsolve.notation.tree import Number, Power, Row, Words, equation
-from dynsolve.notation.walk import walk
-from dynsolve.quantities.robot_stages import heading_of, stages_of
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import (
+    ZERO,
+    Matrix,
+    Node,
+    Number,
+    Power,
+    Relation,
+    Row,
+    Symbol,
+    Transpose,
+    Words,
+    equation,
+    walk,
+    with_children,
+)
+from dynsolve.notation.unicode import UnicodePrinter, width
+from dynsolve.quantities import letters
+from dynsolve.quantities.index import quantities
+from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot import units
+from dynsolve.robot.model import Robot
 from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
-from dynsolve.solution.measured_steps import measured_steps
-from dynsolve.solution.summary import in_summary, summary_blocks
+from dynsolve.solution.numbers import given
+
+# The steps of a model in numbers as they are printed
+
+_PARTS_OF_D = ("D_direct", "Dw")
+"""What the ids of the steps begin with that give parts of D, which have no letters of their own."""
+
+_WIDEST = 50
+"""The characters up to which a row of a matrix leaves room for its unit."""
+
+
+def measured_steps(steps: Iterable[Step], robot: Robot, style: Style) -> Iterator[Step]:
+    """The steps as they are; in a report with decimals, with ≈ and units."""
+    if not style.digits:
+        yield from steps
+        return
+    known = _units(robot)
+    for step in steps:
+        yield _step(_with_units(step, known, style), style)
+
+
+def marked(node: Node, style: Style) -> Node:
+    """A formula with ≈ for = where a number on either side is rounded.
+
+    >>> from dynsolve.notation.tree import Symbol, equation
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> style = Style(decimal=True, digits=6)
+    >>> to_unicode(marked(equation(Symbol("I"), Number(5, 96)), style), style)
+    'I ≈ 0.0520833'
+    >>> to_unicode(marked(equation(Symbol("I"), Number(5, 32)), style), style)
+    'I = 0.15625'
+    """
+    if not isinstance(node, Relation):
+        return with_children(node, lambda part: marked(part, style)) if isinstance(node, Row) else node
+    is_rounded = [_is_rounded(part, style) for part in node.parts]
+    signs = (
+        "≈" if sign == "=" and (is_rounded[k] or is_rounded[k + 1]) else sign
+        for k, sign in enumerate(node.signs)
+    )
+    return replace(node, signs=tuple(signs))
+
+
+def _is_rounded(node: Node, style: Style) -> bool:
+    return any(isinstance(part, Number) and style.rounds(part) for part in walk(node))
+
+
+def _step(step: Step, style: Style) -> Step:
+    """A step with all its formulas marked."""
+
+    def all_of(parts: Iterable[Any]) -> tuple[Any, ...]:
+        return tuple(marked(part, style) if isinstance(part, Node) else part for part in parts)
+
+    table = step.table
+    return replace(
+        step,
+        why=all_of(step.why),
+        further=all_of(step.further),
+        working=all_of(step.working),
+        lines=tuple(replace(line, by=all_of(line.by), formulas=all_of(line.formulas)) for line in step.lines),
+        concluding=all_of(step.concluding),
+        result=all_of(step.result),
+        notes=tuple(map(all_of, step.notes)),
+        table=None if table is None else replace(table, rows=tuple(map(all_of, table.rows))),
+    )
+
+
+def _units(robot: Robot) -> dict[Node, str]:
+    """The one unit of all entries of each letter that has one."""
+    length, count = units.si(units.LENGTH), len(robot.joints)
+    found: dict[Node, str] = {letters.o(i): length for i in range(count + 1)}
+    for i in range(1, count + 1):
+        _, d, a, _ = letters.columns(robot, Number(i))
+        found |= {d: length, a: length}
+    found[letters.GRAVITY] = units.si(units.ACCELERATION)
+    for name, quantity in quantities(robot).items():
+        unit = given.of_result(robot, name)
+        several = {unit} if isinstance(unit, str) else {each for row in unit for each in row}
+        if len(several) == 1 and quantity.family.has_letter:
+            found[quantity.letter(robot)] = several.pop()
+    places = range(1, robot.n + 1)
+    if letters.D in found:  # its entries are listed where they are summed up
+        found |= {letters.entry("d", i, j): found[letters.D] for i in places for j in places}
+    if letters.C in found:
+        found[letters.bold("N")] = found[letters.C]
+    return found
+
+
+def _with_units(step: Step, known: Mapping[Node, str], style: Style) -> Step:
+    """The step with units behind what goes in and what comes out: numbers, and matrices in one unit."""
+    of_parts = known.get(letters.D, "") if step.id.startswith(_PARTS_OF_D) else ""
+    of_center = units.si(units.LENGTH) if step.id.startswith("rc") else ""  # as it is given, in its link
+
+    def measure(nodes: Iterable[Node], otherwise: str = "") -> tuple[Node, ...]:
+        return tuple(_measured(node, known, otherwise, style) for node in nodes)
+
+    return replace(
+        step,
+        further=measure(step.further, of_center),
+        working=measure(step.working),
+        result=measure(step.result, of_parts),
+    )
+
+
+def _measured(node: Node, known: Mapping[Node, str], otherwise: str, style: Style) -> Node:
+    """An equation with the unit of its left side behind its right side; each of several side by side."""
+    if isinstance(node, Row):
+        return replace(node, parts=tuple(_measured(part, known, otherwise, style) for part in node.parts))
+    if not isinstance(node, Relation):
+        return node
+    unit, (*before, value) = known.get(node.parts[0], otherwise), node.parts
+    if not unit:
+        return node
+    matrix = value.argument if isinstance(value, Transpose) else value
+    if not isinstance(matrix, Matrix):
+        return replace(node, parts=(*before, measured(value, unit)))
+    write = UnicodePrinter(style).text
+    is_zero = all(entry == ZERO for row in matrix.rows for entry in row)
+    if is_zero or any(sum(width(write(entry)) + 2 for entry in row) > _WIDEST for row in matrix.rows):
+        return node
+    return replace(node, parts=(*before, Row((value, Words(" "), units.node(unit)))))
+
+
+# The section that closes a solution: the model, its matrices, the forces row by row
+
+TITLE = "Summary"
+
+_MATRICES = ("D", "C", "friction", "g")
+
+_AT_STATE = frozenset({"Q", "tau_static", "qd", "qdd", "nullspace", "rangespace", "lost"})
+"""What is computed at the state that a file gives."""
+
+_ACCELERATIONS = ("qdd", "qdd_forward")
+"""Two results of one letter."""
+
+
+def in_summary(robot: Robot, steps: Sequence[Step], asked: Sequence[str], is_short: bool) -> frozenset[str]:
+    """The steps whose results stand in the summary as well."""
+    has_model = is_short and any(step.id == ID for step in steps)
+    return (frozenset(asked) - in_model(robot)) | (in_model(robot) if has_model else frozenset())
+
+
+def summary_blocks(
+    robot: Robot,
+    steps: Sequence[Step],
+    detail: Detail,
+    short: Abbreviated | None = None,
+    *,
+    asked: Sequence[str] = (),
+    is_short: bool = True,
+    sections: Mapping[Stage, int] = MappingProxyType({}),
+) -> Iterator[Block]:
+    """D q̈ + C q̇ + g = τ with D, C and g, then every force, and whatever else the exercise asks for.
+
+    `sections` are the numbers of the stages that are shown.
+    """
+    by_id = {step.id: step for step in steps}
+    model = by_id.get(ID)
+    of_model = in_model(robot) if model else frozenset()
+    if not is_short and detail is not Detail.RESULTS:  # what is short of a long model, if it is asked for
+        of_model -= {name for name in ("D", "g") if name in by_id and is_small(*by_id[name].result)}
+    others = list(_others([name for name in asked if name not in of_model], robot, steps))
+    if model is None and not others:
+        return
+    yield Heading(TITLE, 2, closing=True)
+    if model is not None and is_short:
+        yield from _model(robot, model, by_id, detail, short)
+    elif model is not None:
+        yield from _long_model(model, by_id, detail, sections)
+    yield from others
+
+
+def in_model(robot: Robot) -> frozenset[str]:
+    """The names of what stands in the model and its rows."""
+    return frozenset(("tau", *_MATRICES, *(f"tau{q.index}" for q in robot.coordinates)))
+
+
+def _model(
+    robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail, short: Abbreviated | None
+) -> Iterator[Block]:
+    """The equation of motion in letters and in matrices, and row by row; the names in it."""
+    if detail is Detail.FULL:
+        yield Text(model.why)
+    assert model.formula is not None
+    yield Formula(model.formula, source=model.source if detail > Detail.RESULTS else "")
+    if short is not None and short.at_symbols:
+        yield from _names(by_id, short)
+    own = [by_id[name] for name in _MATRICES if name in by_id]
+    matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
+    what = "With the matrices" if model.result else "The matrices"
+    yield Text((what, " of this robot", Reference(_MATRICES, ", "), ":"))
+    if model.result:
+        yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
+    else:
+        yield from matrices
+    yield from _lines(model)
+    forces = [f"tau{q.index}" for q in robot.coordinates]
+    if not model.lines and all(name in by_id for name in forces):
+        lead: Prose = ("Row by row" if len(forces) > 1 else "Multiplied out",)
+        passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
+        lead += (", with ", equation(*passive, ZERO)) if passive else ()
+        yield Text((*lead, Reference(tuple(forces), ", "), ":"))
+        yield Equations(tuple(by_id[name].result[0] for name in forces))
+
+
+def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
+    """What the names in C, or in all of the matrices, stand for."""
+    where = "the matrices" if short.inertias and short.inertias.definitions else letters.C
+    below: Prose = ("In ", where, " and in the rows below")
+    defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
+    meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
+    if short.single is not None and len(meanings) == 1:
+        yield Text((*below, " ", *meanings, defined, "."))
+    else:
+        yield Text((*below, defined, ":"))
+        yield Equations(meanings)
+
+
+def _long_model(
+    model: Step, by_id: Mapping[str, Step], detail: Detail, sections: Mapping[Stage, int]
+) -> Iterator[Block]:
+    """Of a long model where D, C and g are; these themselves where no stage shows them."""
+    if detail is Detail.RESULTS:
+        assert model.formula is not None
+        yield Formula(model.formula)
+        for name in ("D", "christoffel", "g"):
+            step = by_id[name]
+            yield from (Formula(result, entries=step.entries) for result in step.result)
+        return
+    yield Text(model.why)
+    assert model.formula is not None
+    yield Formula(model.formula, source=model.source)
+    number = sections.get(model.stage)
+    place = " are those of the matrix form" if number is None else f" are those of section {number}"
+    D, g = (letters.D, Reference(("D",))), (letters.G, Reference(("g",)))
+    if by_id["christoffel"].detail > detail:
+        yield Text((*listed([D, g]), *say("{place}; $𝐂$ follows from $𝐃$ as it is told there.", place=place)))
+        return
+    symbols = say("the Christoffel symbols{which}, which make $𝐂$,", which=Reference(("christoffel",)))
+    yield Text((*listed([D, symbols, g]), f"{place}."))
+    yield from _lines(model)
+
+
+def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+    """What else is asked for: what holds everywhere, then, said so, what holds at the given state alone."""
+    state = robot.questions.state.values
+    at_state = [name for name in asked if state and name.rstrip("0123456789") in _AT_STATE]
+    for name in (name for name in asked if name not in at_state):
+        yield from _asked_for(name, robot, steps)
+    found = [block for name in at_state for block in _asked_for(name, robot, steps)]
+    if found:
+        given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in state])
+        yield Text(say("At {given}:", given=given))
+        yield from found
+
+
+def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+    """A result that the exercise asks for: the equation of its letter, else what its step gives."""
+    quantity = quantities(robot).get(name)
+    letter = quantity.letter(robot) if quantity is not None and quantity.family.has_letter else None
+    by_letter = [
+        Formula(result, entries=step.entries if len(step.result) == 1 else ())
+        for step in steps
+        if step.id == name or step.id not in _ACCELERATIONS
+        for result in step.result
+        if isinstance(result, Relation) and result.parts[0] == letter
+    ]
+    yield from by_letter[-1:]
+    step = next((step for step in steps if name in (step.id, *step.also)), None)
+    if by_letter or step is None:
+        return
+    called = CALLED.get(name, step.title)
+    steady = robot.questions.model.steady if name == "equilibria" else ()
+    kept = side_by_side([equation(Symbol(of, 1), value) for of, value in steady]) if steady else ""
+    of_motion = say(" with {kept}", kept=kept) if steady else ""
+    yield Text(say(f"{called[0].upper()}{called[1:]}{{of_motion}}:", of_motion=of_motion))
+    if step.table is not None:
+        unknowns = {f"{name}_{q.name}" for q in robot.coordinates} & set(step.uses or ())
+        formulas = tuple(result for one in steps if one.id in unknowns for result in one.result)
+        yield from (Equations(formulas),) if formulas else ()
+        yield Table(step.table.header, step.table.rows)
+    elif step.result:
+        yield Equations(step.result)
+        yield from (Text(step.outcome),) if step.outcome and name == "equilibria" else ()
+    else:
+        told = tuple(one.outcome for one in steps if one.stage is step.stage and one.outcome)
+        yield List(told or step.notes or (step.why,))
+    yield from (Text(one.concluding) for one in steps if one.id == f"{name}_stability")
+
+
+def _lines(step: Step) -> Iterator[Block]:
+    """The lines of a step, each after what is said of it."""
+    for line in step.lines:
+        yield Text(line.by)
+        yield Equations(line.formulas)
+
+
+# Solutions as documents: the choice and the order of the steps that are shown
 
 
 def solution_document(

@@ -1,17 +1,25 @@
-"""A robot's dynamics, derived and verified: the source of documents, JSON and numbers."""
+"""A robot's dynamics, derived and verified: the source of documents, JSON and numbers.
+
+The way to the forces that a user chooses: by the Lagrangian, or by the Newton-Euler recursions.
+
+The remarks of a problem's author, as notes of the steps that they speak of.
+"""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
-from dynsolve.derivation.agreement import Agreement, agreement
+from dynsolve.derivation.euler_lagrange import Agreement, agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.derivation.verification import Verification, verify
-from dynsolve.errors import Finding, VerificationError
+from dynsolve.document import Prose
+from dynsolve.errors import Finding, ProblemError, UsageError, VerificationError
+from dynsolve.explain.context import MOST_JOINTS
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.signs import report_style
 from dynsolve.explain.step import Step
@@ -19,10 +27,12 @@ from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
 from dynsolve.quantities.family import FORMED
-from dynsolve.quantities.index import quantities
+from dynsolve.quantities.index import Quantities, quantities
+from dynsolve.quantities.owners import stages_of
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import Method
 from dynsolve.solution.given_axes import check_axes
-from dynsolve.solution.method import verify_method
 from dynsolve.solution.numbers.given import Given
 
 if TYPE_CHECKING:
@@ -30,6 +40,47 @@ if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
     from dynsolve.explain.context import Context
     from dynsolve.solution.numbers.results import Numbers
+
+
+# The way to the forces that a user chooses
+
+
+def by_method(problem: Problem, method: Method) -> Problem:
+    """The problem, to be solved by a method; by the recursions with all their quantities asked for.
+
+    Of robots of more than three coordinates these would fill pages, and are only there where the file
+    asks for them.  Raises UsageError for the recursions of a robot without masses or links.
+    """
+    if method is Method.LAGRANGE:
+        return problem
+    if not problem.robot.bodies:
+        raise UsageError("no body has mass, so the Newton-Euler recursions have nothing to work out")
+    if not problem.robot.has_table:
+        raise UsageError("this model has no links, along which the Newton-Euler recursions go")
+    robot = _with_method(problem.robot, method)
+    if robot.n > MOST_JOINTS:
+        return replace(problem, robot=robot)
+    own = (q.name for q in quantities(robot).values() if q.family.stage is Stage.NEWTON_EULER)
+    asked = robot.questions.asked.union(own)
+    return replace(problem, robot=replace(robot, questions=replace(robot.questions, asked=asked)))
+
+
+def verify_method(robot: Robot, values: Derivation) -> None:
+    """Compare the forces of the recursions with those of the Lagrangian, exactly.
+
+    Raises VerificationError where they differ.
+    """
+    if robot.questions.method is Method.NEWTON_EULER:
+        by_lagrange = derive(_with_method(robot, Method.LAGRANGE))
+        if values["tau"] != by_lagrange["tau"]:
+            raise VerificationError("the forces of the recursions differ from those of the Lagrangian")
+
+
+def _with_method(robot: Robot, method: Method) -> Robot:
+    return replace(robot, questions=replace(robot.questions, method=method))
+
+
+# A robot's dynamics, derived and verified: the source of documents, JSON and numbers
 
 CHECKED = ("J", "D", "C", "g", "friction", "tau", "K", "P")
 """The results that are compared with the independent computation, besides the last H."""
@@ -129,7 +180,6 @@ class Dynamics:
         """The steps with the remarks of the problem's author."""
         if not self.problem.remarks:
             return tuple(steps)
-        from dynsolve.solution.remarks import with_remarks
 
         return tuple(with_remarks(steps, self.problem, whole=whole))
 
@@ -205,7 +255,7 @@ def _with_state(problem: Problem) -> Problem:
     """The problem, its state being that of its target where the file says so."""
     if not problem.robot.questions.state_is_open:
         return problem
-    from dynsolve.solution.reached_state import with_reached_state
+    from dynsolve.solution.asked_checks import with_reached_state
 
     return with_reached_state(problem)
 
@@ -224,3 +274,39 @@ def _checked(robot: Robot, forms: Forms) -> dict[str, Node]:
     names = [name for name in CHECKED if name in forms.values.rules]
     frame = {"H": forms(f"H{len(robot.joints)}")} if robot.has_table else {}
     return {**frame, **{name: forms(name) for name in names}}
+
+
+# The remarks of a problem's author, as notes of the steps that they speak of
+
+
+def with_remarks(steps: Iterable[Step], problem: Problem, *, whole: bool) -> Iterator[Step]:
+    """The steps, those of results with a remark with a note more.
+
+    A remark on an entry (d12, c121) stands at the step of the whole, one on what has no step of
+    its own (tau) at the last of its parts.  Raises ProblemError where the steps are the `whole`
+    derivation, and none of them is what a remark speaks of, though its stage is there: the way from
+    link to link has none of the energies.
+    """
+    steps, known = tuple(steps), quantities(problem.robot)
+    owner = {name: step.id for step in steps for name in (step.id, *step.also)}
+    stages = stages_of(problem.robot)
+    notes: dict[str, list[Prose]] = defaultdict(list)
+    lost = []
+    for remark in problem.remarks:
+        places = [owner[name] for name in _looked_up(known, remark.name) if name in owner]
+        if places:
+            notes[places[0]] += [(text,) for text in remark.texts]
+        elif whole and known.stage(remark.name) in stages:
+            message = f"the solution has no step of {remark.name}"
+            lost.append(problem.finding(("remarks", remark.key), message, "remark on another result"))
+    if lost:
+        raise ProblemError(lost)
+    for step in steps:
+        yield replace(step, notes=(*step.notes, *notes[step.id])) if step.id in notes else step
+
+
+def _looked_up(known: Quantities, name: str) -> Iterator[str]:
+    """The names under which the step of a result may be found, the nearest first."""
+    quantity = known[name]
+    yield from (name, quantity.rule, quantity.whole, name.lower())
+    yield from (known[part].rule for part in reversed(known.parts(name)))

@@ -6,9 +6,9 @@ turns with its link; one that does not is accepted where the kinetic energy is t
 
 from __future__ import annotations
 
-from dynsolve.derivation.agreement import given_axes_agree
+from dynsolve.derivation.euler_lagrange import given_axes_agree
 from dynsolve.derivation.graph import Derivation
-from dynsolve.derivation.inertia import turns_with_link
+from dynsolve.derivation.link_frame import turns_with_link
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem import Problem

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from dynsolve.errors import attempted
 from dynsolve.quantities.stages import Stage
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 
 if TYPE_CHECKING:
     from dynsolve.document import Document, Picture
@@ -84,8 +84,7 @@ def _drawn(problem: Problem, style: Style) -> Drawn:
 
     def picture(figure: Figure | ArmFigure) -> Picture | None:
         from dynsolve.document.figures import ArmFigure
-        from dynsolve.draw.arm_figure import drawn_arm
-        from dynsolve.draw.figure import drawn
+        from dynsolve.draw.figure import drawn, drawn_arm
 
         return drawn_arm(figure, problem, style) if isinstance(figure, ArmFigure) else drawn(figure, style)
 

@@ -18,18 +18,17 @@ from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
 from dynsolve.robot.questions import Method
-from dynsolve.solution.dynamics import Dynamics, Progress
-from dynsolve.solution.method import by_method
+from dynsolve.solution.dynamics import Dynamics, Progress, by_method
 from dynsolve.solution.numbers.given import Given, parameters
 from dynsolve.solution.numbers.given import state as read_state
-from dynsolve.solution.numbers.rounding import DIGITS
+from dynsolve.solution.numbers.substitution import DIGITS
 
 if TYPE_CHECKING:
     import sympy
 
     from dynsolve.document import Document
     from dynsolve.explain.abbreviations import Abbreviate
-    from dynsolve.solution.numbers.assignments import Assignment, Plain
+    from dynsolve.solution.numbers.given import Assignment, Plain
     from dynsolve.solution.numbers.results import State
     from dynsolve.solution.numeric import NumericFunction
 
@@ -42,7 +41,7 @@ def load(problem: str | os.PathLike[str]) -> Problem:
     >>> load("planar-2r").title
     'Planar elbow manipulator'
     """
-    from dynsolve.problem.library import find
+    from dynsolve.problem.reader import find
 
     return load_file(find(os.fspath(problem)))
 
@@ -132,7 +131,7 @@ class Solution(Dynamics):
 
     def _report(self, format: str, detail: str) -> bytes:
         from dynsolve.explain.step import Detail
-        from dynsolve.render.formats import Format
+        from dynsolve.render.files import Format
         from dynsolve.solution.reports import report
 
         names = [each.name.lower() for each in Detail]
@@ -165,13 +164,13 @@ class Solution(Dynamics):
 
         Raises UsageError for a name that this robot does not have.
         """
-        from dynsolve.solution.symbolic import to_sympy
+        from dynsolve.solution.numeric import to_sympy
 
         return to_sympy(self._form(name))
 
     def christoffel(self, i: int, j: int, k: int) -> sympy.Expr:
         """c_ijk, indices from 1 as in the textbook."""
-        from dynsolve.solution.symbolic import to_sympy
+        from dynsolve.solution.numeric import to_sympy
 
         return to_sympy(self.forms.christoffel(i - 1, j - 1, k - 1))
 
@@ -205,7 +204,7 @@ class Solution(Dynamics):
         >>> solution.D[1, 1]
         9/40
         """
-        from dynsolve.solution.numbers.assignments import of_call
+        from dynsolve.solution.numbers.given import of_call
 
         return self._with(parameters(self.problem, of_call(values)))
 
@@ -234,7 +233,7 @@ class Solution(Dynamics):
         >>> solve("planar-2r").with_values(l1=1, lc1=0.5).at(q1="17deg", q2=0).number("H1")[0]
         [0.9563047559630354, -0.2923717047227367, 0.0, 0.9563047559630354]
         """
-        from dynsolve.solution.numbers.assignments import of_call
+        from dynsolve.solution.numbers.given import of_call
 
         return self._at(read_state(self.problem, of_call(state)))
 

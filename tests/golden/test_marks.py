@@ -15,8 +15,7 @@ from typing import Any
 import pytest
 
 from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.marking.marks import mark
-from dynsolve.answers.marking.policy import Policy
+from dynsolve.answers.marking.marks import Policy, mark
 from dynsolve.problem import load
 from tests.conftest import LARGE
 from tests.support import STEMS, TEXTBOOKS, problem_file, solved

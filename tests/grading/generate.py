@@ -127,7 +127,7 @@ def course(folder: Path, count: int, seed: int = 1, own_order: bool = False) -> 
 
 def problem_set(folder: Path) -> None:
     """The three problems as a set."""
-    from dynsolve.problem.library import find
+    from dynsolve.problem.reader import find
 
     folder.mkdir(parents=True, exist_ok=True)
     for name in PROBLEMS:

@@ -1,6 +1,6 @@
 """A worker on which some answers are too much: P1 takes without end, P2 all memory, K1 fails, K2 crashes.
 
-`python -m tests.grading.heavy_worker SECONDS BYTES`, in the place of `dynsolve.grading.worker`.
+`python -m tests.grading.heavy_worker SECONDS BYTES`, in the place of `dynsolve.grading.pool`.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ import os
 import sys
 
 from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.submission import Submission
-from dynsolve.grading.worker import main
+from dynsolve.answers.verdict import Submission
+from dynsolve.grading.pool import main
 
 real = Judge.__init__
 

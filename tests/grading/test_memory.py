@@ -8,8 +8,7 @@ import pytest
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.problem.library import find
-from dynsolve.problem.reader import load
+from dynsolve.problem.reader import find, load
 from tests.grading.generate import PROBLEMS, hand_in
 
 OWN_NAMES = """symbols: {q1: theta1, q2: theta2 - 90deg}

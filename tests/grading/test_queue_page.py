@@ -11,7 +11,7 @@ import pytest
 
 import dynsolve
 from dynsolve.grading.public import override_all
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 from tests.reports.browser import Page, chromium
 from tests.support import with_files
 

@@ -13,15 +13,14 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.answers.marking.policy import Policy
+from dynsolve.answers.marking.marks import Policy
 from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.pool import Bounds, Data
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.run import Done, grade_all
-from dynsolve.grading.set_file import load_set
+from dynsolve.grading.set_file import ProblemSet, load_set
 from dynsolve.grading.uploads import Uploads
 from dynsolve.grading.work import grade_one
 from tests.grading.generate import PROBLEMS, course, problem_set

@@ -8,9 +8,9 @@ from functools import cache
 import pytest
 
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import Submission
 from dynsolve.problem import Problem, load
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 pytestmark = pytest.mark.slow
 

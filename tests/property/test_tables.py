@@ -11,8 +11,7 @@ from dataclasses import replace
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dynsolve.answers.judging.mechanism.comparison import Agreement, TableComparer
-from dynsolve.answers.judging.mechanism.tables import Table, TableRow, key_table
+from dynsolve.answers.judging.mechanism.tables import Agreement, Table, TableComparer, TableRow, key_table
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import Degrees, Node, Symbol
 from dynsolve.problem import read_problem

@@ -11,7 +11,7 @@ import dynsolve
 from dynsolve.explain.step import Detail
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
-from dynsolve.render.references import formulas
+from dynsolve.render.line_breaking import formulas
 from dynsolve.solution.documents import solution_document
 from tests.reports.tools import typeset
 

@@ -18,11 +18,11 @@ import yaml
 import dynsolve
 from dynsolve.answers.report import to_json
 from dynsolve.answers.verdict import Verdict
-from dynsolve.cli.docs import topics
+from dynsolve.cli.library import topics
 from dynsolve.errors import ExitCode
-from dynsolve.grading.set_keys import POLICY, SET
-from dynsolve.problem.documentation import table_of_keys, tables
+from dynsolve.grading.set_file import POLICY, SET
 from dynsolve.problem.lint import lint_text
+from dynsolve.problem.schema import table_of_keys, tables
 from dynsolve.robot.units import KNOWN
 from tests.repository.pages import blocks, examples, files, run, sections
 from tests.support import ROOT
@@ -84,7 +84,7 @@ def test_every_yaml_block_is_read_as_it_is_shown() -> None:
 
 def test_the_tables_of_keys_are_those_of_the_specification() -> None:
     for table in (*tables(), table_of_keys(POLICY)):
-        assert table in PAGE, f"python -m dynsolve.problem.documentation prints it:\n{table}"
+        assert table in PAGE, f"python -m dynsolve.problem.schema prints it:\n{table}"
 
 
 def keys(value: Any) -> set[str]:

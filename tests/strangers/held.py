@@ -24,11 +24,10 @@ from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds
 from dynsolve.explain.step import Detail
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Derivative, Letter, Node, Number, Slashed, Symbol
+from dynsolve.notation.tree import Derivative, Letter, Node, Number, Slashed, Symbol, children, walk
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
-from dynsolve.notation.walk import children, walk
 from dynsolve.problem import read_problem
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.reports import report
 from tests.strangers.oracle import Unknown, random_point, relations, untrue

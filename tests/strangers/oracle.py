@@ -17,8 +17,7 @@ from typing import Any
 import numpy as np
 
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Node, walk
 
 CONDITIONAL = (
     "conserved", "simple poses", "gravity is balanced", "positive definite",  # checks, at poses of their own

@@ -10,8 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Number
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Node, Number, walk
 
 CO_FUNCTION = {"sin": "cos", "cos": "sin"}
 

@@ -10,9 +10,8 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.errors import InputError
 from dynsolve.explain.step import Detail
-from dynsolve.notation.tree import Function
+from dynsolve.notation.tree import Function, walk
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk
 from dynsolve.quantities.index import quantities
 from dynsolve.solution.documents import solution_document
 from tests.strangers.generator import stranger, written

@@ -19,9 +19,8 @@ from dynsolve.explain.abbreviations import Abbreviate, Exchange
 from dynsolve.explain.recurring import _Writer
 from dynsolve.explain.step import Detail
 from dynsolve.notation.build import negated, times
-from dynsolve.notation.tree import Node, Relation, Sum
+from dynsolve.notation.tree import Node, Relation, Sum, mapped, walk
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import mapped, walk
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.dynamics import Dynamics

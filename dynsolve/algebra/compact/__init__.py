@@ -12,22 +12,22 @@ it keeps the shorter result.
    rational coefficients.
 
 2. Write each of these in its best form.  Angles about parallel axes make a group
-   (`groups`), and only they combine.  `trig_forms` gives the forms worth considering,
-   and `choice` takes the cheapest, preferring sines and cosines that other coefficients
+   (`trig_forms`), and only they combine.  `trig_forms` gives the forms worth considering,
+   and `trig_forms` takes the cheapest, preferring sines and cosines that other coefficients
    are written with already.  This is where c₂c₂₃ + s₂s₂₃ becomes c₃: with the basic
    angles α₁ = θ₂ and α₂ = θ₂ + θ₃ it is cos α₁ cos α₂ + sin α₁ sin α₂, and its Fourier
    form (`algebra.fourier`) has the one term cos(α₂ - α₁).  An angle that
    does not move is a group by itself, and is added to another where a sum asks for that,
-   sin(θ + β) (`ring_atoms`).  `constant_forms` does the same for
+   sin(θ + β) (`atoms`).  `trig_forms` does the same for
    polynomials in the cosine of a constant angle (4 cos³10° - 3 cos 10° = √3/2).
 
 3. Collect (`collect`): velocities that share a coefficient are merged, (q̇₂ + q̇₃), and a
    few products of them with other coefficients stand apart; then sines and cosines; the
    polynomials in the parameters last, common factors out, masses first, squares
    completed, (a₃ + x₃)²; beside a mass also those of sums of sines and cosines
-   (`squares`), (L₂ c₂ + l_c3 c₂₃)².  What is printed as one factor is an atom
-   (`atoms`; `ring_atoms` makes those of a ring); `monomials` has the arithmetic.
-   `matrix_factor` finds what all entries of a matrix share.
+   (`terms`), (L₂ c₂ + l_c3 c₂₃)².  What is printed as one factor is an atom
+   (`atoms`; `atoms` makes those of a ring); `terms` has the arithmetic.
+   `collect` finds what all entries of a matrix share.
 
 What comes out is held to its polynomial, and the plain polynomial stands in its place if it is not equal to
 it (`proof`).

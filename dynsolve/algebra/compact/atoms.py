@@ -3,14 +3,24 @@
 An atom is whatever is printed as one factor: a mass, a length, cos θ₂, a velocity, a sum
 (a₃ + x₃) that recurs as a whole.  Monomials name atoms by number; the table knows the
 tree of each and its place in a product.
+
+The atoms of a ring's generators, and of the sines and cosines of angles: how each is printed.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from enum import IntEnum
+from itertools import combinations
 
-from dynsolve.notation.tree import Function, Node
-from dynsolve.notation.walk import children
+from dynsolve.algebra.angles import Angle, angle_node
+from dynsolve.algebra.compact.terms import Monomial, Polynomial, Rational, add_term, multiply
+from dynsolve.algebra.compact.trig_forms import AngleGroup, TrigMonomial
+from dynsolve.algebra.expr import Expr, Generator, is_sign
+from dynsolve.algebra.ring import Ring, TrigFunction
+from dynsolve.notation.tree import Function, Node, Number, Symbol, children
+
+# Atoms: the factors of a printed product, and their order
 
 
 class Rank(IntEnum):
@@ -63,3 +73,186 @@ class AtomTable:
             return self.ranks[found][0]
         parts = () if isinstance(node, Function) else children(node)
         return max(map(self._highest, parts), default=Rank.ROOT)
+
+
+# The atoms of a ring's generators, and of the sines and cosines of angles
+
+_OTHER = {"sin": "cos", "cos": "sin"}
+
+
+class RingAtoms:
+    """The atoms of one ring, numbered in printing order.
+
+    `kinds` says of every generator whether it is `leading` (named in `leading`), another
+    `parameter`, a `rate` (velocity or acceleration) or an `angle`; `groups` are the ring's
+    angles; `form` writes the denominator that an inverse stands for.  The atom of a sine or
+    cosine is made once: PUMA 560 would take a fifth longer without.
+    """
+
+    def __init__(
+        self,
+        ring: Ring,
+        leading: Iterable[str],
+        groups: Sequence[AngleGroup],
+        form: Callable[[Expr], Node],
+    ) -> None:
+        self.ring = ring
+        self.table = AtomTable()
+        self._groups = groups
+        self._form = form
+        self._order = {name: i for i, name in enumerate(leading)}
+        self.kinds = {g.index: self._kind(g) for g in ring.generators}
+        self._symbols: dict[int, tuple[int, int]] = {}
+        self._number_symbols()
+        self._trig: dict[tuple[int, TrigFunction], tuple[int, int]] = {}
+        self._functions: dict[int, tuple[str, Angle]] = {}
+        self._of_functions: dict[tuple[str, Angle], int] = {}
+        self._adds_angles = any(self._is_constant(pair.angle) for pair in ring.pairs)
+
+    def _kind(self, g: Generator) -> str:
+        if g.kind in ("sin", "cos", "constant"):
+            return "angle"
+        if (g.kind == "symbol" and g.dots) or is_sign(g.node):
+            return "rate"
+        return "leading" if g.name in self._order else "parameter"
+
+    # -- symbols and roots -------------------------------------------------------------------------
+
+    def _number_symbols(self) -> None:
+        """Masses first, then g, other parameters, coordinates, accelerations, velocities."""
+        printed = [g for g in self.ring.generators if g.kind in ("symbol", "root", "function")]
+        for g in sorted(printed, key=self._place):
+            self._symbols[g.index] = self.table.number(_node(g), self._rank(g)), 1
+
+    def _place(self, g: Generator) -> tuple[object, ...]:
+        order = self._order.get(g.name, 0)
+        return self._rank(g), order, g.dots != 2, g.name != "g", g.kind != "symbol", g.index
+
+    def _rank(self, g: Generator) -> Rank:
+        kind = self.kinds[g.index]
+        if isinstance(g.node, Number):
+            return Rank.ROOT
+        if kind == "parameter":
+            return Rank.COORDINATE if g.name in self.ring.names else Rank.PARAMETER
+        return Rank.LEADING if kind == "leading" else Rank.RATE
+
+    def monomial(self, generators: Sequence[int], exponents: Sequence[int]) -> Monomial:
+        """The monomial in atoms of some generators' exponents."""
+        parts = []
+        for i, e in zip(generators, exponents, strict=True):
+            if e:
+                atom, sign = self._symbol(i)
+                parts.append((atom, sign * e))
+        parts.sort()
+        return tuple(parts)
+
+    def _symbol(self, index: int) -> tuple[int, int]:
+        """(atom, ±1) of a generator; an inverse is what it inverts, to the power -1."""
+        found = self._symbols.get(index)
+        if found is None:
+            inverted = self._form(Expr(self.ring, self.ring.inverses[index]))
+            found = self._symbols[index] = self.table.number(inverted), -1
+        return found
+
+    # -- sines and cosines -------------------------------------------------------------------------
+
+    def trig_monomial(self, mono: TrigMonomial, group: int) -> tuple[int, Monomial]:
+        """(±1, the monomial in atoms) of sines and cosines in the angles of a group."""
+        sign, parts = 1, []
+        for function, e in mono:
+            turned, atom = self._trig_atom(group, function)
+            sign *= turned**e
+            parts.append((atom, e))
+        return sign, tuple(sorted(parts))
+
+    def basic_trig_monomial(self, exponents: Sequence[int], group: int) -> tuple[int, Monomial]:
+        """The same of exponents of sines and cosines, in turn, of a group's basic angles."""
+        count = len(exponents) // 2
+        mono = [
+            ((("sin", "cos")[place % 2], tuple(int(j == place // 2) for j in range(count))), e)
+            for place, e in enumerate(exponents)
+            if e
+        ]
+        return self.trig_monomial(tuple(mono), group)
+
+    def _trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
+        found = self._trig.get((group, function))
+        if found is None:
+            found = self._trig[group, function] = self._new_trig_atom(group, function)
+        return found
+
+    def _new_trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
+        """(±1, atom) of a sine or cosine: -sin(θ₁ - θ₂) is printed as sin(θ₂ - θ₁)."""
+        name, multiples = function
+        if name == "sqrt":
+            return 1, self.table.number(Function(name, Number(multiples[0])), Rank.ROOT)
+        last = max(k for k, m in enumerate(multiples) if m)
+        order = (group, last, sum(map(abs, multiples)))
+        return self._angle_atom(name, self._groups[group].angle(multiples), order)
+
+    def _angle_atom(self, name: str, angle: Angle, order: tuple[int, ...]) -> tuple[int, int]:
+        sign = 1
+        if self._reads_better_negated(angle):
+            angle, sign = -angle, (-1 if name == "sin" else 1)
+        node = Function(name, angle_node(angle, self.ring.names))
+        atom = self.table.number(node, Rank.TRIG, (*order, name != "sin"))
+        self._functions[atom] = name, angle
+        self._of_functions[name, angle] = atom
+        return sign, atom
+
+    # -- angles that are added up ------------------------------------------------------------------
+
+    def with_angles_added(self, poly: Polynomial) -> Polynomial:
+        """sin θ cos β + cos θ sin β as sin(θ + β), where one of the angles is constant."""
+        found = self._sum_of_angles(poly) if self._adds_angles else None
+        while found:
+            terms, factor, mono = found
+            poly = {m: f for m, f in poly.items() if m not in terms}
+            add_term(poly, mono, factor)
+            found = self._sum_of_angles(poly)
+        return poly
+
+    def _sum_of_angles(self, poly: Polynomial) -> tuple[tuple[Monomial, Monomial], Rational, Monomial] | None:
+        """(two terms, factor and monomial of what they are together)"""
+        for mono, factor in poly.items():
+            trig = [atom for atom, e in mono if e == 1 and atom in self._functions]
+            for a, b in combinations(trig, 2):
+                (first, alpha), (second, beta) = self._functions[a], self._functions[b]
+                turned = [
+                    self._of_functions.get((_OTHER[name], angle))
+                    for name, angle in (self._functions[a], self._functions[b])
+                ]
+                if None in turned or not (self._is_constant(alpha) or self._is_constant(beta)):
+                    continue
+                rest = tuple(part for part in mono if part[0] not in (a, b))
+                other = multiply(rest, tuple(sorted((atom, 1) for atom in turned if atom is not None)))
+                if abs(poly.get(other, 0)) != abs(factor) or alpha == beta:
+                    continue
+                ratio = 1 if poly[other] == factor else -1
+                name, angle = (
+                    ("sin", alpha + beta * ratio) if first != second else ("cos", alpha - beta * ratio)
+                )
+                order = max(self.table.ranks[atom][1][:3] for atom in (a, b))
+                sign, atom = self._angle_atom(name, angle, order)
+                if first != name:
+                    sign *= ratio
+                return (mono, other), factor * sign, multiply(rest, ((atom, 1),))
+        return None
+
+    def _is_constant(self, angle: Angle) -> bool:
+        """Whether no coordinate stands in an angle."""
+        return not any(name in self.ring.names for atom, _ in angle.terms for name, _ in atom)
+
+    def _reads_better_negated(self, angle: Angle) -> bool:
+        """Few minus signs, and of as many the last coordinate positive: q₁ + q₂ - q₄, and q₂ - q₁."""
+        rates = dict(angle.terms)
+        moving = [rates[((name, 1),)] for name in self.ring.names if ((name, 1),) in rates]
+        moving = moving or [rate for _, rate in angle.terms]
+        negative = sum(rate < 0 for rate in moving)
+        return 2 * negative > len(moving) or (2 * negative == len(moving) and bool(moving) and moving[-1] < 0)
+
+
+def _node(g: Generator) -> Node:
+    if g.node is None:
+        return Symbol(g.name, g.dots)
+    return Function("sqrt", g.node) if g.kind == "root" else g.node

@@ -6,6 +6,8 @@ A polynomial is a dictionary {monomial in atoms: factor} (see `atoms` and `monom
 Of the ways of drawing an atom out of the terms that share it, the one that leaves the
 fewest operations is taken; a sum that recurs as a whole, a₃ + x₃, becomes an atom of its
 own, so that squares are completed: (a₃ + x₃)².
+
+The factor that all entries of a matrix share: (1/12) m l² in front of the tensor of a rod.
 """
 
 from __future__ import annotations
@@ -15,22 +17,25 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 from dynsolve.algebra.compact.atoms import AtomPlace, AtomTable, Rank
-from dynsolve.algebra.compact.monomials import (
+from dynsolve.algebra.compact.terms import (
     Monomial,
     Polynomial,
+    Rational,
+    add_term,
     common,
     content,
     divide,
+    exact,
     join,
     joined_pair,
     multiply,
     whole_content,
 )
-from dynsolve.algebra.compact.terms import Rational, add_term, exact
-from dynsolve.notation.build import cost, split_sign, times, total
+from dynsolve.notation.build import cost, number_in_front, split_sign, times, total
 from dynsolve.notation.tree import (
     ZERO,
     Function,
+    Matrix,
     Negative,
     Node,
     Number,
@@ -39,8 +44,10 @@ from dynsolve.notation.tree import (
     Quotient,
     Sum,
     Symbol,
+    walk,
 )
-from dynsolve.notation.walk import walk
+
+# Collecting polynomials in the parameters
 
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
@@ -429,3 +436,35 @@ class Collector:
         if ratio < 0 and not isinstance(self.atoms.nodes[x], Sum):
             terms.sort(key=lambda term: isinstance(term, Negative))
         return total(terms)
+
+
+# The factor that all entries of a matrix share: (1/12) m l² in front of the tensor of a rod
+
+
+def matrix_factor(collector: Collector, matrix: Matrix) -> tuple[Node, Matrix] | None:
+    """(factor, rest) with matrix = factor · rest; None unless that takes fractions out of several entries.
+
+    Masses and lengths go with the fraction, angles and rates stay; a length alone stays too: no entry
+    is read more easily without it.
+    """
+    entries = {entry: collector.decompose(entry) for row in matrix.rows for entry in row if entry != ZERO}
+    filled = sum(entry != ZERO for row in matrix.rows for entry in row)
+    if filled < 2 or not any(isinstance(split_sign(entry)[1], Quotient) for entry in entries):
+        return None
+    number = whole_content([factor for factor, _ in entries.values()])
+    ranks = collector.atoms.ranks
+    shared = tuple(
+        (atom, exponent)
+        for atom, exponent in common([mono for _, mono in entries.values()])
+        if ranks[atom][0] <= Rank.SUM
+    )
+    if number.denominator == 1 or not shared:
+        return None
+    rest: dict[Node, Node] = {
+        entry: collector.product(exact(factor, number), divide(mono, shared), ())
+        for entry, (factor, mono) in entries.items()
+    }
+    if any(isinstance(part, Quotient) for entry in rest.values() for part in walk(entry)):
+        return None
+    front = number_in_front(collector.product(number, shared, ()))
+    return front, Matrix(tuple(tuple(rest.get(entry, entry) for entry in row) for row in matrix.rows))

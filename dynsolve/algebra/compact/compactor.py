@@ -13,24 +13,25 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 
+from dynsolve.algebra.compact.atoms import RingAtoms
 from dynsolve.algebra.compact.collect import Collector
-from dynsolve.algebra.compact.groups import angle_groups
-from dynsolve.algebra.compact.monomials import Monomial, Polynomial, multiply
 from dynsolve.algebra.compact.proof import Proof, plain_form
-from dynsolve.algebra.compact.ring_atoms import RingAtoms
-from dynsolve.algebra.compact.squares import square_in
 from dynsolve.algebra.compact.terms import (
     Exponents,
+    Monomial,
+    Polynomial,
     Rational,
     TermLayout,
     Terms,
     exact,
+    multiply,
     primitive,
     read_terms,
     split_middle,
     split_tail,
+    square_in,
 )
-from dynsolve.algebra.compact.trig_forms import TrigMonomial, TrigPolynomial
+from dynsolve.algebra.compact.trig_forms import TrigMonomial, TrigPolynomial, angle_groups
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
@@ -62,7 +63,7 @@ class Compactor:
     on one way of collecting is tried and not two.
 
     >>> from dynsolve.algebra.angles import Angle
-    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.python import to_python
     >>> from dynsolve.notation.tree import Symbol
     >>> ring = build_ring([("q1", "revolute")], [Symbol("l")], [Angle.of("q1")])

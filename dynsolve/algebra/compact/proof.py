@@ -15,16 +15,24 @@ from random import Random
 from typing import Any
 
 from dynsolve.algebra.angles import angle_node
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
-from dynsolve.algebra.generators import Generator, is_sign
+from dynsolve.algebra.expr import Expr, Generator, is_sign
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import evaluate, value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+    names_in,
+)
 from dynsolve.notation.tree_values import evaluate as value_of_tree
-from dynsolve.notation.walk import names_in
 
 PRIME = 2**61 - 1
 
@@ -122,7 +130,7 @@ def plain_form(expr: Expr) -> Node:
     """The terms of an expression as they stand in its ring, nothing collected.
 
     >>> from dynsolve.algebra.angles import Angle
-    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.python import to_python
     >>> ring = build_ring([("q1", "revolute")], [Symbol("l")], [Angle.of("q1")])
     >>> to_python(plain_form((ring.symbol("l") * 2 - ring.one) * ring.sin(Angle.of("q1"))))

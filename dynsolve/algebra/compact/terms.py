@@ -4,19 +4,31 @@ The exponents of a term stand in the order in which a person collects: the angle
 groups from the base outwards, masses and inertias, the other parameters and
 coordinates, velocities and accelerations.  So each step of collecting cuts a
 piece off an end, and keys only become shorter.
+
+Polynomials in atoms as dictionaries {monomial: factor}: products, common factors, recurring sums.
+
+A monomial is a sorted tuple of (number of an atom, exponent); see `atoms`.
+
+Squares of sums of sines and cosines: m₃ (L₂ c₂ + l_c3 c₂₃)², as a distance from an axis gives it.
+
+In the normal form such a square is multiplied out, and s² is 1 - c².  It is found again
+by its roots: a term a² c² is the square of a c, -a² c² that of a s, a² that of a; two
+roots belong together where twice their product stands among the terms as well.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import gcd, lcm
-from typing import Any, TypeVar
+from math import gcd, isqrt, lcm
+from typing import Any, NamedTuple, TypeVar
 
 from flint import Ordering, fmpq_mpoly_ctx
 
 from dynsolve.algebra.expr import Expr
+
+# A polynomial as a dictionary of terms, laid out for collecting
 
 Rational = int | Fraction
 """A rational factor: an int wherever it is whole, since those are fast."""
@@ -143,3 +155,188 @@ def read_terms(
 
 def _factor(value: Any) -> Rational:
     return int(value.p) if value.q == 1 else Fraction(int(value.p), int(value.q))
+
+
+# Polynomials in atoms as dictionaries {monomial
+
+Monomial = tuple[tuple[int, int], ...]
+Polynomial = dict[Monomial, Rational]
+
+
+def multiply(left: Monomial, right: Monomial) -> Monomial:
+    """The product of two monomials."""
+    exponents = dict(left)
+    for atom, exponent in right:
+        exponents[atom] = exponents.get(atom, 0) + exponent
+    return tuple(sorted((a, e) for a, e in exponents.items() if e))
+
+
+def divide(mono: Monomial, by: Monomial) -> Monomial:
+    """mono / by"""
+    return multiply(mono, tuple((atom, -exponent) for atom, exponent in by))
+
+
+def common(monos: Iterable[Monomial]) -> Monomial:
+    """The largest monomial that divides all; an inverse is common where all have it."""
+    monos = list(monos)
+    first = dict(monos[0])
+    for mono in monos[1:]:
+        other = dict(mono)
+        for atom in list(first):
+            exponent = other.get(atom, 0)
+            mine = first[atom]
+            if mine > 0 and exponent > 0:
+                first[atom] = min(mine, exponent)
+            elif mine < 0 and exponent < 0:
+                first[atom] = max(mine, exponent)
+            else:
+                del first[atom]
+    return tuple(sorted(first.items()))
+
+
+def content(factors: Iterable[Rational]) -> Rational:
+    """The factor worth drawing out: the common divisor of whole numbers, and a denominator if all have one.
+
+    The denominator must be a multiple of the others: (m₁ + 2 m₂)/4, but a/2 + b/3 and h + d/2 + l/2.
+    """
+    factors = list(factors)
+    shared = gcd(*(f.numerator for f in factors))
+    if set(map(type, factors)) <= {int}:
+        return shared
+    denominators = {f.denominator for f in factors}
+    largest = max(denominators)
+    if 1 in denominators or any(largest % d for d in denominators):
+        return 1
+    return Fraction(shared, largest)
+
+
+def whole_content(factors: Iterable[Rational]) -> Rational:
+    """The content that leaves coprime whole numbers: of 1 and 1/2 it is 1/2."""
+    factors = list(factors)
+    return exact(gcd(*(f.numerator for f in factors)), lcm(*(f.denominator for f in factors)))
+
+
+def joined_pair(poly: Polynomial) -> tuple[int, int, Rational] | None:
+    """(x, y, r) where the polynomial is one in x + r·y: ∂/∂y = r ∂/∂x, and not merely linear in them."""
+    atoms = sorted({atom for mono in poly for atom, e in mono if e > 0})
+    slopes = {atom: _derivative(poly, atom) for atom in atoms}
+    candidates: dict[object, tuple[int, Rational]] = {}
+    for atom, part in slopes.items():
+        if len(part) > 1:
+            key, scale = primitive(part)
+            if key in candidates:
+                first, other = candidates[key]
+                return first, atom, exact(scale, other)
+            candidates[key] = atom, scale
+    return None
+
+
+def _derivative(poly: Polynomial, atom: int) -> Polynomial:
+    """∂poly/∂atom"""
+    result: Polynomial = {}
+    for mono, f in poly.items():
+        for a, e in mono:
+            if a == atom:
+                result[divide(mono, ((a, 1),))] = f * e
+    return result
+
+
+def join(poly: Polynomial, x: int, y: int, whole: int) -> Polynomial:
+    """A polynomial in x + r·y, with y put to 0 and x replaced by the atom `whole`."""
+    result: Polynomial = {}
+    for mono, f in poly.items():
+        exponents = dict(mono)
+        if y in exponents:
+            continue
+        if x in exponents:
+            exponents[whole] = exponents.pop(x)
+        result[tuple(sorted(exponents.items()))] = f
+    return result
+
+
+# Squares of sums of sines and cosines
+
+
+class Root(NamedTuple):
+    """factor · monomial, with one sine or cosine in it or none."""
+
+    factor: Rational
+    exponents: Exponents
+
+
+class Square(NamedTuple):
+    """(Σ root)² + rest"""
+
+    roots: tuple[Root, ...]
+    rest: Terms
+
+
+def square_in(terms: Terms, width: int) -> Square | None:
+    """The square with most roots in a polynomial, and what is left without it; None where there is none.
+
+    The first `width` exponents are those of sines and cosines in turn.
+
+    >>> c2, c23 = (0, 1, 0, 0), (0, 0, 0, 1)
+    >>> found = square_in({(0, 2, 0, 0, 2, 0): 1, (0, 1, 0, 1, 1, 1): 2, (0, 0, 0, 2, 0, 2): 1}, 4)
+    >>> [root.exponents for root in found.roots], found.rest
+    ([(0, 1, 0, 0, 1, 0), (0, 0, 0, 1, 0, 1)], {})
+    """
+    best: tuple[Root, ...] = ()
+    roots = list(_roots(terms, width))
+    for first in roots:
+        found = _together(first, roots, terms)
+        if len(found) > max(len(best), 1) and any(any(root.exponents[:width]) for root in found):
+            best = found
+    return Square(best, _without(terms, best, width)) if best else None
+
+
+def _roots(terms: Terms, width: int) -> Iterator[Root]:
+    """The roots of the terms that are squares: cosines of those with a plus, sines of those with a minus."""
+    for exponents, factor in terms.items():
+        trig, others = exponents[:width], exponents[width:]
+        root = _rational_root(-factor if factor < 0 and any(trig) else factor)
+        if root is None or any(e % 2 for e in others):
+            continue
+        if not any(trig):
+            yield Root(root, (*trig, *(e // 2 for e in others)))
+        elif sum(trig) == 2 and 2 in trig[1::2]:
+            place = trig.index(2) - (factor < 0)
+            yield Root(root, (*(int(i == place) for i in range(width)), *(e // 2 for e in others)))
+
+
+def _rational_root(value: Rational) -> Rational | None:
+    """The square root of a positive rational number, None where it is not rational."""
+    p, q = value.numerator, value.denominator
+    if p <= 0 or isqrt(p) ** 2 != p or isqrt(q) ** 2 != q:
+        return None
+    return isqrt(p) if q == 1 else Fraction(isqrt(p), isqrt(q))
+
+
+def _together(first: Root, roots: list[Root], terms: Terms) -> tuple[Root, ...]:
+    """The roots, with their signs, of which twice the product with each other stands among the terms."""
+    found = [first]
+    for root in roots:
+        products = [(one, terms.get(_product(one, root), 0)) for one in found]
+        signs = {product / (2 * one.factor * root.factor) for one, product in products}
+        if root != first and signs in ({1}, {-1}):
+            found.append(Root(root.factor * int(signs.pop()), root.exponents))
+    return tuple(found)
+
+
+def _product(a: Root, b: Root) -> Exponents:
+    return tuple(x + y for x, y in zip(a.exponents, b.exponents, strict=True))
+
+
+def _without(terms: Terms, roots: tuple[Root, ...], width: int) -> Terms:
+    """The terms less the square of the sum of the roots."""
+    rest = dict(terms)
+    for i, a in enumerate(roots):
+        for b in roots[i + 1 :]:
+            add_term(rest, _product(a, b), -2 * a.factor * b.factor)
+        square, factor = list(_product(a, a)), -a.factor * a.factor
+        sine = next((place for place in range(0, width, 2) if square[place]), None)
+        if sine is not None:  # s² = 1 - c²
+            square[sine] = 0
+            add_term(rest, (*square[: sine + 1], 2, *square[sine + 2 :]), -factor)
+        add_term(rest, tuple(square), factor)
+    return rest

@@ -11,7 +11,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
-from dynsolve.derivation import actions, vectorized
+from dynsolve.derivation import actions, euler_lagrange
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.quantities import action_families, families
 from dynsolve.quantities.family import Family
@@ -63,7 +63,7 @@ def _spring_energy(robot: Robot, twice: Callable[[Expr, Expr, Expr], Expr]) -> E
 def _without_springs(robot: Robot, value: InputValue) -> Iterator[Variant]:
     """g = ∂P/∂q without the forces of the springs."""
     if robot.actions.springs:
-        yield value("g") - vectorized.gravity_vector(robot, value("Ps")), slip("springs_missing")
+        yield value("g") - euler_lagrange.gravity_vector(robot, value("Ps")), slip("springs_missing")
 
 
 def _lagrangian(robot: Robot, value: InputValue) -> Iterator[Variant]:

@@ -5,12 +5,14 @@ own nearest answers lead to.  The explanations are tried in the order of `_IN_OR
 the end of this file, the nearest first.  Each brings its mend, and is told only where the
 mend, put into the answer, gives exactly what is expected (`Explanation.holds`); where none
 does, what differs is said, and no more.
+
+An answer that is to be explained, and an explanation of it, which is told only where it holds.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import zip_longest
@@ -18,33 +20,69 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, cancelled, equal, is_zero
-from dynsolve.algebra.fraction_matrix import fraction_of
-from dynsolve.answers.diagnosis.case import Case, Explanation, in_common, likeness
-from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSlips
-from dynsolve.answers.diagnosis.differences import what_differs
-from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermSlip
+from dynsolve.algebra.linear_systems import fraction_of
+from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermDiagnoser, TermSlip, ratio_of
 from dynsolve.answers.diagnosis.factors import FactorPairs
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming
-from dynsolve.answers.diagnosis.numbers import number_for_a_letter
-from dynsolve.answers.diagnosis.one_place import ratio_of
-from dynsolve.answers.diagnosis.own_steps import OwnSteps
-from dynsolve.answers.diagnosis.parts import is_small, parts, used
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, is_small, mends, parts, used
+from dynsolve.answers.diagnosis.own_steps import OF_THE_MATRIX, DerivationSlips, MatrixDiagnoser, OwnSteps
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
 from dynsolve.answers.diagnosis.substitution import substitutions, throughout
-from dynsolve.answers.diagnosis.term_writer import TermWriter
-from dynsolve.answers.diagnosis.terms import TermDiagnoser
-from dynsolve.answers.diagnosis.whole_matrix import MatrixDiagnoser
-from dynsolve.answers.diagnosis.wrong_entry import DimensionCheck, WrongEntry
+from dynsolve.answers.diagnosis.wrong_entry import (
+    DimensionCheck,
+    TermWriter,
+    WrongEntry,
+    number_for_a_letter,
+    what_differs,
+)
 from dynsolve.answers.judging.entry_comparison import substituted
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.verdict import Diagnosis
-from dynsolve.derivation.energy import velocities
+from dynsolve.derivation.link_frame import velocities
 from dynsolve.notation.build import split_sign
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import families
+
+# An answer that is to be explained, and an explanation of it, which is told only where it holds
+
+
+@dataclass(frozen=True)
+class Case:
+    """An answer that is wrong, as an element of the ring, and the value that it is compared with."""
+
+    wrong: WrongEntry
+    mine: Expr
+    expected: Expr
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """What is told of an answer, and what mends it; `told` makes the words."""
+
+    mends: tuple[Mend, ...]
+    told: Callable[[], Iterable[Diagnosis]]
+
+    def holds(self, case: Case) -> bool:
+        """Whether it is true: with the slips mended the answer is what is expected, exactly."""
+        return mends(self.mends, case.mine, case.expected)
+
+
+def in_common(a: Expr, b: Expr) -> int:
+    """How many terms two values share."""
+    if not a.poly or not b.poly:
+        return 0
+    return len(a.poly.to_dict().items() & b.poly.to_dict().items())
+
+
+def likeness(a: Expr, b: Expr) -> Fraction:
+    """The share of the terms of two values that they have in common."""
+    same = in_common(a, b)
+    return Fraction(same, max(len(a) + len(b) - same, 1))
+
+
+# Naming the slip in an answer that is wrong
 
 MOST_NAMED = 4
 """More slips than this in one answer are told as the terms that differ."""

@@ -2,24 +2,50 @@
 
 The words are made of the mend alone, so that a message says what is put right, and only
 where it is told, since most pairs of terms that are compared are never told.
+
+A slip in one place of an answer: what was exchanged for what, so that all of it is explained.
+
+An answer that is off by rest · (wanted - written) has one factor where another belongs.  Every
+pair of factors that people mistake for one another is tried (`factors`), and numbers: a sign, a
+2 for a 1, a term that is missing or one too many.  Of those that stand in the answer the one
+with the lightest name (`exchanges`) is taken, then the one in the fewest terms.
+
+Slips in several terms, from the exact difference of an answer and what was expected.
+
+What is equal is taken away, part by part (a monomial in the symbols times sines and cosines).
+Of a part that both have, the slip is in its sines and cosines or in its number; what is left of
+the answer is matched with what is left of the expected value by the slip that leads from one to
+the other, the lightest first.  A part without a partner is a missing term, or one too many.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain, groupby
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
-from dynsolve.answers.diagnosis.mends import Exchange
-from dynsolve.answers.diagnosis.parts import monomial_expr, parts, used
+from dynsolve.answers.diagnosis.factors import FactorPairs
+from dynsolve.answers.diagnosis.mends import (
+    Exchange,
+    Monomial,
+    is_small,
+    monomial_expr,
+    parts,
+    stands_in,
+    used,
+)
 from dynsolve.answers.diagnosis.slips import slip
-from dynsolve.answers.diagnosis.term_writer import TermWriter
+from dynsolve.answers.diagnosis.wrong_entry import TermWriter
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.notation.tree import Negative, Node, Number, Product, Sum, walk
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import INERTIA, MASS
+
+# One factor where another belongs
 
 HEAVY = 4
 """The weight of a term that is missing, or one too many: anything lighter is likelier."""
@@ -177,3 +203,189 @@ def _degree(expr: Expr, g: Generator) -> int:
     """The power of a symbol that all terms of an expression have; 0 where they differ."""
     powers = {int(exponents[g.index]) for exponents in expr.poly.monoms()} if expr.poly else set()
     return powers.pop() if len(powers) == 1 else 0
+
+
+# A slip in one place of an answer
+
+MOST_TERMS = 60
+"""An answer that is off by more terms than this has no slip in one place."""
+
+
+class OnePlace:
+    """Finds the slip in one place of an answer that leads to it from what was expected."""
+
+    def __init__(self, exchanges: Exchanges, factors: FactorPairs) -> None:
+        self.exchanges = exchanges
+        self.ring = exchanges.ring
+        self.words = exchanges.words
+        self.factors = factors
+
+    def __call__(self, mine: Expr, expected: Expr) -> TermSlip | None:
+        """The slip, None where there is none in one place."""
+        off = expected - mine
+        if off.is_zero or len(off) > MOST_TERMS:
+            return None
+        found = [one for one in self._all(mine, expected, off) if _stands(one.mend, mine, expected)]
+        found.sort(key=lambda one: (one.weight, len(one.mend.rest)))
+        return next(filter(self._is_seen, found), None)
+
+    def _all(self, mine: Expr, expected: Expr, off: Expr) -> Iterator[TermSlip]:
+        yield from self._numbers(mine, expected, off)
+        of = self.factors
+        for (a, b), code, rest in chain(
+            of.of_symbols(off), of.of_functions(off), of.of_strange_functions(off)
+        ):
+            yield self.exchanges.named(Exchange(rest, b, a), code)
+            yield self.exchanges.named(Exchange(-rest, a, b), code)
+
+    def _numbers(self, mine: Expr, expected: Expr, off: Expr) -> Iterator[TermSlip]:
+        """A number before one term: 0 of a missing one, 1 of one too many, a sign, a factor."""
+        have, want = _at_terms_of(off, mine), _at_terms_of(off, expected)
+        if not isinstance(self.words.form(off), Sum):
+            if have.is_zero:
+                yield self.exchanges.missing(want)
+            elif want.is_zero:
+                yield self.exchanges.needless(have)
+            elif (ratio := ratio_of(want, have)) is not None:
+                yield self.exchanges.number(have, ratio)
+
+    def _is_seen(self, one: TermSlip) -> bool:
+        """Whether the one function stands in the term and the other in what it should be.
+
+        The ring may hold cos θ₂ in sines and cosines of θ₁ and θ₁ + θ₂; that these become
+        something else is no slip that anybody makes.
+        """
+        mend, form = one.mend, self.words.form
+        if not any(self.ring.generators[i].kind in ("sin", "cos") for i in used(mend.written - mend.wanted)):
+            return True
+        return _holds(form(mend.have), form(mend.written)) and _holds(form(mend.want), form(mend.wanted))
+
+
+def ratio_of(a: Expr, b: Expr) -> Fraction | None:
+    """r where a = r b, None where there is no such number."""
+    if a.is_zero or b.is_zero or len(a) != len(b):
+        return None
+    ratio = Fraction(fraction(a.poly.leading_coefficient()) / fraction(b.poly.leading_coefficient()))
+    return ratio if a == b * ratio else None
+
+
+def _stands(mend: Exchange, mine: Expr, expected: Expr) -> bool:
+    return stands_in(mend.have, mine) and stands_in(mend.want, expected)
+
+
+def _at_terms_of(off: Expr, value: Expr) -> Expr:
+    """The terms of a value that have the monomials of another."""
+    places = off.poly.to_dict().keys()
+    kept = {e: v for e, v in value.poly.to_dict().items() if e in places} if value.poly else {}
+    return Expr(off.ring, off.ring.ctx.from_dict(kept))
+
+
+def _holds(node: Node, part: Node) -> bool:
+    """Whether a formula has another in it, with whatever sign; a number need not be seen."""
+    bare = part.argument if isinstance(part, Negative) else part
+    if isinstance(bare, Product):  # 2s₁ c₁ stands in 2m g s₁ c₁
+        return all(_holds(node, factor) for factor in bare.factors)
+    return isinstance(bare, Number) or bare in walk(node)
+
+
+# Slips in several terms, from the exact difference of an answer and what was expected
+
+MOST_PAIRS = 2_500
+"""More pairs of terms are not compared with each other."""
+
+MOST_SYMBOLS = 3
+"""A term with more symbols left out, or too many, is another term."""
+
+Part = tuple[Monomial, Expr]
+
+
+class TermDiagnoser:
+    """Finds slips in terms."""
+
+    def __init__(self, exchanges: Exchanges, factors: FactorPairs) -> None:
+        self.exchanges = exchanges
+        self.ring = exchanges.ring
+        self.one_place = OnePlace(exchanges, factors)
+
+    def __call__(self, mine: Expr, expected: Expr) -> list[TermSlip]:
+        """The slips that lead from what was expected to the answer; none where there are too many terms."""
+        if not (is_small(mine) and is_small(expected)):
+            return []
+        ours, theirs = parts(mine), parts(expected)
+        same = [m for m in ours if m in theirs]
+        found = [slip for m in same for slip in self._in_part(ours.pop(m), theirs.pop(m))]
+        return _joined([*found, *self._matched(list(ours.items()), list(theirs.items()))])
+
+    def _in_part(self, mine: Expr, expected: Expr) -> Iterator[TermSlip]:
+        """The slip in a part that both have."""
+        if mine == expected:
+            return
+        found = self.one_place(mine, expected)
+        yield found or TermSlip(5, "trig_part", Exchange(self.ring.one, mine, expected))
+
+    def _matched(self, mine: list[Part], expected: list[Part]) -> list[TermSlip]:
+        """Pairs of parts with the slip between them, the lightest first; what is left is missing or extra."""
+        pairs = []
+        if len(mine) * len(expected) <= MOST_PAIRS:
+            pairs = sorted(
+                (
+                    (found.weight, i, j, found)
+                    for i, m in enumerate(mine)
+                    for j, e in enumerate(expected)
+                    if (found := self._between(m, e)) is not None
+                ),
+                key=lambda pair: pair[:3],
+            )
+        ours, theirs = dict(enumerate(mine)), dict(enumerate(expected))
+        result: list[TermSlip] = []
+        for _, i, j, found in pairs:
+            if i in ours and j in theirs:
+                del ours[i], theirs[j]
+                result.append(found)
+        result += [self.exchanges.missing(expr) for _, expr in theirs.values()]
+        return result + [self.exchanges.needless(expr) for _, expr in ours.values()]
+
+    def _between(self, mine: Part, expected: Part) -> TermSlip | None:
+        """The slip between two terms that differ in a few symbols, and perhaps in the sign, a 2 or a ½."""
+        (have, written_term), (want, wanted_term) = mine, expected
+        left, right = _without_common(have, want)
+        if max(len(left), len(right)) > MOST_SYMBOLS or len(left) + len(right) > MOST_SYMBOLS + 1:
+            return None
+        written, wanted = monomial_expr(self.ring, left), monomial_expr(self.ring, right)
+        ratio = ratio_of(wanted_term * written, written_term * wanted)
+        if ratio is None or abs(ratio) not in (1, 2, Fraction(1, 2)):
+            return None
+        rest = Expr(self.ring, (written_term.poly / written.poly))
+        found = self.exchanges.named(Exchange(rest, written, wanted * ratio))
+        is_likely = left == () or right == () or found.code in LIKELY
+        return TermSlip(found.weight + 2 * (ratio != 1), found.code, found.mend) if is_likely else None
+
+
+LIKELY = {"symbol", "dropped_dot", "extra_dot", "odd_argument", "unknown_symbol"}
+
+
+def _without_common(have: Monomial, want: Monomial) -> tuple[Monomial, Monomial]:
+    """Two monomials without the factors that they have in common."""
+    change = dict(want)
+    for index, power in have:
+        change[index] = change.get(index, 0) - power
+    left = tuple((i, -p) for i, p in change.items() if p < 0)
+    return left, tuple((i, p) for i, p in change.items() if p > 0)
+
+
+def _joined(found: list[TermSlip]) -> list[TermSlip]:
+    """One factor that stands for another in several terms is one slip."""
+
+    def kind(one: TermSlip) -> tuple[str, str, str]:
+        return one.code, str(one.mend.written.poly), str(one.mend.wanted.poly)
+
+    result = []
+    for (code, _, _), same in groupby(sorted(found, key=kind), key=kind):
+        alike = list(same)
+        if len(alike) == 1 or code in ("missing_term", "extra_term", "trig_part", "factor", "sign"):
+            result += alike
+            continue
+        rest = sum((one.mend.rest for one in alike[1:]), alike[0].mend.rest)
+        mend = Exchange(rest, alike[0].mend.written, alike[0].mend.wanted)
+        result.append(TermSlip(alike[0].weight, code, mend))
+    return result

@@ -15,11 +15,9 @@ from functools import cached_property
 from itertools import combinations, permutations
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.answers.diagnosis.mends import put_polynomials
-from dynsolve.answers.diagnosis.parts import used
+from dynsolve.answers.diagnosis.mends import put_polynomials, used
 from dynsolve.errors import AlgebraError
 
 MOST_SYMBOLS = 16

@@ -8,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from dynsolve.algebra.at_state import AtState
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.matrix import AtState, Matrix
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.derivation import kinematics, statics
-from dynsolve.derivation.static_rules import jacobians
-from dynsolve.quantities import families, static_families
+from dynsolve.derivation.statics import jacobians
+from dynsolve.quantities import action_families, families
 from dynsolve.quantities import kinematic_families as asked
 from dynsolve.quantities.family import Family
 from dynsolve.robot.model import Robot
@@ -107,8 +106,8 @@ def _at(robot: Robot) -> AtState:
 OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
     families.JV: _in_last_frame("Jv"),
     asked.QD: _joint_rates,
-    static_families.Q: _forces,
-    static_families.TAU_STATIC: _holding,
+    action_families.Q: _forces,
+    action_families.TAU_STATIC: _holding,
 }
 
 OF_POINT: dict[Family, Callable[[Robot, NamedPoint, InputValue], Iterator[Variant]]] = {

@@ -16,7 +16,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis import kinematic_steps
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
-from dynsolve.derivation import energy, inertia, jacobian, kinematics, vectorized
+from dynsolve.derivation import euler_lagrange, kinematics, link_frame
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import to_unicode
@@ -96,12 +96,12 @@ def _linear_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[Va
     frames = _frames(value, len(robot.joints))
     tip = kinematics.origin(frames[body.link])
     yield (
-        jacobian.linear_jacobian(robot, frames, tip, body.link),
+        kinematics.linear_jacobian(robot, frames, tip, body.link),
         slip("frame_origin", part=str(body.link), other=body.name),
     )
     if body.link < len(robot.joints):
         yield (
-            jacobian.linear_jacobian(robot, frames, value(f"rc{body.name}"), len(robot.joints)),
+            kinematics.linear_jacobian(robot, frames, value(f"rc{body.name}"), len(robot.joints)),
             slip("joint_columns", part=body.name),
         )
 
@@ -118,7 +118,7 @@ def _angular_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[V
     frames = _frames(value, links)
     yield _all_turn(robot, frames, body.link), slip("prismatic_turns")
     if body.link < links:
-        yield jacobian.angular_jacobian(robot, frames, links), slip("joint_columns", part=body.name)
+        yield kinematics.angular_jacobian(robot, frames, links), slip("joint_columns", part=body.name)
 
 
 def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
@@ -126,7 +126,7 @@ def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
     columns = [Matrix.zero(robot.ring, 3, 1)] * robot.n
     for joint in robot.path(link):
         if joint.type is not None:
-            z = kinematics.axis(frames[jacobian.joint_frame(robot, joint)])
+            z = kinematics.axis(frames[kinematics.joint_frame(robot, joint)])
             for k, rate in joint.rates:
                 columns[k] = columns[k] + z.scale(robot.ring.constant(rate))
     return Matrix.of(robot.ring, ([c[i, 0] for c in columns] for i in range(3)))
@@ -157,7 +157,7 @@ def _about_joint(robot: Robot, body: Body, right: Matrix) -> Iterator[Variant]:
         near = Matrix.zero(robot.ring, 3, 1)
     if not any(map(robot.ring.depends_on_coordinates, near.entries)):
         offset = body.axes.rotation.T @ (body.center - near)
-        yield right + inertia.steiner(body.mass, offset), slip("parallel_axis_twice", part=body.name)
+        yield right + link_frame.steiner(body.mass, offset), slip("parallel_axis_twice", part=body.name)
 
 
 def _base_inertia(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
@@ -167,7 +167,7 @@ def _base_inertia(robot: Robot, body: Body, value: InputValue) -> Iterator[Varia
     if not robot.has_table:
         return
     if body.axes.kind is AxesKind.LINK:
-        before = inertia.body_rotation(robot, body, value(f"H{body.link - 1}"))
+        before = link_frame.body_rotation(robot, body, value(f"H{body.link - 1}"))
         yield before @ tensor @ before.T, slip("frame_before", part=body.name)
     frame = kinematics.rotation(value(f"H{body.link}"))
     yield frame @ tensor @ frame.T, slip("not_rotated", part=body.name)
@@ -177,14 +177,14 @@ def _rotational(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant
     if body.is_point:
         return
     w = value(f"w{body.name}")
-    yield energy.rotational_energy(w, value(f"I_body{body.name}")), slip("spin_frame", part=body.name)
+    yield link_frame.rotational_energy(w, value(f"I_body{body.name}")), slip("spin_frame", part=body.name)
     for tensor, told in _base_inertia(robot, body, value):
-        yield energy.rotational_energy(w, tensor), told
+        yield link_frame.rotational_energy(w, tensor), told
 
 
 def _linear(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
     for J, told in _linear_jacobian(robot, body, value):
-        yield energy.linear_energy(body.mass, energy.velocity(robot, J)), told
+        yield link_frame.linear_energy(body.mass, link_frame.velocity(robot, J)), told
 
 
 def _total_potential(robot: Robot, value: InputValue) -> Iterator[Variant]:
@@ -196,10 +196,10 @@ def _total_potential(robot: Robot, value: InputValue) -> Iterator[Variant]:
 
 
 def _potential(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
-    right = energy.potential_energy(robot, body.mass, value(f"rc{body.name}"))
+    right = link_frame.potential_energy(robot, body.mass, value(f"rc{body.name}"))
     yield -right, slip("gravity_sign")
     for center, told in _center(robot, body, value):
-        yield energy.potential_energy(robot, body.mass, center), told
+        yield link_frame.potential_energy(robot, body.mass, center), told
 
 
 def _kinetic(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
@@ -212,12 +212,12 @@ def _total_kinetic(robot: Robot, value: InputValue) -> Iterator[Variant]:
     if not bodies:
         return
     rotors = value("Km") if robot.actions.motors else robot.ring.zero
-    total = energy.total(robot.ring, (*(value(f"K{b.name}") for b in bodies), rotors))
+    total = link_frame.total(robot.ring, (*(value(f"K{b.name}") for b in bodies), rotors))
     for b in bodies:
         if len(bodies) > 1:
             yield total - value(f"K{b.name}"), slip("body_missing", part=b.name, other="K")
     yield (
-        energy.total(robot.ring, (*(value(f"Kv{b.name}") for b in bodies), rotors)),
+        link_frame.total(robot.ring, (*(value(f"Kv{b.name}") for b in bodies), rotors)),
         slip("rotation_missing"),
     )
 
@@ -293,23 +293,23 @@ def _gravity(robot: Robot, value: InputValue) -> Iterator[Variant]:
     right = value("g")
     springs = Matrix.zero(robot.ring, robot.n, 1)
     if robot.actions.springs:
-        springs = vectorized.gravity_vector(robot, value("Ps"))
+        springs = euler_lagrange.gravity_vector(robot, value("Ps"))
     yield springs + springs - right, slip("gravity_sign")
     yield from _rows(right)
 
 
 def _coriolis(robot: Robot, value: InputValue) -> Iterator[Variant]:
     D = value("D")
-    symbols = vectorized.christoffel_symbols(robot, D)
+    symbols = euler_lagrange.christoffel_symbols(robot, D)
     ring, n = robot.ring, robot.n
-    rates = energy.velocities(robot)
+    rates = link_frame.velocities(robot)
     plain = Matrix.of(
         ring,
         ([_sum(ring.zero, (symbols[min(i, j), max(i, j), k] for i in range(n))) for j in range(n)]
          for k in range(n)),
     )  # fmt: skip
     yield plain @ rates, slip("christoffel_without_rates")
-    right = vectorized.coriolis_matrix(robot, symbols) @ rates
+    right = euler_lagrange.coriolis_matrix(robot, symbols) @ rates
     yield right + right, slip("christoffel_half")
     yield from _rows(right)
 

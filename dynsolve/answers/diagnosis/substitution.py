@@ -8,17 +8,14 @@ from typing import Any
 
 from flint import fmpq
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, put_polynomials
-from dynsolve.answers.diagnosis.parts import used
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, put_polynomials, used
 from dynsolve.answers.diagnosis.slips import slip
-from dynsolve.answers.diagnosis.term_writer import TermWriter
+from dynsolve.answers.diagnosis.wrong_entry import TermWriter
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
-from dynsolve.notation.tree import Node
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Node, walk
 
 MOST_TERMS = 400
 

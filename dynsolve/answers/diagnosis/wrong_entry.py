@@ -1,25 +1,204 @@
-"""What is diagnosed: one scalar that is wrong, and whether its terms can be added at all."""
+"""What is diagnosed: one scalar that is wrong, and whether its terms can be added at all.
+
+Terms in words: exact expressions as one line of Unicode, for messages.
+
+What differs, where no slip explains it: said of the terms, with nothing read into them.
+
+A number where a letter belongs: 9.81 for g, in some terms of an answer or in all of them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt, prod
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.fraction import as_expr
-from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.numbers import has_a_plain_number
-from dynsolve.answers.diagnosis.parts import is_small, monomial_expr, parts
+from dynsolve.algebra.rationals import fraction
+from dynsolve.answers.diagnosis.mends import Exchange, is_small, monomial_expr, parts, put_polynomials, used
 from dynsolve.answers.diagnosis.slips import slip
-from dynsolve.answers.diagnosis.term_writer import TermWriter
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import Target
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.explain.context import style_of
+from dynsolve.explain.forms import leading_names, parallel_coordinates
+from dynsolve.notation.build import power
+from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Symbol, number
+from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.index import Quantity
 from dynsolve.robot.units import Dimension, describe
+
+# A number where a letter belongs: 9.81 for g, in some terms of an answer or in all of them
+
+PLAIN = {Fraction(p, q) for p in (-4, -2, -1, 0, 1, 2, 4) for q in (1, 2, 4)}
+"""What stands before a term by itself is taken for no letter."""
+
+Exponents = tuple[int, ...]
+Found = tuple[Generator, Fraction, Exchange]
+"""A letter, the number in its place, and what mends that."""
+
+
+def number_for_a_letter(mine: Expr, expected: Expr, given: Collection[int]) -> Found | None:
+    """The number that stands for a letter in the most terms; `given` may stand as either."""
+    absent = _absent(mine, expected)
+    letters = (g for g in absent if g.index not in given)
+    found = (one for g in letters if (one := _of(g, absent, mine, expected)) is not None)
+    return max(found, key=lambda one: len(one[2].have), default=None)
+
+
+def letters_in_numbers(mine: Expr, expected: Expr) -> list[Generator]:
+    """The letters in whose places numbers stand, in all terms that differ; none where any is no such term."""
+    absent = _absent(mine, expected)
+    right = expected.poly.to_dict()
+    terms: dict[Exponents, list[Exponents]] = {}
+    for exponents in right:
+        terms.setdefault(_without(exponents, absent), []).append(exponents)
+    missing = set()
+    for bare, value in mine.poly.to_dict().items() if mine.poly else ():
+        if bare not in right:
+            there = terms.get(bare, [])
+            if not there or any(fraction(value / right[e]) in PLAIN for e in there):
+                return []
+            missing |= {g for g in absent for e in there if e[g.index]}
+    return sorted(missing, key=lambda g: g.index)
+
+
+def has_a_plain_number(expr: Expr) -> bool:
+    """Whether a term of it has no number that may stand for a letter."""
+    return any(fraction(value) in PLAIN for value in expr.poly.to_dict().values())
+
+
+def _absent(mine: Expr, expected: Expr) -> list[Generator]:
+    """The parameters that are expected and not there."""
+    ring, here = mine.ring, set(used(mine))
+    found = (ring.generators[i] for i in used(expected) if i not in here)
+    return [g for g in found if g.kind == "symbol" and not g.dots and g.name not in (*ring.names, "pi")]
+
+
+def _of(g: Generator, absent: list[Generator], mine: Expr, expected: Expr) -> Found | None:
+    """The number in place of one letter, None where there is none, or it may be that of another term."""
+    if not mine.poly:
+        return None
+    ours, right = mine.poly.to_dict(), expected.poly.to_dict()
+    alike = Counter(_without(exponents, absent) for exponents in right)
+    ratios = Counter(
+        _root(fraction(ours[bare] / value), int(exponents[g.index]))
+        for exponents, value in right.items()
+        if exponents[g.index] and (bare := _without(exponents, [g])) in ours and bare not in right
+        and alike[_without(exponents, absent)] == 1
+    )  # fmt: skip
+    number = next((one for one, _ in ratios.most_common() if one not in PLAIN), None)
+    if number is None:
+        return None
+    ring = mine.ring
+    put = put_polynomials(expected, {g.index: ring.constant(number).poly}).poly.to_dict()
+    moved = {_without(exponents, [g]) for exponents in right if exponents[g.index]}
+    there = {bare for bare in moved if bare in ours and ours[bare] == put.get(bare)}
+    if not there:
+        return None
+    want = _kept(mine, right, {e for e in right if _without(e, [g]) in there})
+    others = {bare for bare, value in ours.items() if bare not in (*right, *there) and _has(value, number)}
+    more = _kept(mine, ours, others)
+    want = want + more * ring.generator(g.index) * (1 / number)
+    return g, number, Exchange(ring.one, _kept(mine, ours, there) + more, want)
+
+
+def _has(value: Any, number: Fraction) -> bool:
+    """Whether a number is a factor of another, which is no usual one itself."""
+    return fraction(value) not in PLAIN and fraction(value) / number in PLAIN
+
+
+def _root(value: Fraction, power: int) -> Fraction:
+    """The number with a power, 0 where none is rational."""
+    root = value if power == 1 else Fraction(isqrt(abs(value.numerator)), isqrt(value.denominator))
+    return root if root**power == value else Fraction(0)
+
+
+def _without(exponents: Any, letters: list[Generator]) -> Exponents:
+    places = {g.index for g in letters}
+    return tuple(0 if i in places else int(e) for i, e in enumerate(exponents))
+
+
+def _kept(mine: Expr, terms: dict[Any, Any], places: Collection[Exponents]) -> Expr:
+    return Expr(mine.ring, mine.ring.ctx.from_dict({e: v for e, v in terms.items() if e in places}))
+
+
+# Terms in words: exact expressions as one line of Unicode, for messages
+
+LONGEST = 160
+
+
+class TermWriter:
+    """Writes expressions of one ring as a person reads them."""
+
+    def __init__(self, answer_ring: AnswerRing) -> None:
+        ring, robot = answer_ring.ring, answer_ring.robot
+        self.ring = ring
+        self._problem: set[str] = set()
+        self.compactor = Compactor(ring, leading_names(robot), parallel_coordinates(robot))
+        self._printer = UnicodePrinter(style_of(robot))
+
+    def problem_symbols(self, names: set[str]) -> None:
+        """Say which symbols the problem has."""
+        self._problem = names
+
+    def form(self, expr: Expr) -> Node:
+        """The compact tree."""
+        return self.compactor.form(expr)
+
+    def of(self, expr: Expr) -> str:
+        """An expression in one line."""
+        text = self._printer.text(self.form(expr))
+        return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
+
+    def number(self, value: Fraction) -> str:
+        """A number."""
+        return self._printer.text(number(value))
+
+    def coefficient(self, expr: Expr) -> Fraction:
+        """The number before an expression as a person writes it."""
+        return _coefficient(self.form(expr)) or Fraction(1)
+
+    def generator(self, g: Generator) -> str:
+        """A symbol."""
+        return self.power(g, 1)
+
+    def power(self, g: Generator, exponent: int) -> str:
+        """A symbol's power."""
+        node = Symbol(g.name, g.dots) if g.kind == "symbol" else self.form(self.ring.generator(g.index))
+        return self._printer.text(power(node, exponent))
+
+    def is_unknown(self, g: Generator) -> bool:
+        """Whether a symbol, or a sine or cosine of an unexpected argument, is none of the problem's."""
+        is_odd = isinstance(g.node, Function) and g.node.name in ("sin", "cos", "tan")
+        is_known = g.name in self._problem if g.kind == "symbol" else not (g.kind == "function" and is_odd)
+        return bool(self._problem) and not is_known
+
+
+def _coefficient(node: Node) -> Fraction:
+    """The number before a product."""
+    match node:
+        case Number(p, q):
+            return Fraction(p, q)
+        case Negative(argument):
+            return -_coefficient(argument)
+        case Product(factors):
+            return prod((_coefficient(factor) for factor in factors), start=Fraction(1))
+        case Quotient(numerator, denominator):
+            return _coefficient(numerator) / (_coefficient(denominator) or 1)
+    return Fraction(1)
+
+
+# What is diagnosed: one scalar that is wrong, and whether its terms can be added at all
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,3 +289,44 @@ class DimensionCheck:
     def quantity(self, question: WrongEntry) -> Quantity | None:
         """What the answer is, or is an entry of."""
         return self.graph.quantities.of_rule(question.target.node)
+
+
+# What differs, where no slip explains it: said of the terms, with nothing read into them
+
+MOST_NAMED = 4
+"""So many terms are named."""
+
+
+def what_differs(words: TermWriter, called: str, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
+    """How many terms are missing, which are none of those expected, and which have another factor.
+
+    What is missing is not shown, so that an answer 0 does not reveal the solution.
+    """
+    if mine.is_zero:
+        yield slip("zero", yours=called)
+        return
+    letters = letters_in_numbers(mine, expected)
+    if letters:
+        yield slip("numbers_for_letters", other=_listed([words.generator(g) for g in letters]))
+        return
+    ours, theirs = parts(mine), parts(expected)
+    missing = len(theirs.keys() - ours.keys())
+    extra = [term for monomial, term in ours.items() if monomial not in theirs]
+    changed = [m for m, term in ours.items() if m in theirs and theirs[m] != term]
+    if not extra and not changed:
+        yield slip("terms_missing", yours=f"{missing} terms are" if missing > 1 else "A term is")
+        return
+    said = []
+    if missing:
+        said.append(f"{missing} {'is' if missing == 1 else 'are'} missing.")
+    if changed:
+        terms = [words.of(monomial_expr(mine.ring, monomial)) for monomial in changed]
+        said.append(f"Another factor belongs to {_listed(terms)}.")
+    if extra:
+        said.append(f"Not among the right terms: {_listed([words.of(term) for term in extra])}.")
+    yield slip("terms_differ", yours=" ".join(said))
+
+
+def _listed(terms: list[str]) -> str:
+    more = len(terms) - MOST_NAMED
+    return ", ".join(terms[:MOST_NAMED]) + (f", and {more} more" if more > 0 else "")

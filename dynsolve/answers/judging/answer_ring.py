@@ -19,14 +19,13 @@ from functools import cached_property
 from math import prod
 from typing import Any
 
-from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import ring_of
-from dynsolve.algebra.contents import Contents
+from dynsolve.algebra.angles import Angle, Contents
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import RingPlan
-from dynsolve.algebra.transfer import Transfer
+from dynsolve.algebra.ring_values import ring_of
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.answers.judging.evaluate import KnownValues
 from dynsolve.answers.judging.ring_extension import Known, extension_of
 from dynsolve.derivation.graph import Derivation

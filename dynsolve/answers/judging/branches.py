@@ -2,6 +2,8 @@
 
 A branch is put into r(q) at values that configurations in all quadrants reach, within the limits of the
 joints where there are any; it is right where it gives them back, whatever its formula.
+
+What is found of a set of configurations.
 """
 
 from __future__ import annotations
@@ -12,18 +14,41 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.set_verdict import INCOMPLETE, SetVerdict
-from dynsolve.answers.submission import Part
-from dynsolve.derivation.configuration_check import reaches, solution_of
+from dynsolve.answers.verdict import Part
+from dynsolve.derivation.configurations import reaches, solution_of
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tokens import ARCS
-from dynsolve.notation.tree import Function, Node, Symbol
+from dynsolve.notation.tree import Function, Node, Symbol, names_in, walk, with_atan2_exchanged
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import names_in, walk, with_atan2_exchanged
 from dynsolve.robot.model import Robot
+
+# What is found of a set of configurations
+
+
+@dataclass(frozen=True, slots=True)
+class SetVerdict:
+    """Whether a set is right, else the `code` of what is said of alternative `number`, and `where`.
+
+    `notes` are what is said of one that is right.
+    """
+
+    is_right: bool
+    code: str = ""
+    number: int = 0
+    notes: tuple[str, ...] = ()
+    where: str = ""
+
+
+RIGHT = SetVerdict(True)
+
+INCOMPLETE = "incomplete"
+"""The note of an answer that has some of the branches, all right."""
+
+
+# Verdicts on the branches of the inverse kinematics, whose values of the task are names
 
 Formulas = Mapping[str, Node]
 """A branch: the formula of each coordinate."""

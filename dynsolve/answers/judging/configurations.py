@@ -4,48 +4,219 @@ They are held in numbers, at points of a fixed seed.  A branch is put into r(q) 
 configurations of samples reach; it is right where it gives them back, whatever its formula.  Of a set
 of equations, points on each alternative are found by Newton's method: at every point of the key
 the student's set must hold, and at every point of the student's the Jacobian must lose rank.
+
+Verdicts on equilibria: sets of equations, held in numbers against gravity and springs.
+
+At every point of the key's set the student's must hold, and at every point of the student's
+nothing may move.  An angle counts modulo 2π where the forces have that period in it.
+
+A configuration in round numbers, as an example of what is said of a set of configurations.
+
+Equations that hold together, in numbers: of a set of configurations one alternative.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import pi
+from math import degrees, pi, radians, remainder
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import WIDEST
-from dynsolve.answers.judging.branches import BranchKey
-from dynsolve.answers.judging.equilibria import EquilibriumKey
-from dynsolve.answers.judging.example_point import example_point
-from dynsolve.answers.judging.held_equations import held_equations
-from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
-from dynsolve.answers.submission import ConfigurationAnswer, Part
-from dynsolve.derivation.balance_check import balanced_points, is_balanced
-from dynsolve.derivation.configuration_check import (
+from dynsolve.answers.judging.branches import RIGHT, BranchKey, SetVerdict
+from dynsolve.answers.verdict import ConfigurationAnswer, Part
+from dynsolve.derivation.balance import balanced_points, is_balanced
+from dynsolve.derivation.configurations import (
+    NO_VALUE,
+    is_zero,
     rank_of,
     states_of,
     with_half_turns,
     zero_near,
 )
-from dynsolve.derivation.equilibrium_check import balanced_forces, in_balance
+from dynsolve.derivation.equilibrium_check import balanced_forces, in_balance, starts
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inverse_formulas import ConfigurationForms
-from dynsolve.notation.tree import Node
+from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.tokens import ARCS
+from dynsolve.notation.tree import Function, Node, Number, Symbol, mapped, names_in, walk
 from dynsolve.notation.tree_values import Program, compile_trees
-from dynsolve.notation.walk import names_in
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot.model import JointType, Robot
 
 if TYPE_CHECKING:
     from dynsolve.answers.judging.target_branches import TargetKey
     from dynsolve.derivation.reduced_check import ConstrainedStates
 
+
+# A configuration in round numbers, as an example of what is said of a set of configurations
+
+_STEP = 15
+"""Angles are told in multiples of so many degrees, lengths in whole numbers."""
+
+
+def example_point(
+    robot: Robot,
+    formulas: Iterable[Node],
+    points: Iterable[Mapping[str, float]],
+    holds: Callable[[Mapping[str, float]], bool],
+    fails: Callable[[Mapping[str, float]], bool],
+) -> str:
+    """`At q₁ = 0°, q₂ = 90°`: the first point at which, in round numbers, one still holds, the other not.
+
+    It has the coordinates that stand in some formulas; where there is no such point, it is not told.
+    """
+    names = names_in(*formulas)
+    told = [q for q in robot.coordinates if q.name in names]
+    for point in points:
+        at, words = dict(point), []
+        for q in told:
+            value = point[q.name]
+            if q.type is JointType.REVOLUTE:
+                rounded = round(degrees(value) / _STEP) * _STEP % 360
+                at[q.name] = radians(rounded)
+            else:
+                rounded = round(value)
+                at[q.name] = float(rounded)
+            words.append(
+                f"{to_unicode(Symbol(q.name), PLAIN)} = {rounded}{'°' * (q.type is JointType.REVOLUTE)}"
+            )
+        if words and holds(at) and not fails(at):
+            return f"At {', '.join(words)}"
+    return "At some configurations"
+
+
+# Equations that hold together, in numbers: of a set of configurations one alternative
+
+
+@dataclass(frozen=True, slots=True)
+class HeldEquations:
+    """What is 0 together; `are_angles` tells of each whether it counts modulo 2π, as q₂ - π does."""
+
+    program: Program
+    are_angles: tuple[bool, ...]
+
+    def hold(self, q: Mapping[str, float]) -> bool:
+        """Whether all are 0 at a configuration."""
+        try:
+            values = self.program.run(q)
+        except NO_VALUE:
+            return False
+        pairs = zip(values, self.are_angles, strict=True)
+        return all(abs(remainder(value, 2 * pi) if is_angle else value) < CLOSE for value, is_angle in pairs)
+
+
+def held_equations(
+    nodes: Iterable[Node], coordinates: Collection[str], periodic: Collection[str]
+) -> HeldEquations:
+    """The equations node = 0, where the angles `periodic` among the coordinates count modulo 2π."""
+    nodes = tuple(nodes)
+    are_angles = []
+    for node in nodes:
+        within = names_in(node).intersection(coordinates)
+        outside = mapped(node, _without_angle)
+        turned = any(isinstance(part, Function) and within & names_in(part) for part in walk(outside))
+        are_angles.append(bool(within) and within <= set(periodic) and not turned)
+    return HeldEquations(compile_trees(nodes), tuple(are_angles))
+
+
+def _without_angle(part: Node) -> Node:
+    """0 for an angle that a function gives, which like a coordinate counts modulo 2π."""
+    return Number(0) if isinstance(part, Function) and part.name in ARCS else part
+
+
+# Verdicts on equilibria: sets of equations, held in numbers against gravity and springs
+
+_TURNS = 3
+"""So many whole turns either way are looked at."""
+
+
+class EquilibriumKey:
+    """Equilibria: the forces that must be 0, the alternatives, and the numbers that the problem gives."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        forces: Sequence[Node],
+        alternatives: Sequence[Sequence[Node]],
+        numbers: Mapping[str, float],
+    ) -> None:
+        self.robot, self.alternatives, self.numbers = robot, alternatives, numbers
+        self.forces, self._forces = forces, compile_trees(forces)
+
+    def verdict(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
+        """Whether a set is that of the key."""
+        names = [q.name for q in self.robot.coordinates]
+        theirs = [held_equations((part.node for part in one), names, self._periodic) for one in given]
+        formulas = [*self.forces, *(part.node for one in given for part in one)]
+        for number, one in enumerate(given, 1):
+            points = list(self._points(tuple(part.node for part in one)))
+            if not points:
+                return SetVerdict(False, "condition_never_holds", number)
+            if not all(map(self._is_balanced, points)):
+                holds = theirs[number - 1].hold
+                where = example_point(self.robot, formulas, points, holds, self._is_balanced)
+                return SetVerdict(False, "no_equilibrium", number, where=where)
+
+        def is_met(q: Mapping[str, float]) -> bool:
+            return any(one.hold(turned) for turned in self._turned(q) for one in theirs)
+
+        all_points = [q for conditions in self.alternatives for q in self._points(tuple(conditions))]
+        missed = [q for q in all_points if not is_met(q)]
+        if not missed:
+            return RIGHT
+        shown = missed if given else []
+        where = example_point(self.robot, formulas, shown, self._is_balanced, is_met)
+        return SetVerdict(False, "equilibria_missing", where=where)
+
+    def _is_balanced(self, q: Mapping[str, float]) -> bool:
+        return is_zero(self._forces, q)
+
+    def _points(self, conditions: tuple[Node, ...]) -> Iterator[dict[str, float]]:
+        """Configurations at which everything is 0; any at all where there is no condition."""
+        program = compile_trees(list(conditions))
+        begun = starts(self.robot, self.numbers)
+        found = (zero_near(self.robot, program, start) if conditions else start for start in begun)
+        return with_half_turns(self.robot, program, (q for q in found if q is not None))
+
+    def _turned(self, q: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
+        """The configuration, and those that are the same by whole turns of angles that turn together."""
+        yield q
+        for turns in range(-_TURNS, _TURNS + 1) if self._together else ():
+            yield {**q} | {name: q[name] + 2 * pi * turns for name in self._together}
+
+    @property
+    def _turning(self) -> tuple[str, ...]:
+        return tuple(q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
+
+    @cached_property
+    def _periodic(self) -> frozenset[str]:
+        """The angles in which the forces have the period 2π."""
+        return frozenset(name for name in self._turning if self._have_period([name]))
+
+    @cached_property
+    def _together(self) -> tuple[str, ...]:
+        """The other angles, where the forces have that period in all together, as with springs between."""
+        others = tuple(name for name in self._turning if name not in self._periodic)
+        return others if others and self._have_period(others) else ()
+
+    def _have_period(self, names: Sequence[str]) -> bool:
+        """Whether the forces are the same after a turn of these angles."""
+        at = next(starts(self.robot, self.numbers))
+        turned = {**at, **{name: at[name] + 2 * pi for name in names}}
+        pairs = zip(self._forces.run(at), self._forces.run(turned), strict=True)
+        return all(abs(a - b) < CLOSE for a, b in pairs)
+
+
+# Verdicts on sets of configurations
 
 SETS = ("singular", "equilibria", "balance", "reduced")
 """The sets of equations."""

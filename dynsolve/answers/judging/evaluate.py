@@ -14,16 +14,15 @@ from typing import ClassVar
 from flint.utils.flint_exceptions import FlintError
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.expr import Expr, is_sign
 from dynsolve.algebra.fraction import RationalExpr
-from dynsolve.algebra.generators import is_sign
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import Evaluator, Unreduced
 from dynsolve.answers.judging.ring_extension import expected_angle, plain_radicand, unsigned
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.bounded_cache import keep
 from dynsolve.notation.tree import Function, Node, Reference
+from dynsolve.notation.tree_values import keep
 
 MOST_WORK = 400_000
 """The products of terms that one answer may cost."""

@@ -15,16 +15,14 @@ from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.content import Content
-from dynsolve.answers.judging.direction import Direction
+from dynsolve.answers.judging.content import Content, Direction, student_values
+from dynsolve.answers.judging.entry_comparison import spans
 from dynsolve.answers.judging.follow_through import FollowThrough, PossibleValue, StudentValue
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
-from dynsolve.answers.judging.own_parameters import covers
-from dynsolve.answers.judging.spans import spans
-from dynsolve.answers.judging.student_values import student_values
+from dynsolve.answers.judging.other_solutions import covers
 from dynsolve.quantities.model_families import REGRESSORS
 from dynsolve.robot.model import Coordinate
 

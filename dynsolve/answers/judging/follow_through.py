@@ -18,8 +18,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.route import Route
+from dynsolve.answers.judging.graph import AnswerGraph, Route
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 

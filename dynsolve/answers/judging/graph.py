@@ -7,28 +7,166 @@ leads to itself.
 The formulas are the textbook's rules on the robot in the answers' ring; here stands only what
 they are fed with.  Many matrices C give the same C q̇, so this
 vector is what the Coriolis term is compared by.
+
+Velocities and Jacobians by differentiating, beside the geometric way: v = ṙ_c, J_v = ∂r_c/∂q.
+
+Further ways to results about the task: J_r by rows of J_v, and forces to the joints by J_rᵀ.
+
+The way to a force from what the recursions give: the component along the joint's axis.
+
+Ways to what is asked of the equations of motion: Y by the parameters of the key, or by the student's.
+
+One way in which an answer may be come to from others.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
-from dynsolve.answers.judging.differentiation_routes import differentiation_routes
-from dynsolve.answers.judging.model_routes import model_routes
-from dynsolve.answers.judging.recursion_routes import recursion_routes
-from dynsolve.answers.judging.route import Route
-from dynsolve.answers.judging.task_routes import task_routes
-from dynsolve.derivation import vectorized
-from dynsolve.derivation.energy import velocities
-from dynsolve.quantities import action_families, families
-from dynsolve.quantities.index import Quantities, quantities
+from dynsolve.derivation import euler_lagrange, kinematics, statics
+from dynsolve.derivation.graph import Rule, Skipped
+from dynsolve.derivation.link_frame import velocities
+from dynsolve.derivation.mechanism import position_jacobian
+from dynsolve.derivation.recursion_rules import torque_rule
+from dynsolve.errors import AlgebraError
+from dynsolve.notation.tree import Reference
+from dynsolve.quantities import action_families, families, kinematic_families
+from dynsolve.quantities.index import Quantities, Quantity, quantities
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 from dynsolve.robot.model import Body, Robot
+from dynsolve.robot.questions import TIP, Load, Questions, Task
+
+# One way in which an answer may be come to from others
+
+Key = Callable[[str], Any]
+"""The key's value of a node, by its name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """value = compute(*inputs); compute gives None where these inputs lead nowhere.
+
+    `linear`: sums and derivatives alone, whose work grows with the inputs and not with their products.
+    """
+
+    inputs: tuple[str, ...]
+    compute: Callable[..., Any]
+    linear: bool = True
+
+
+# Velocities and Jacobians by differentiating, beside the geometric way
+
+
+def differentiation_routes(robot: Robot, quantity: Quantity) -> Iterator[Route]:
+    """The routes to a velocity or a Jacobian of a point in the world's axes from where the point is."""
+    owner = quantity.rule.removeprefix(quantity.family.name.partition("{")[0])
+    match quantity.family:
+        case families.JV_BODY:
+            yield Route((f"rc{owner}",), partial(position_jacobian, robot))
+        case families.V:
+            yield Route((f"rc{owner}",), _rate)
+        case families.JV:
+            tip = f"H{len(robot.joints)}"
+            yield Route((tip,), lambda H: position_jacobian(robot, kinematics.origin(H)))
+        case kinematic_families.JV_POINT if _is_in_world(robot, owner):
+            yield Route((f"p{owner}",), partial(position_jacobian, robot))
+        case kinematic_families.V_POINT if _is_in_world(robot, owner):
+            yield Route((f"p{owner}",), _rate)
+
+
+def _rate(position: Matrix) -> Matrix:
+    return position.map(position.ring.time_derivative)
+
+
+def _is_in_world(robot: Robot, name: str) -> bool:
+    """Whether the velocity of a named point is wanted along the axes in which its position is given."""
+    return any(point.name == name and point.axes is None for point in robot.questions.points)
+
+
+# Ways to what is asked of the equations of motion
+
+
+def model_routes(rule: Rule, key: Key) -> Iterator[Route]:
+    """The routes to a regressor, from its rule."""
+    *forces, parameters = rule.inputs
+
+    def by_key(*values: Any) -> Matrix | FractionMatrix:
+        return _found(rule.compute(*values, key(parameters)))
+
+    yield Route(tuple(forces), by_key, linear=False)
+    yield Route(rule.inputs, lambda *values: _found(rule.compute(*values)), linear=False)
+
+
+def _found(value: Matrix | FractionMatrix | Skipped) -> Matrix | FractionMatrix:
+    if isinstance(value, Skipped):
+        raise AlgebraError(value.why)
+    return value
+
+
+# The way to a force from what the recursions give: the component along the joint's axis
+
+
+def recursion_routes(answer_ring: AnswerRing, quantity: Quantity) -> Iterator[Route]:
+    """The route to a force by the recursions, where an exercise asks for these."""
+    if quantity.family is families.FORCE and "nl1" in answer_ring.rules:
+        rule = torque_rule(answer_ring.robot, answer_ring.robot.coordinates[quantity.index[0] - 1])
+        yield Route(rule.inputs, rule.compute)
+
+
+# Further ways to results about the task
+
+
+def task_routes(questions: Questions, quantity: Quantity, key: Key) -> Iterator[Route]:
+    """The routes to a quantity beside that of its rule."""
+    task = questions.task
+    if task is None or task.is_twist:
+        return
+    if quantity.family is kinematic_families.JR:
+        rows = [_axis(entry) for entry in task.entries]
+        if None not in rows:
+            yield Route(("Jv",), lambda Jv: Matrix(Jv.ring, tuple(Jv.rows[k] for k in rows if k is not None)))
+    elif quantity.family is action_families.LOAD:
+        load = questions.loads[quantity.index[0] - 1]
+        wrench = _task_wrench(task, load, quantity.rule, key)
+        if wrench is not None:
+            yield Route(("Jr",), lambda J: J.T @ wrench, linear=False)
+
+
+def _axis(entry: object) -> int | None:
+    """Which coordinate of the tip a component of the task is, None for any other component."""
+    if isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None:
+        return entry.row - 1
+    return None
+
+
+def _task_wrench(task: Task, load: Load, rule: str, key: Key) -> Matrix | None:
+    """The force along each component of the task with which J_rᵀ gives the generalized forces; None of none.
+
+    Along a coordinate of the tip it is that of the force, along an angle one of the moment.
+    """
+    if load.point != TIP:
+        return None
+    J, wanted = key("Jr"), key(rule)
+    force, moment = statics.wrench(load, key(f"H{load.link}"))
+    for around in range(3):
+        parts: list[Expr] = []
+        for entry in task.entries:
+            axis = _axis(entry)
+            parts.append(moment[around, 0] if axis is None else force[axis, 0])
+        wrench = Matrix.column(J.ring, parts)
+        if J.T @ wrench == wanted:
+            return wrench
+    return None
+
+
+# The derivation as a grader sees it: which answers lead to which
 
 _STATED = (families.H0, families.A, families.I_BODY, action_families.PS, action_families.FRICTION)
 """What the problem says, so that nothing of the student's leads to it."""
@@ -144,7 +282,7 @@ class AnswerGraph:
         if node in self._further:
             lagrange = (*lagrange, *self._further[node])
         if assembled and quantity.family is families.FORCE:
-            together = partial(vectorized.torque, self.robot, k=quantity.index[0] - 1)
+            together = partial(euler_lagrange.torque, self.robot, k=quantity.index[0] - 1)
             return (*lagrange, Route((*MODEL, *self._friction), together))
         return lagrange
 
@@ -186,30 +324,30 @@ class AnswerGraph:
     def linear(self, tau: Matrix) -> bool:
         """Whether τ is linear in q̈."""
         ring = self.answer_ring.ring
-        D = vectorized.inertia_from_torque(self.robot, tau)
+        D = euler_lagrange.inertia_from_torque(self.robot, tau)
         return not any(_has_dots(ring, entry, 2) for entry in D.entries)
 
     def _inertia(self, tau: Matrix) -> Matrix | None:
-        return vectorized.inertia_from_torque(self.robot, tau) if self.linear(tau) else None
+        return euler_lagrange.inertia_from_torque(self.robot, tau) if self.linear(tau) else None
 
     def _gravity(self, tau: Matrix) -> Matrix | None:
-        return vectorized.gravity_from_torque(self.robot, tau) if self.linear(tau) else None
+        return euler_lagrange.gravity_from_torque(self.robot, tau) if self.linear(tau) else None
 
     def _coriolis(self, tau: Matrix, friction: Matrix | None = None) -> Matrix | None:
         if not self.linear(tau):
             return None
-        g = vectorized.gravity_from_torque(self.robot, tau)
-        return vectorized.coriolis_from_torque(self.robot, tau, g, friction)
+        g = euler_lagrange.gravity_from_torque(self.robot, tau)
+        return euler_lagrange.coriolis_from_torque(self.robot, tau, g, friction)
 
     def _inertia_from_energy(self, K: Expr) -> Matrix | None:
-        D = vectorized.inertia_from_energy(self.robot, K)
+        D = euler_lagrange.inertia_from_energy(self.robot, K)
         return None if any(_has_dots(self.answer_ring.ring, e, 1) for e in D.entries) else D
 
     def _symbols(self, D: Matrix) -> Any:
-        return vectorized.christoffel_symbols(self.robot, D)
+        return euler_lagrange.christoffel_symbols(self.robot, D)
 
     def _coriolis_matrix(self, D: Matrix) -> Matrix:
-        return vectorized.coriolis_matrix(self.robot, self._symbols(D))
+        return euler_lagrange.coriolis_matrix(self.robot, self._symbols(D))
 
     def _coriolis_from_inertia(self, D: Matrix) -> Matrix:
         return self._coriolis_matrix(D) @ velocities(self.robot)
@@ -223,11 +361,11 @@ class AnswerGraph:
         moved = [
             ring.dot([moving.entries[k] for moving in partials], rates.entries) for k in range(self.robot.n)
         ]
-        halves = [(rates.T @ moving).entries[0] * vectorized.HALF for moving in partials]
+        halves = [(rates.T @ moving).entries[0] * euler_lagrange.HALF for moving in partials]
         return Matrix.column(ring, [a - b for a, b in zip(moved, halves, strict=True)])
 
     def _gravity_vector(self, P: Expr) -> Matrix:
-        return vectorized.gravity_vector(self.robot, P)
+        return euler_lagrange.gravity_vector(self.robot, P)
 
 
 def _has_dots(ring: Any, expr: Expr, dots: int) -> bool:

@@ -6,29 +6,209 @@ A quantity may be given in several equations, and an equation may be a chain
 `K = a = b = c`: the last member of the last equation counts.  Where a notation leaves
 open which quantity is meant (I_1), it is the one that the value equals.  The zero of
 height is the student's own, see `zero_height`.
+
+The zero of height, which is the student's to choose.
+
+P may differ from the key by h0 Σ m_i |g|, with one height h0 for all bodies, free of
+coordinates, masses and g, of dimension length.  What is looked for is the potential
+φ = |g| h0 that a unit of mass has at the key's zero of height.
+
+Equations of motion in which the forces of the constraint stand, as names λ: D q̈ + ... - A_cᵀ λ = τ.
+
+Without λ they are the key's.  What stands beside λ is A_cᵀ: that of the student's own matrix, or, where
+the equations of all coordinates are given, that of any that keeps the same constraint; with one
+sign for all of them, for in which direction λ counts is free.
+
+Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.2 (1994).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction import as_expr
+from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
-from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues
+from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues, multiplier_names
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison
-from dynsolve.answers.judging.moved_multipliers import with_moved_multipliers
+from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison, Obstacle
+from dynsolve.answers.judging.other_solutions import Other, as_matrix, own_parameters
 from dynsolve.answers.judging.own_constraint import OwnConstraint, with_own_constraint
-from dynsolve.answers.judging.own_parameters import as_matrix, own_parameters
-from dynsolve.answers.judging.zero_height import potential_at_zero_height
-from dynsolve.answers.submission import Answer
+from dynsolve.answers.verdict import Answer
 from dynsolve.notation import tree
-from dynsolve.notation.walk import names_in, walk
+from dynsolve.notation.tree import Node, Number, Symbol, names_in, walk, with_children
+from dynsolve.quantities import families
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE, REGRESSORS
+from dynsolve.robot.dimensions import Dimensions
+from dynsolve.robot.units import LENGTH
+
+# Equations of motion in which the forces of the constraint stand, as names λ
+
+Rows = tuple[tuple[RationalExpr, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Equations:
+    """One answer without λ, and what stands beside the multipliers in the equation of each coordinate."""
+
+    compared: KeyComparison
+    beside: Mapping[int, tuple[Expr, ...]]
+
+
+def with_moved_multipliers(
+    own: OwnConstraint, comparisons: Mapping[str, KeyComparison], compare: KeyComparer
+) -> dict[str, KeyComparison]:
+    """The comparisons, those of equations with λ in them made without it."""
+    found = dict(comparisons)
+    names = [name for name in multiplier_names(own.robot) if own.ring.has_symbol(name)]
+    if not names:
+        return found
+    read = {
+        name: equations
+        for name, one in comparisons.items()
+        if compare.graph.quantities[name].family in (families.TAU, families.FORCE)
+        and (equations := _without(compare, name, one)) is not None
+    }
+    beside = {k: row for equations in read.values() for k, row in equations.beside.items()}
+    right = _that_are_right(own, beside)
+    for name, equations in read.items():
+        if not any(not factor.is_zero for row in equations.beside.values() for factor in row):
+            continue
+        if equations.beside.keys() <= right:
+            other = Other.WITHOUT_MULTIPLIERS if equations.compared.correct else None
+            found[name] = replace(equations.compared, other=other)
+        elif equations.compared.correct:
+            found[name] = replace(equations.compared, obstacles=(Obstacle("constraint_forces"),))
+    return found
+
+
+def _without(compare: KeyComparer, name: str, compared: KeyComparison) -> _Equations | None:
+    """An answer without λ; None where it has another form than a sum with λ times something."""
+    value = compared.answer_value
+    if value.rows is None or compared.obstacles or any(len(row) > 1 or row[0].divisor for row in value.rows):
+        return None
+    quantity = compare.graph.quantities[name]
+    first = quantity.index[0] - 1 if quantity.family is families.FORCE else 0
+    names = multiplier_names(compare.robot)
+    beside: dict[int, tuple[Expr, ...]] = {}
+    rests: list[Expr] = []
+    for k, row in enumerate(value.rows, first):
+        rest, factors = _parted(row[0].numerator, names)
+        if any(_parted(factor, names)[0] != factor for factor in factors):
+            return None
+        beside[k] = factors
+        rests.append(rest)
+    nodes = tuple(tuple(_put_zero(node, names) for node in row) for row in value.nodes)
+    rows = tuple((RationalExpr(rest),) for rest in rests)
+    return _Equations(compare(name, AnswerValue(value.answer, rows, nodes)), beside)
+
+
+def _parted(expr: Expr, names: Sequence[str]) -> tuple[Expr, tuple[Expr, ...]]:
+    """An expression without the multipliers, and its derivatives by them."""
+    ring, rest, factors = expr.ring, expr, []
+    for name in names:
+        factor = ring.coefficient(expr, name) if ring.has_symbol(name) else ring.zero
+        factors.append(factor)
+        rest = rest - factor * ring.symbol(name) if not factor.is_zero else rest
+    return rest, tuple(factors)
+
+
+def _put_zero(node: Node, names: Sequence[str]) -> Node:
+    if isinstance(node, Symbol) and node.name in names:
+        return Number(0)
+    return with_children(node, lambda part: _put_zero(part, names))
+
+
+def _that_are_right(own: OwnConstraint, beside: Mapping[int, tuple[Expr, ...]]) -> set[int]:
+    """The coordinates in whose equations the forces of the constraint are right."""
+    if len(beside) == own.robot.n:
+        rows = zip(*(beside[k] for k in sorted(beside)), strict=True)
+        if own.keeps(tuple(tuple(map(RationalExpr, row)) for row in rows)):
+            return set(beside)
+    found: list[set[int]] = [
+        {k for k, factors in beside.items() if _is_column(own.rows, k, factors, sign)} for sign in (-1, 1)
+    ]
+    return max(found, key=len)
+
+
+def _is_column(rows: Rows, k: int, factors: Sequence[Expr], sign: int) -> bool:
+    """Whether factors are a column of A_c, with a sign."""
+    return all(equal(row[k], RationalExpr(factor * sign)) for row, factor in zip(rows, factors, strict=True))
+
+
+# The zero of height, which is the student's to choose
+
+
+def potential_at_zero_height(
+    answer_ring: AnswerRing, values: Mapping[str, Expr], dimensions: Dimensions
+) -> Expr | None:
+    """φ as most of P_i and P have it, or as L has it where there is no P; None for the key's own zero.
+
+    `values` are the student's values of P_i, P and L.
+    """
+    energies = {name: value for name, value in values.items() if name != "L"}
+    levels = list(_levels(answer_ring, energies or values, dimensions))
+    if not levels:
+        return None
+    counts = Counter(level for level in levels)
+    most = max(counts.values())
+    common = [level for level in counts if counts[level] == most]
+    best = next((level for level in common if level.is_zero), common[0])
+    return None if best.is_zero else best
+
+
+def _levels(answer_ring: AnswerRing, values: Mapping[str, Expr], dimensions: Dimensions) -> Iterable[Expr]:
+    robot = answer_ring.robot
+    total = answer_ring.ring.zero
+    for body in robot.bodies:
+        total = total + body.mass
+    masses = {"P": total, "L": -total, **{f"P{body.name}": body.mass for body in robot.bodies}}
+    for name, value in values.items():
+        difference = value - answer_ring.key(name)
+        if difference.is_zero:
+            yield difference
+            continue
+        level = _quotient(difference, masses[name])
+        if level is not None and is_zero_height(answer_ring, level, dimensions):
+            yield level
+
+
+def is_zero_height(answer_ring: AnswerRing, level: Expr, dimensions: Dimensions) -> bool:
+    """Whether a potential is |g| times a height that may be chosen."""
+    ring, robot = answer_ring.ring, answer_ring.robot
+    if ring.depends_on_coordinates(level):
+        return False
+    strength = None
+    for entry in robot.gravity.entries:
+        if not entry.is_zero:
+            strength = entry.poly if strength is None else strength.gcd(entry.poly)
+    if strength is None:
+        return False
+    height = _quotient(level, Expr(ring, strength))
+    if height is None:
+        return False
+    taken = {i for body in robot.bodies for i in _used(body.mass)} | set(_used(Expr(ring, strength)))
+    if taken & set(_used(height)):
+        return False
+    return dimensions.fits(height, LENGTH)
+
+
+def _quotient(expr: Expr, divisor: Expr) -> Expr | None:
+    if divisor.is_zero:
+        return None
+    quotient, rest = divmod(expr.poly, divisor.poly)
+    return None if rest else Expr(expr.ring, quotient)
+
+
+def _used(expr: Expr) -> list[int]:
+    return [i for i, degree in enumerate(expr.poly.degrees()) if degree > 0] if expr.poly else []
+
+
+# One hand-in compared with the key
 
 IN_NUMBERS = "it repeats the answer with numbers, which the problem does not give"
 

@@ -7,20 +7,19 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from dynsolve.algebra.fraction import RationalExpr, as_expr
-from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.answer_values import AnswerValue, fitted
-from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry
+from dynsolve.answers.judging.answer_values import AnswerValue, fitted, unfolded
+from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, difference, readings, spans
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.other_solutions import Other, other_solution
-from dynsolve.answers.judging.own_parameters import (
+from dynsolve.answers.judging.other_solutions import (
+    Other,
     as_matrix,
     forces_of,
     is_free,
+    other_solution,
     wrong_parameters,
 )
-from dynsolve.answers.judging.planar import unfolded
-from dynsolve.answers.judging.spans import difference, readings, spans
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol

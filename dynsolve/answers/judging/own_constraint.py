@@ -13,10 +13,10 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.fraction import RationalExpr, add, equal, multiply
-from dynsolve.algebra.fraction_matrix import FractionMatrix, fraction_of
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison

@@ -9,17 +9,15 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Sequence
 from math import radians
 
-from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
-from dynsolve.algebra.contents import Contents, ContentsCollector
-from dynsolve.algebra.generators import dotted
+from dynsolve.algebra.angles import Angle, Contents, ContentsCollector, angle_from_tree, names_of
+from dynsolve.algebra.expr import dotted
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.judging.entry_comparison import half_unit
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
-from dynsolve.notation.bounded_cache import keep
-from dynsolve.notation.tree import Function, Node, Product, Symbol
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Function, Node, Product, Symbol, walk
+from dynsolve.notation.tree_values import keep
 
 MOST_KNOWN = 4096
 """So many functions are remembered that bring nothing."""

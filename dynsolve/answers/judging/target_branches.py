@@ -11,15 +11,21 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from dynsolve.answers.judging.branches import Formulas, branches_of, in_order, lacking, turned_round
+from dynsolve.answers.judging.branches import (
+    INCOMPLETE,
+    Formulas,
+    SetVerdict,
+    branches_of,
+    in_order,
+    lacking,
+    turned_round,
+)
 from dynsolve.answers.judging.entry_comparison import ROUNDED, half_unit
-from dynsolve.answers.judging.set_verdict import INCOMPLETE, SetVerdict
-from dynsolve.answers.submission import Part
-from dynsolve.derivation.configuration_check import on_branch
+from dynsolve.answers.verdict import Part
+from dynsolve.derivation.configurations import on_branch
 from dynsolve.derivation.reached import CLOSE, gap
 from dynsolve.explain.target import Configuration, TargetForms
-from dynsolve.notation.tree import Degrees, Negative, Node, Number
-from dynsolve.notation.walk import mapped, walk
+from dynsolve.notation.tree import Degrees, Negative, Node, Number, mapped, walk
 
 IN_DEGREES = "in_degrees"
 """The note of an answer whose bare numbers are right as degrees."""

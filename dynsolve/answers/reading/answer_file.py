@@ -4,28 +4,329 @@ A file that is valid YAML, or JSON, means what YAML says (`yaml_values`), its sc
 stand between their quotes (`yaml_scalars`).  Only a file that YAML refuses is cut key by key
 (`answer_lines`), and each value then tried as YAML by itself, so that one bad line makes one
 answer unreadable and never the file.  Nothing is expanded, converted or constructed.
+
+Answer files that YAML refuses, key by key and line by line.
+
+A value is whatever stands between one key and the next, so that `\frac{a}{b}` in a list, a tag
+or a bracket that never closes spoils that value alone.
+
+The student's own names: `symbols: {q1: theta1 - 90deg}` and `let: {h: m2*l1*lc2*sin(q2)}`.
+
+Answers that are verdicts on matrices.
+
+    definite: {Ma: "no", Mb: yes, Mc: if}
+    definite: yes                              # where there is one matrix
+
+YAML's `no` and `yes` are the words that they look like.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from dynsolve.answers.reading import answer_lines, dh_tables, yaml_values
+from dynsolve.answers.reading import dh_tables, yaml_values
 from dynsolve.answers.reading.configurations import read_configurations
-from dynsolve.answers.reading.definitions import own_symbols
+from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.given_values import announce, read_value
-from dynsolve.answers.reading.limits import MAX_ANSWERS
-from dynsolve.answers.reading.placed_text import PlacedText
-from dynsolve.answers.reading.plain_lines import hidden
-from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.span_text import span_text
+from dynsolve.answers.reading.given_values import announce, hidden, read_value
+from dynsolve.answers.reading.grids import MAX_ANSWERS, Abstract
+from dynsolve.answers.reading.left_side import read_right_side
+from dynsolve.answers.reading.name_splitting import keep_symbol
+from dynsolve.answers.reading.set_text import span_text
+from dynsolve.answers.reading.sources import PlacedText, Source, placed
+from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.unread_text import list_unread_keys
-from dynsolve.answers.reading.verdicts import read_verdicts
-from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
-from dynsolve.errors import Finding
-from dynsolve.quantities.spelling import key
+from dynsolve.answers.reading.vocabulary import Meaning
+from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode, documents, value
+from dynsolve.answers.verdict import Place, VerdictAnswer
+from dynsolve.errors import Finding, ReadError
+from dynsolve.notation.tree import Node
+from dynsolve.quantities.letters import key
+
+# Answer files that YAML refuses, key by key and line by line
+
+_KEY = re.compile(
+    r"""([ \t]*)("[^"\n]{1,200}"|'[^'\n]{1,200}'|[^\s:#\-\[\]{},][^:\n]{0,200}?|-[^\s:][^:\n]{0,50}?)"""
+    r"[ \t]{0,20}:(?=[ \t]|$)"
+)
+_BLOCK = re.compile(r"[|>][+-]?[0-9]?[+-]?[ \t]*(?:#[^\n]*)?$", re.MULTILINE)
+_ITEM = re.compile(r"[ \t]*-(?=[ \t]|$)")
+_TIGHT = re.compile(r"""([ \t]*)("[^"\n]{1,200}"|'[^'\n]{1,200}'|[^\s:,]{1,80})[ \t]{0,9}:""")
+_QUOTED_KEY = re.compile(r"""[ \t]*["'][^"'\n]{1,200}["'][ \t]{0,20}:""")
+_FLOW_END = re.compile(r"[,}\s]*\Z")
+_DELIMITERS = (("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]"))
+
+
+@dataclass(frozen=True, slots=True)
+class KeyedText:
+    """A key with the stretch of text that is its value."""
+
+    key: str
+    at: int
+    start: int
+    end: int
+
+
+def entries(text: str) -> list[KeyedText]:
+    """The keys of the file with their values."""
+    if text.lstrip().startswith("{"):
+        return list(_braced(text, 0, len(text)))
+    return list(_block(text, 0, len(text)))
+
+
+def inner(text: str, entry: KeyedText | None) -> Iterator[KeyedText]:
+    """The entries of a mapping in either style."""
+    if entry is None:
+        return
+    if text[entry.start : entry.end].lstrip().startswith("{"):
+        yield from _braced(text, entry.start, entry.end)
+        return
+    yield from _block(text, text.find("\n", entry.start, entry.end) + 1 or entry.end, entry.end)
+
+
+def _braced(text: str, start: int, end: int) -> Iterator[KeyedText]:
+    """The entries of {key: value, ...}: by lines where each begins with a key, else by the commas."""
+    opening = text.index("{", start, end)
+    line_end = text.find("\n", opening, end)
+    if line_end >= 0 and not text[opening + 1 : line_end].strip() and _QUOTED_KEY.match(text, line_end + 1):
+        for entry in _block(text, line_end + 1, end):
+            closing = _FLOW_END.search(text, entry.start, entry.end)
+            is_mapping = text[entry.start : entry.end].lstrip().startswith("{")
+            stop = entry.end if is_mapping or closing is None else closing.start()
+            yield KeyedText(entry.key, entry.at, entry.start, stop)
+        return
+    closing_brace = text.rfind("}", opening, end)
+    yield from _flow(text, opening + 1, closing_brace if closing_brace > opening else end)
+
+
+def word(text: str, entry: KeyedText | None) -> str:
+    """The first line of a value, without quotes."""
+    if entry is None:
+        return ""
+    found = text[entry.start : entry.end].split("\n")[0].split(" #")[0].strip().strip("'\"")
+    return found[:200]
+
+
+def value_of(text: str, entry: KeyedText) -> PlacedText | None:
+    """A value by itself: as YAML, else as it stands; None where it is null or blank."""
+    line = text.rfind("\n", 0, entry.at) + 1
+    indent = entry.at - line if not text[line : entry.at].strip(" ") else 0
+    try:
+        (root,) = documents(" " * indent + text[entry.at : entry.end])
+        ((_, node),) = root.entries()
+        found = value(" " * indent + text[entry.at : entry.end], node)
+    except (NotYaml, ValueError):
+        return _as_it_stands(text, entry.start, entry.end)
+    if found is None:
+        return None
+    shift = entry.at - indent
+    return PlacedText(found.text, found.starts, tuple(origin + shift for origin in found.origins))
+
+
+def _block(text: str, start: int, end: int) -> Iterator[KeyedText]:
+    """The entries of a block mapping: a key and all that follows up to the next key of its indentation."""
+    indent: int | None = None
+    current: tuple[str, int, int] | None = None
+    position, level = start, 0
+    while position < end:
+        stop = text.find("\n", position, end)
+        stop = end if stop < 0 else stop
+        found = _KEY.match(text, position, stop)
+        blank = text[position:stop].lstrip()[:1] in ("", "#")
+        if found is not None and not blank and (indent is None or _width(found[1]) <= indent) and level <= 0:
+            indent = _width(found[1]) if indent is None else indent
+            if current is not None:
+                yield KeyedText(current[0], current[1], current[2], position)
+            current = (found[2].strip("'\"").strip(), found.start(2), found.end())
+            level = _balance(text, found.end(), stop)
+        elif current is not None:
+            level = max(level + _balance(text, position, stop), 0) if not found or level < 5 else 0
+            if found is not None and indent is not None and _width(found[1]) <= indent:
+                yield KeyedText(current[0], current[1], current[2], position)
+                current, level = (found[2].strip("'\"").strip(), found.start(2), found.end()), 0
+        position = stop + 1
+    if current is not None:
+        yield KeyedText(current[0], current[1], current[2], end)
+
+
+def _width(indent: str) -> int:
+    return len(indent.expandtabs(8))
+
+
+def _balance(text: str, start: int, stop: int) -> int:
+    """How many square brackets stay open in a line."""
+    return text.count("[", start, stop) - text.count("]", start, stop)
+
+
+def _flow(text: str, start: int, end: int) -> Iterator[KeyedText]:
+    """The entries of {key: value, key: value}."""
+    piece = start
+    for position in [*_separators(text, start, end), end]:
+        found = _KEY.match(text, _skip_blank(text, piece, position), position) or _TIGHT.match(
+            text, _skip_blank(text, piece, position), position
+        )
+        if found is not None:
+            yield KeyedText(found[2].strip("'\"").strip(), found.start(2), found.end(), position)
+        piece = position + 1
+
+
+_MARK = re.compile(r"""(?<=[\[{,:( ])"(?:[^"\\\n]|\\.)*"|(?<=[\[{,: ])'[^'\n]*'(?=\s*[,:}\]])|[()\[\]{},]""")
+
+
+def _separators(text: str, start: int, end: int) -> Iterator[int]:
+    """The commas that stand in no bracket and between no quotes."""
+    level = 0
+    for found in _MARK.finditer(text, start, end):
+        if found[0] in "([{":
+            level += 1
+        elif found[0] in ")]}":
+            level -= 1
+        elif found[0] == "," and level <= 0:
+            yield found.start()
+
+
+def _skip_blank(text: str, start: int, end: int) -> int:
+    while start < end and text[start].isspace():
+        start += 1
+    return start
+
+
+def _as_it_stands(text: str, start: int, end: int) -> PlacedText:
+    """The value of an entry without quotes, comments and the signs of block style."""
+    first, value = start, text[start:end].rstrip()
+    skipped = len(value) - len(value.lstrip())
+    start, value = start + skipped, value[skipped:]
+    block = _BLOCK.match(value)
+    if block is not None:
+        start, value = start + block.end(), value[block.end() :]
+    elif len(value) > 1 and value[0] in "'\"" and _unquoted(value) is not None:
+        inner = _unquoted(value)
+        assert inner is not None
+        start, value = start + 1, inner
+    else:
+        value = _without_comments(value)
+        if "\n" in text[first:start] and _ITEM.match(value):
+            value = _listed(value)
+    for opening, closing in _DELIMITERS:
+        if value.startswith(opening) and value.endswith(closing) and len(value) > len(opening + closing):
+            start, value = start + len(opening), value[len(opening) : -len(closing)]
+    return placed([(value, start)])
+
+
+def _unquoted(value: str) -> str | None:
+    """What stands between quotes that enclose the value, None where they do not."""
+    closing = value.rfind(value[0])
+    after = value[closing + 1 :].strip()
+    if closing > 0 and (not after or after[0] == "#") and "\n\n" not in value:
+        return value[1:closing]
+    return None
+
+
+def _without_comments(value: str) -> str:
+    """The value with blanks in place of `# ...` behind a blank; a value that is one stays."""
+    lines = value.split("\n")
+    kept = []
+    for number, line in enumerate(lines):
+        at = line.find(" #")
+        if number and line.lstrip().startswith("#"):
+            at = 0
+        kept.append(line if at < 0 else line[:at] + " " * (len(line) - at))
+    return "\n".join(kept).rstrip()
+
+
+def _listed(value: str) -> str:
+    """A block list as [a, b], every character where it was."""
+    lines = value.split("\n")
+    indent = len(lines[0]) - len(lines[0].lstrip())
+    items = [i for i, line in enumerate(lines) if _ITEM.match(line)]
+    if len(items) < 2:
+        return value
+    for number, i in enumerate(items):
+        dash = lines[i].index("-")
+        lines[i] = lines[i][:dash] + ("," if number else "[") + lines[i][dash + 1 :]
+    return "\n".join(lines) + "]" if indent >= 0 else value
+
+
+# The student's own names: `symbols: {q1: theta1 - 90deg}` and `let: {h: m2*l1*lc2*sin(q2)}`
+
+
+def own_symbols(reader: EquationReader, display: Display, name: str, is_symbol: bool) -> ReadError | None:
+    """Keep one of the student's names; the error where its meaning cannot be read."""
+    try:
+        shown = prepared(name)[:-1]
+        plain = key("".join(t.text for t in shown if t.kind in ("name", "letter", "number")))
+        dots = sum(t.dots + (t.text == "dot") + 2 * (t.text == "ddot") for t in shown)
+        tokens = prepared(display.text, reader.macros)[:-1]
+    except ReadError as error:
+        reader.vocabulary.broken[key(name)] = error.message
+        return error
+    found = read_right_side(reader.vocabulary, tokens)
+    if isinstance(found, ReadError):
+        reader.vocabulary.broken[plain] = found.message
+        return found
+    if isinstance(found.value, Abstract):
+        return ReadError(found.value.why, 0, 1, "write it in the symbols of the problem")
+    if not plain:
+        return ReadError("this is no name", 0, 1, "a name is a letter with an index: q1")
+    if is_symbol:
+        if not dots and isinstance(found.value, Node):
+            reader.coordinates.append(found.value)
+        keep_symbol(reader.vocabulary, plain, dots, found.value)
+    else:
+        reader.vocabulary.define(plain, Meaning(found.value))
+    return None
+
+
+# Answers that are verdicts on matrices
+
+_WORDS = {
+    "yes": ("yes", "y", "true", "ja", "possible", "can be", "definite", "positive definite"),
+    "no": ("no", "n", "false", "nei", "nein", "impossible", "cannot be", "not", "not positive definite"),
+    "if": ("if", "sometimes", "conditional", "conditionally", "depends", "under conditions"),
+}
+_MEANINGS = {word: meaning for meaning, words in _WORDS.items() for word in words}
+_EXPECTED = 'write yes, no or if, of several matrices by their names: {Ma: "no", Mb: "yes"}'
+
+
+def read_verdicts(reader: EquationReader, name: str, place: Place, text: str, node: YamlNode | None) -> None:
+    """Read yes, no or if of each matrix; what cannot be read makes the answer unreadable, with its reason."""
+    written = text.strip() if node is None else text[node.start : node.end].strip()
+    try:
+        root = _parsed(text) if node is None else node
+        found = VerdictAnswer(name, place, written, tuple(_words(text, root)))
+    except ReadError as error:
+        found = VerdictAnswer(name, place, written, fault=error.message, expected=error.help)
+    reader.found.verdicts.append(found)
+
+
+def _parsed(text: str) -> YamlNode:
+    """A value that stands in a file that YAML refuses, read by itself."""
+    try:
+        (root,) = yaml_values.documents(text)
+    except (NotYaml, ValueError):
+        raise ReadError("this is no verdict", 0, 1, _EXPECTED) from None
+    return root
+
+
+def _words(text: str, root: YamlNode) -> Iterator[tuple[str, str]]:
+    """(name of the matrix, or nothing, and yes, no or if)"""
+    pairs = list(root.entries())
+    if not pairs:
+        yield "", _meaning(yaml_values.word(text, root))
+    for name, entry in pairs:
+        yield yaml_values.word(text, name), _meaning(yaml_values.word(text, entry))
+
+
+def _meaning(word: str) -> str:
+    plain = word.strip().strip("\"'.").lower()
+    if plain not in _MEANINGS:
+        raise ReadError(f"`{word[:40]}` is neither yes nor no", 0, 1, _EXPECTED)
+    return _MEANINGS[plain]
+
+
+# The answer file: YAML as libraries and people write it
 
 KEYS = ("problem", "student", "symbols", "let", "atan2", "answers")
 """The keys of an answer file."""
@@ -138,22 +439,19 @@ def _entries(text: str, pairs: Iterable[tuple[YamlNode, YamlNode]]) -> Iterator[
 
 def _by_lines(text: str) -> AnswerFile:
     """The parts of a file that YAML refuses."""
-    found = answer_lines.entries(text)
+    found = entries(text)
     named = {entry.key: entry for entry in found}
     names = [
-        (part == "symbols", Entry(entry.key, entry.at, answer_lines.value_of(text, entry)))
+        (part == "symbols", Entry(entry.key, entry.at, value_of(text, entry)))
         for part in ("symbols", "let")
-        for entry in answer_lines.inner(text, named.get(part))
+        for entry in inner(text, named.get(part))
     ]
-    inside = answer_lines.inner(text, named.get("answers"))
+    inside = inner(text, named.get("answers"))
     beside = [entry for entry in found if entry.key not in KEYS]
     answers = [
-        Entry(entry.key, entry.at, answer_lines.value_of(text, entry))
-        for entry in [*inside, *beside][:MAX_ANSWERS]
+        Entry(entry.key, entry.at, value_of(text, entry)) for entry in [*inside, *beside][:MAX_ANSWERS]
     ]
-    problem, student, order = (
-        answer_lines.word(text, named.get(part)) for part in ("problem", "student", "atan2")
-    )
+    problem, student, order = (word(text, named.get(part)) for part in ("problem", "student", "atan2"))
     return AnswerFile(problem, student, tuple(names), tuple(answers), order == X_FIRST)
 
 

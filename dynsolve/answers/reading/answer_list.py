@@ -1,28 +1,71 @@
-"""The answers of one hand-in as they are found: a value becomes a record under a name of its shape."""
+"""The answers of one hand-in as they are found: a value becomes a record under a name of its shape.
+
+A quantity that is given several times: what cannot be read never takes the place of what can.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from dynsolve.answers.reading.by_content import MotionEquation
 from dynsolve.answers.reading.displays import Display
-from dynsolve.answers.reading.matrix_parts import written_entries
-from dynsolve.answers.reading.motion_equations import MotionEquation
-from dynsolve.answers.reading.occurrences import readable
-from dynsolve.answers.reading.other_entries import others
-from dynsolve.answers.reading.right_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
+from dynsolve.answers.reading.left_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
+from dynsolve.answers.reading.matrix_parts import (
+    Entry,
+    VectorEntries,
+    column,
+    fitted,
+    misfit,
+    model_parts,
+    others,
+    shown,
+    with_own_entries,
+    written_entries,
+)
 from dynsolve.answers.reading.sentences import FREE, is_of_case
-from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.tokens.lexer import Token
-from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
 from dynsolve.answers.reading.vocabulary import Vocabulary
-from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, Place, VerdictAnswer
+from dynsolve.answers.verdict import Answer, ConfigurationAnswer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import ZERO, Matrix, Node
+from dynsolve.notation.tree import ZERO, Matrix, Node, names_in
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.notation.walk import names_in
+from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.model_families import QDD_FORWARD, REFERENCE
 from dynsolve.quantities.stages import Stage
+
+# A quantity that is given several times
+
+
+def readable(answers: Sequence[Answer], quantities: Quantities) -> tuple[list[Answer], list[NotRecognized]]:
+    r"""The answers that count, and those that could not be read although their quantity is given elsewhere.
+
+    A report that gives τ row by row and then says `\tau = D \ddot q + F_v \dot q` has given τ.  A
+    vector or a matrix is given elsewhere where all its entries are.
+    """
+    given = {answer.name for answer in answers if answer.node is not None}
+    kept: list[Answer] = []
+    lost: list[NotRecognized] = []
+    for answer in answers:
+        if answer.node is None and _is_given(answer.name, given, quantities):
+            refused = NotRecognized(answer.text, answer.label, answer.place, answer.fault, (answer.name,))
+            lost.append(refused)
+        else:
+            kept.append(answer)
+    return kept, lost
+
+
+def _is_given(name: str, given: set[str], quantities: Quantities) -> bool:
+    if name in given:
+        return True
+    quantity = quantities.get(name)
+    if quantity is None or quantity.shape is None:
+        return False
+    parts = set(quantities.parts(name))
+    return bool(parts) and parts <= given
+
+
+# The answers of one hand-in as they are found
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,15 @@ list of their own.  A branch is a mapping from coordinates to formulas, or a lis
 of the coordinates; `none` is no branch at all.  `±` stands for two branches
 (alternatives), linked with every other ± of the same branch, and against every ∓ of it; `k*pi`
 with a letter that means nothing else, for all whole multiples.
+
+Formulas of sets and branches: read, and asked which coordinates and names stand in them.
+
+Lists and mappings in a text that YAML refuses, found by their brackets alone.
+
+    [{q2: \arccos\frac{a}{b}, q1: \operatorname{atan2}(y, x)}, {q2: ..., q1: ...}]
+
+A brace opens a mapping where an item begins and a name with a colon follows; every other one belongs
+to a formula.  A comma parts items outside of all inner brackets.
 """
 
 from __future__ import annotations
@@ -19,28 +28,175 @@ from functools import partial
 from itertools import groupby, islice, product
 
 from dynsolve.answers.reading import yaml_values
-from dynsolve.answers.reading.coordinate_formulas import (
-    EITHER,
-    OPPOSITE,
-    coordinate_named,
-    function_named,
-    has_coordinate,
-    value,
-)
 from dynsolve.answers.reading.displays import chain
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.loose_lists import loose_node
+from dynsolve.answers.reading.grids import MAX_LENGTH
+from dynsolve.answers.reading.left_side import RightSide, read_right_side
 from dynsolve.answers.reading.set_text import alternatives, joined
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Vocabulary
-from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
-from dynsolve.answers.submission import ConfigurationAnswer, Part, Place
+from dynsolve.answers.reading.yaml_values import MAX_DEPTH, NotYaml, YamlNode
+from dynsolve.answers.verdict import ConfigurationAnswer, Part, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
-from dynsolve.notation.tree import ZERO, Node
-from dynsolve.notation.walk import mapped, names_in, with_atan2_exchanged
+from dynsolve.notation.tree import (
+    ZERO,
+    Function,
+    Node,
+    Reference,
+    Symbol,
+    mapped,
+    names_in,
+    walk,
+    with_atan2_exchanged,
+)
+from dynsolve.quantities import families
+from dynsolve.quantities.action_families import REDUCED
 from dynsolve.quantities.family import Kind
-from dynsolve.quantities.spelling import key
+from dynsolve.quantities.letters import key
+
+# Formulas of sets and branches: read, and asked which coordinates and names stand in them
+
+EITHER = re.compile(r"±|\\pm\b|\+/-")
+OPPOSITE = re.compile(r"∓|\\mp\b|-/\+")
+"""One of two signs, and the other."""
+
+
+def value(vocabulary: Vocabulary, tokens: list[Token]) -> Node:
+    """The formula that tokens are; raises ReadError where they are none, or an answer stands in it."""
+    found = read_right_side(vocabulary, tokens)
+    if not isinstance(found, RightSide):
+        raise found
+    if found.free:
+        raise ReadError(f"{found.free[0]} is no name of this problem", 0, 1, "write it in its symbols")
+    if not isinstance(found.value, Node):
+        raise ReadError("a single expression is expected", 0, 1, "write one formula")
+    formula = _with_forces(vocabulary, found.value)
+    for part in walk(formula):
+        if isinstance(part, Reference):
+            raise ReadError(f"{part} stands in it", 0, 1, "write it in the coordinates: sin(q2) = 0")
+    return formula
+
+
+def _with_forces(vocabulary: Vocabulary, node: Node) -> Node:
+    """The formula with generalized forces as symbols, where equations of motion are among the sets."""
+    named = vocabulary.quantities
+    if REDUCED.name not in named:
+        return node
+
+    def put(part: Node) -> Node:
+        if isinstance(part, Reference) and named[part.quantity].family in (families.TAU, families.FORCE):
+            place = part.row or named[part.quantity].index[0]
+            return Symbol(vocabulary.coordinates[place - 1].force)
+        return part
+
+    return mapped(node, put)
+
+
+def has_coordinate(vocabulary: Vocabulary, node: Node) -> bool:
+    """Whether a coordinate stands in a formula."""
+    return not names_in(node).isdisjoint(q.name for q in vocabulary.coordinates)
+
+
+def coordinate_named(vocabulary: Vocabulary, name: str) -> str:
+    """The coordinate that a text is the name of; empty for any other."""
+    try:
+        node = value(vocabulary, prepared(name))
+    except ReadError:
+        return ""
+    q = vocabulary.coordinate(node)
+    return q.name if q is not None and not (isinstance(node, Symbol) and node.dots) else ""
+
+
+def function_named(vocabulary: Vocabulary, name: str) -> Function | None:
+    """The sine or cosine of a coordinate that a text is the name of: c_2."""
+    try:
+        node = value(vocabulary, prepared(name))
+    except ReadError:
+        return None
+    is_one = isinstance(node, Function) and vocabulary.coordinate(node.argument) is not None
+    return node if isinstance(node, Function) and is_one else None
+
+
+def names_within(vocabulary: Vocabulary, text: str) -> frozenset[str]:
+    """The names of symbols in a formula; none where it cannot be read."""
+    one_sign = OPPOSITE.sub("+", EITHER.sub("+", text))
+    try:
+        return frozenset().union(
+            *(names_in(value(vocabulary, part)) for part in chain(prepared(one_sign))[-1:])
+        )
+    except ReadError:
+        return frozenset()
+
+
+# Lists and mappings in a text that YAML refuses, found by their brackets alone
+
+_KEY = re.compile(r"""\s*("[^"\n]{1,80}"|'[^'\n]{1,80}'|[\w\\{}^]{1,80}?)\s*:""")
+_LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
+
+
+def loose_node(text: str) -> YamlNode | None:
+    """What a text says as a list, a mapping or a scalar; None where a bracket never closes."""
+    if len(text) > MAX_LENGTH or not _is_balanced(text):
+        return None
+    return _node(text, 0, len(text), MAX_DEPTH)
+
+
+def _node(text: str, start: int, end: int, depth: int) -> YamlNode:
+    start, end = _stripped(text, start, end)
+    opening, closing = text[start : start + 1], text[end - 1 : end]
+    if depth and opening == "[" and closing == "]":
+        pieces = _pieces(text, start + 1, end - 1)
+        return YamlNode("list", start, end, inside=[_node(text, *piece, depth - 1) for piece in pieces])
+    if depth and opening == "{" and closing == "}" and _KEY.match(text, start + 1):
+        return _mapping(text, start, end, depth)
+    is_quoted = end - start > 1 and opening in "'\"" and opening == closing
+    return YamlNode(opening if is_quoted else "", start, end)
+
+
+def _mapping(text: str, start: int, end: int, depth: int) -> YamlNode:
+    """{key: value, ...}; a piece without a key goes on with the value before it."""
+    node = YamlNode("mapping", start, end)
+    for first, last in _pieces(text, start + 1, end - 1):
+        name = _KEY.match(text, first, last)
+        if name is None:
+            node.inside[-1] = _node(text, node.inside[-1].start, last, depth - 1)
+            continue
+        node.inside.append(_node(text, name.start(1), name.end(1), 0))
+        node.inside.append(_node(text, name.end(), last, depth - 1))
+    return node
+
+
+def _pieces(text: str, start: int, end: int) -> list[tuple[int, int]]:
+    """Where the items stand that commas part, outside of brackets."""
+    found, level, first = [], 0, start
+    for at in range(start, end):
+        level += _LEVELS.get(text[at], 0)
+        if text[at] == "," and level == 0:
+            found.append((first, at))
+            first = at + 1
+    return [*found, (first, end)] if text[first:end].strip() else found
+
+
+def _stripped(text: str, start: int, end: int) -> tuple[int, int]:
+    while start < end and text[start].isspace():
+        start += 1
+    while start < end and text[end - 1].isspace():
+        end -= 1
+    return start, end
+
+
+def _is_balanced(text: str) -> bool:
+    level = 0
+    for character in text:
+        level += _LEVELS.get(character, 0)
+        if level < 0:
+            return False
+    return level == 0
+
+
+# Answers that are sets: singular configurations, and the branches of the inverse kinematics
 
 CONDITIONS = "when"
 """The key beside a branch for the conditions under which it holds."""

@@ -3,18 +3,153 @@ r"""Tables of Denavit-Hartenberg parameters as people draw them: a head with θ,
 In a report it is a table of Markdown (`| i | $\theta_i$ | ...`), of LaTeX (`tabular`, `array`, `pmatrix`), or
 columns of plain text; its rows are those of the table, or its columns where it lies on its side.  Each
 becomes rows [θ, d, a, α], in which every character keeps its place.
+
+The cells of a table of Denavit-Hartenberg parameters as a report has them, and as they are read.
+
+What is only set beside a value is left out: dollars, rules, "(variable)"; a dash or nothing is 0.  Every
+character that is kept stays at its place.
+
+The heads of tables of Denavit-Hartenberg parameters: which column is θ, which d, a, α.
+
+A head is a symbol ($\alpha_{i-1}$, `theta_i [deg]`), a symbol after its words (`Link length a_i`), or words
+alone (`twist`, `Rot x`).
+
+Tables in a report: a row `| $P_1$ | $m_1 g L_1$ |` gives P_1, a cell may hold an equation of its own.
+
+Every change keeps the length of the text, so that every character stays at its place.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby, islice
+from functools import partial
+from itertools import count, groupby, islice, pairwise
 
-from dynsolve.answers.reading.dh_cells import Cell, Variables, bare, variables_of, without_rules
-from dynsolve.answers.reading.dh_heads import order_of
-from dynsolve.answers.reading.placed_text import Piece, PlacedText, placed
+from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.sources import Piece, PlacedText, Source, placed
+from dynsolve.answers.verdict import Place
+
+# The cells of a table of Denavit-Hartenberg parameters as a report has them, and as they are read
+
+Cell = tuple[int, int]
+"""Where a cell begins and ends in the text."""
+
+RULE = re.compile(
+    r"\\(?:hline|toprule|midrule|bottomrule|endhead|endfirsthead|addlinespace"
+    r"|(?:cline|rowcolor|hhline)\s*\{[^{}]*\}|cmidrule(?:\([^)]*\))?\s*\{[^{}]*\})"
+)
+"""The lines between the rows of a table of LaTeX."""
+
+_SPACING = re.compile(r"\A\s*\[\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm)\s*\]")
+_SPANNING = re.compile(r"\A\s*\\multi(?:column|row)\s*\{[^{}]*\}\s*\{[^{}]*\}(?=\s*\{)")
+_SIGNS = re.compile(r"\$|\\[()]|(?<!\\)~|\\[,;:!]|\\(?:centering|displaystyle|rule|strut)(?![A-Za-z])")
+_DEGREES = re.compile(r"\\(?:SI|qty|ang)\s*\{\s*([-+−]?[0-9.]+)\s*\}(?:\s*\{\s*\\(?:degree|deg)\s*\})?")
+_DEGREE = re.compile(r"\\(?:degree|textdegree)(?![A-Za-z])(?:\s*\{\})?")
+_RAISED = re.compile(r"\\textsuperscript\s*\{")
+_VARIABLE = re.compile(
+    r"\(\s*(?:variable|variabel|var\.?)\s*\)|(?<![\w\\])(?:variable|variabel|var\.?)(?!\w)"
+)
+_DASHES = frozenset({"", "-", "--", "---", "–", "—", "−"})
+_BLANK = re.compile(r"[^\n]")
+
+Variables = Callable[[], str]
+"""The joint variable of the next row that only says that it has one."""
+
+
+def variables_of(names: Sequence[str]) -> Variables:
+    """The joint variables in their order, for cells that only say `variable`."""
+    numbers = count()
+
+    def following() -> str:
+        place = next(numbers)
+        return names[place] if place < len(names) else ""
+
+    return following
+
+
+def without_rules(text: str, cell: Cell) -> str:
+    """The text of a cell, blanks for lines, spacing and what says that it spans several columns."""
+    plain = text[cell[0] : cell[1]]
+    for pattern in (RULE, _SPACING, _SPANNING):
+        plain = pattern.sub(_blank, plain)
+    return plain
+
+
+def bare(text: str, cell: Cell, variable: Variables) -> Piece:
+    """A cell as it is read, and where it begins."""
+    plain = without_rules(text, cell)
+    plain = _DEGREES.sub(lambda found: _filled(found, f"({found[1]}°)"), plain)
+    plain = _DEGREE.sub(lambda found: _filled(found, "°"), plain)
+    plain = _RAISED.sub(lambda found: "^{".rjust(len(found[0])), plain)
+    plain = _SIGNS.sub(_blank, plain)
+    says_variable = _VARIABLE.search(plain)
+    content = (_VARIABLE.sub(_blank, plain) if says_variable else plain).rstrip()
+    start = len(content) - len(content.lstrip())
+    content = content.strip()
+    if content in _DASHES:
+        content = (variable() if says_variable else "") or "0"
+    return content, cell[0] + start
+
+
+def _blank(found: re.Match[str]) -> str:
+    return _BLANK.sub(" ", found[0])
+
+
+def _filled(found: re.Match[str], text: str) -> str:
+    """A text in place of a longer one, of its length."""
+    return text.ljust(len(found[0]))
+
+
+# The heads of tables of Denavit-Hartenberg parameters: which column is θ, which d, a, α
+
+_LONGEST = 80
+_FONT = r"(?:(?:mathbf|boldsymbol|textbf|text|mathrm|bm|mathit)[\s{\\$]*)?"
+_SYMBOL = re.compile(
+    rf"[\s$\\*{{}}(]*{_FONT}(?:var)?(theta|alpha|θ|ϑ|α|d|a)(?![A-Za-zα-ω])(?![ \t]+[A-Za-z])", re.IGNORECASE
+)
+_SYMBOL_INSIDE = re.compile(r"(?<![A-Za-z])(theta|alpha|θ|ϑ|α|[da](?=\W{0,3}[\]_}$ᵢ)]|\s*$))(?![A-Za-z])")
+_DH_HEADS_COLUMNS = {"theta": 0, "θ": 0, "ϑ": 0, "d": 1, "a": 2, "alpha": 3, "α": 3}
+_WORDS = (
+    (re.compile(r"joint angle|rot\w*[\s_({]*z|r[_{]+z", re.IGNORECASE), 0),
+    (re.compile(r"offset|trans\w*[\s_({]*z", re.IGNORECASE), 1),
+    (re.compile(r"link length|trans\w*[\s_({]*x", re.IGNORECASE), 2),
+    (re.compile(r"twist|rot\w*[\s_({]*x|r[_{]+x", re.IGNORECASE), 3),
+)
+
+
+def column_of(head: str) -> int | None:
+    r"""The column that a head names: 0 for θ, 1 for d, 2 for a, 3 for α; None of another.
+
+    >>> column_of("theta_i [deg]"), column_of(r"$\alpha_{i-1}$"), column_of("Link"), column_of("Link twist")
+    (0, 3, None, 3)
+    """
+    if len(head) > _LONGEST:
+        return None
+    symbol = _SYMBOL.match(head) or _SYMBOL_INSIDE.search(head)
+    if symbol is not None:
+        return _DH_HEADS_COLUMNS[symbol[1].lower()]
+    return next((column for words, column in _WORDS if words.search(head)), None)
+
+
+def order_of(heads: Sequence[str]) -> tuple[int, ...] | None:
+    r"""The places of θ, d, a, α in a head; None of what is no head.
+
+    >>> order_of(["Link", "$a_i$", r"$\alpha_i$", "$d_i$", r"$\theta_i$"])
+    (4, 3, 1, 2)
+    """
+    found: dict[int, int] = {}
+    for place, head in enumerate(heads):
+        column = column_of(head)
+        if column in found:
+            return None
+        if column is not None:
+            found[column] = place
+    return tuple(found[column] for column in range(4)) if len(found) == 4 else None
+
+
+# Tables of Denavit-Hartenberg parameters as people draw them
 
 NAME = "DH"
 """The answer that such a table is."""
@@ -220,3 +355,88 @@ def _rows(text: str, body: list[Row], variable: Variables) -> Iterator[Piece]:
             yield content, at
         yield "]", row[-1][1]
     yield "]", body[-1][-1][1]
+
+
+# Tables in a report
+
+_ROW = re.compile(r"(?m)^[ \t]*\|[^\n]*\|[^\n|]*$")
+_BAR = re.compile(r"\$[^$\n]*\$|\\\||\|")
+_INLINE = re.compile(r"\\\(([^$\n]{0,1000}?)\\\)")
+_MARKUP = re.compile(r"[$*`]")
+_VALUE = re.compile(r"[ \t]*(?:\$[^$=]+\$[ \t.,;]*|[^$=]*[^$=\s:-][^$=]*)")
+_LONGEST_NAME = 60
+_HEADED = re.compile(
+    r"(?m)^[ \t]*(?P<heads>\|[^\n]+\|)[ \t]*\n[ \t]*\|[-: \t|]+\|[ \t]*\n[ \t]*(?P<values>\|[^\n]+\|)[ \t]*$"
+)
+"""A table with one row of values."""
+
+
+def with_equations(text: str, names_answer: Callable[[str], bool]) -> str:
+    """The text with a line for each cell of its tables, and an equation for a name beside a value."""
+    if "|" not in text:
+        return text
+    return _ROW.sub(lambda row: _lines(_INLINE.sub(_in_dollars, row[0]), names_answer), text)
+
+
+def _in_dollars(formula: re.Match[str]) -> str:
+    return f" ${formula[1]}$ "
+
+
+def _lines(row: str, names_answer: Callable[[str], bool]) -> str:
+    bars = [found.start() for found in _BAR.finditer(row) if found[0] == "|"]
+    between = "".join(row[a + 1 : b] for a, b in zip(bars[1::2], bars[2::2], strict=False))
+    if len(bars) % 2 == 0 and not between.strip() and not {"=", "$"} & set(row):
+        return row  # one row of matrices that are drawn
+    cells = [row[a + 1 : b] for a, b in zip(bars, [*bars[1:], len(row)], strict=True)]
+    pieces = [row[: bars[0]]]
+    at = 0
+    while at < len(cells):
+        equation = _equation(cells[at], cells[at + 1], names_answer) if at + 2 < len(cells) else ""
+        pieces.append(equation or cells[at])
+        at += 2 if equation else 1
+    return "\n".join(pieces)
+
+
+def _equation(name: str, value: str, names_answer: Callable[[str], bool]) -> str:
+    """The two cells as one equation, empty where they are none."""
+    plain = _MARKUP.sub(" ", name)
+    if not _are_names(plain, names_answer) or not _VALUE.fullmatch(value):
+        return ""
+    if "$" not in value:
+        return f"{plain}={value}"
+    blank = len(plain) - len(plain.lstrip()) - 1
+    return f"{plain[:blank]}${plain[blank + 1 :]}={value.replace('$', ' ', 1)}" if blank >= 0 else ""
+
+
+def _are_names(plain: str, names_answer: Callable[[str], bool]) -> bool:
+    """Whether a cell is the name of an answer, or of several that are the same: d_12 = d_21."""
+    return len(plain) <= _LONGEST_NAME and all(names_answer(name.strip()) for name in plain.split("="))
+
+
+def headed_columns(
+    text: str, source: Source, names_answer: Callable[[str], bool]
+) -> tuple[str, list[tuple[int, Display]]]:
+    """The equations of tables with names as their heads and a row of values, and the text without these."""
+    found = list[tuple[int, Display]]()
+    for table in list(_HEADED.finditer(text)):
+        heads = [_MARKUP.sub(" ", head).strip() for _, head in _tables_cells(table["heads"])]
+        values = _tables_cells(table["values"])
+        if len(heads) != len(values) or not all(_are_names(head, names_answer) for head in heads):
+            continue
+        for head, (at, value) in zip(heads, values, strict=True):
+            place = partial(_place, source, table.start("values") + at - len(head) - 1)
+            found.append(
+                (table.start("values") + at, Display(f"{head}={value.replace('$', ' ')}", "", place))
+            )
+        text = text[: table.start()] + " " * len(table[0]) + text[table.end() :]
+    return text, found
+
+
+def _place(source: Source, start: int, offset: int, length: int) -> Place:
+    return source.place(start + offset, length)
+
+
+def _tables_cells(row: str) -> list[tuple[int, str]]:
+    """The cells of a row, each with the offset at which it begins."""
+    bars = [found.start() for found in _BAR.finditer(row) if found[0] == "|"]
+    return [(a + 1, row[a + 1 : b]) for a, b in pairwise(bars)]

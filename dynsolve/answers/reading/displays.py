@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from dynsolve.answers.reading.limits import MAX_LENGTH
+from dynsolve.answers.reading.grids import MAX_LENGTH
 from dynsolve.answers.reading.tokens.lexer import SEPARATORS, Token
-from dynsolve.answers.submission import Place
+from dynsolve.answers.verdict import Place
 
 Locate = Callable[[int, int], Place]
 """(offset, length) in the text of a display -> where that is in the file."""

@@ -1,62 +1,115 @@
-"""The equations of one file, read in order: what each is an answer to, and what it defines.
+r"""The equations of one file, read in order: what each is an answer to, and what it defines.
 
 Of a chain a = b = c the names are found first (`left_side`); then every other member is
 read as a value (`right_side`) and is one answer to each of the names (`answer_list`).  A
 member of names alone, like K = K_1 + K_2, is a definition and no answer.  A chain whose left
 side is a name of the student's own defines that name for what follows.
+
+Linear models as they are written out: `\dot x = [...] x + [...] u` gives A and B.
+
+What the state is called does not matter: the matrix that begins each term is taken.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
-from dynsolve.answers.reading.by_content import called_force, force_meant, meant
-from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
+from dynsolve.answers.reading.by_content import (
+    acceleration_of,
+    called_force,
+    calls_forces,
+    force_meant,
+    is_condition,
+    is_inertia_force,
+    meant,
+    motion_equation,
+    signed_terms,
+    states_constant,
+)
+from dynsolve.answers.reading.displays import OPENS, Display, Equation, equations, is_label
 from dynsolve.answers.reading.grammar.names import SEVERAL
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
-from dynsolve.answers.reading.grids import Abstract
-from dynsolve.answers.reading.index_order import defined_order, order_of_pair
+from dynsolve.answers.reading.grids import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS, Abstract, Grid
 from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
+    RightSide,
     UnknownSide,
     called_name,
+    is_abstract,
     is_read,
+    is_value,
     name_alone,
     read_left_side,
     read_left_sides,
+    read_right_side,
     spoken_of,
+    why_no_value,
     without_factor,
 )
-from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
-from dynsolve.answers.reading.linear_models import linear_parts
-from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
-from dynsolve.answers.reading.motion_equations import acceleration_of, motion_equation
-from dynsolve.answers.reading.no_answers import calls_forces, is_condition, is_inertia_force, states_constant
-from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
-from dynsolve.answers.reading.right_side import (
-    RightSide,
-    is_abstract,
-    is_value,
-    read_right_side,
-    why_no_value,
+from dynsolve.answers.reading.matrix_parts import (
+    MatrixPart,
+    entries_of,
+    entry_of,
+    fitted,
+    model_parts,
+    part_of,
+    shown,
 )
+from dynsolve.answers.reading.name_splitting import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.sentences import CONDITION, CONSTANT
-from dynsolve.answers.reading.shapes import fitted, model_parts, shown
-from dynsolve.answers.reading.tokens.lexer import Token
-from dynsolve.answers.reading.tokens.macros import Macro
+from dynsolve.answers.reading.tokens.lexer import Macro, Token
 from dynsolve.answers.reading.tokens.prepare import prepared
-from dynsolve.answers.reading.vector_entries import entry_of
-from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
-from dynsolve.answers.submission import Answer, NotRecognized
+from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, defined_order, order_of_pair
+from dynsolve.answers.verdict import Answer, NotRecognized
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Function, Node
+from dynsolve.notation.tree import Function, Node, names_in
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.notation.walk import names_in
+from dynsolve.quantities.letters import key
 from dynsolve.quantities.model_families import QDD_FORWARD
-from dynsolve.quantities.spelling import key
+
+# Linear models as they are written out: `\dot x = [...] x + [...] u` gives A and B
+
+_NAMES = ("linear_A", "linear_B")
+
+
+def linear_parts(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> Iterator[tuple[str, Member]]:
+    """A and B with their names, of the chain ẋ = A x + B u; nothing of every other chain."""
+    if len(members) != 2 or _NAMES[0] not in vocabulary.quantities or _block(members[0]) == members[0]:
+        return
+    terms = signed_terms(members[1])
+    blocks = [_block(tokens) for tokens, _ in terms]
+    if len(terms) > 2 or any(negative for _, negative in terms):
+        return
+    if any(not block or len(block) == len(tokens) for block, (tokens, _) in zip(blocks, terms, strict=True)):
+        return
+    made = [Member(1, block, read_right_side(vocabulary, block)) for block in blocks]
+    n = 2 * len(vocabulary.coordinates)
+    shapes = [
+        member.found.value.shape
+        for member in made
+        if isinstance(member.found, RightSide) and isinstance(member.found.value, Grid)
+    ]
+    if shapes[:1] == [(n, n)] and len(shapes) == len(made) and all(rows == n for rows, _ in shapes):
+        yield from zip(_NAMES, made, strict=False)
+
+
+def _block(tokens: Sequence[Token]) -> list[Token]:
+    """The matrix that tokens begin with; empty where they begin with none."""
+    if not tokens or tokens[0].kind != "begin":
+        return []
+    level = 0
+    for position, token in enumerate(tokens, 1):
+        level += OPENS.get(token.kind, 0)
+        if level == 0:
+            return list(tokens[:position])
+    return []
+
+
+# The equations of one file, read in order: what each is an answer to, and what it defines
 
 _CONTROL = re.compile(
     r"unknown symbol `(?:[Kk]_?\{?[pPdDiI]\}?|[^`]*tilde\}?"

@@ -17,7 +17,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from dynsolve.answers.reading.limits import MAX_NESTING
+from dynsolve.answers.reading.grids import MAX_NESTING
 
 _OPENING = frozenset("⎛⎜⎝⎡⎢⎣")
 _CLOSING = frozenset("⎞⎟⎠⎤⎥⎦")

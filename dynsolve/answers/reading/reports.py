@@ -9,30 +9,24 @@ from functools import partial
 from itertools import islice
 from operator import itemgetter
 
-from dynsolve.answers.reading.asides import read_aside
-from dynsolve.answers.reading.coordinate_formulas import coordinate_named
-from dynsolve.answers.reading.dh_tables import NAME, tables_of, without
-from dynsolve.answers.reading.displayed_sets import DisplayedSets
+from dynsolve.answers.reading.asides import read_aside, spoken_verdicts
+from dynsolve.answers.reading.configurations import coordinate_named
+from dynsolve.answers.reading.dh_tables import NAME, headed_columns, tables_of, with_equations, without
+from dynsolve.answers.reading.displayed_sets import DisplayedSets, headed_sets, read_headed
+from dynsolve.answers.reading.displayed_sets import without as without_sets
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.given_values import read_value
-from dynsolve.answers.reading.headed_sets import headed_sets, read_headed
-from dynsolve.answers.reading.headed_sets import without as without_sets
+from dynsolve.answers.reading.given_values import hidden, plain_lines, read_value
+from dynsolve.answers.reading.grids import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
-from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
-from dynsolve.answers.reading.other_entries import said_zero
-from dynsolve.answers.reading.plain_lines import hidden, plain_lines
+from dynsolve.answers.reading.matrix_parts import said_zero, shown
 from dynsolve.answers.reading.report_text import visible
 from dynsolve.answers.reading.sentences import IN_SENTENCE, is_of_case, said_of, taken_from
-from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.spoken_verdicts import spoken_verdicts
-from dynsolve.answers.reading.tables import headed_columns, with_equations
-from dynsolve.answers.reading.tokens.lexer import Token, closing_brace, tokenize
-from dynsolve.answers.reading.tokens.macros import Macro
+from dynsolve.answers.reading.tokens.lexer import Macro, Token, closing_brace, tokenize
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.unread_text import list_pictures, list_unread
-from dynsolve.answers.submission import NotRecognized, Place, VerdictAnswer
+from dynsolve.answers.verdict import NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.quantities.model_families import LINEAR_A
 

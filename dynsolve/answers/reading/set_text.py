@@ -3,17 +3,133 @@ r"""The text of an alternative as people write it: `θ₂ = 0 or π`, `q_2 = k\p
 What joins equations is taken apart before any formula is read: `or` into alternatives, `and` into
 equations that hold together, outside of parentheses; `and` binds closer, and a value without an
 equation of its own, the π of `θ₂ = 0 or π`, is another value of the equation before it.
+
+The words around sets in English, German and Norwegian: a table each, one row per language.
+
+`HEADS` are what a set is called at the head of a line or as a heading, `ANNOUNCED` what speaks of one in the
+text before a formula, `DENIED` what takes that back.  `CASE` makes of a formula behind it a case, of which
+its sentence has to say `SAID`.  `AND`, `OR` and `SO` join formulas, what
+stands behind `SINCE` gives the reason.  `ALL`, `ARBITRARY` and `REGARDLESS` say that a coordinate is free.
+
+Spaces as people write them: `span{[1, 0]}`, `\alpha [1, 0]^T`, `none`, `R^2`.
+
+What only says that vectors span a space is left out, so that the vectors remain; a space without a
+vector is 0, and a whole space the unit vectors.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
 
-from dynsolve.answers.reading.set_words import AND, INTEGER, OR, SINCE, SO
+from dynsolve.answers.reading.sources import PlacedText, placed
 from dynsolve.errors import ReadError
-from dynsolve.quantities.spelling import key
+from dynsolve.quantities.letters import key
+
+# The words around sets in English, German and Norwegian: a table each, one row per language
+
+
+def _any(*rows: str) -> str:
+    return "|".join(rows)
+
+
+def _compiled(rows: Iterable[str]) -> re.Pattern[str]:
+    return re.compile("|".join(rows), re.IGNORECASE)
+
+
+_PLACES = (
+    r"(?: (?:points?|configurations?|positions?|states?|sets?))?(?: are| is)?",
+    r"(?:lagen?|punkte?|zustände?|stellung(?:en)?|konfiguration(?:en)?)",
+    r"(?:punkt|still?ing|tilstand|posisjon|konfigurasjon)(?:er|en|et|ene)?",
+)
+_AT = ("(?: sind| ist| bei| für)?", "(?: er| når| for| ved)?")
+
+HEADS = {
+    "equilibria": _compiled((
+        rf"(?:the |all )*equilibri(?:a|um){_PLACES[0]}",
+        rf"(?:die |alle )*(?:gleichgewichte?|gleichgewichts{_PLACES[1]}|ruhelagen?){_AT[0]}",
+        rf"(?:alle )?likevekts?-?(?:{_PLACES[2]})?{_AT[1]}",
+    )),
+    "singular": _compiled((
+        rf"(?:the |all )*singular(?:ity|ities)?{_PLACES[0]}",
+        rf"(?:die |alle )*(?:singularität(?:en)?|singuläre? ?(?:{_PLACES[1]})?){_AT[0]}",
+        rf"(?:alle )?(?:singularitet(?:er|en|ene)?|singulære? ?(?:{_PLACES[2]})?){_AT[1]}",
+    )),
+    "reduced": _compiled((
+        r"(?:the )?reduced equations(?: of motion)?(?: are)?",
+        r"(?:die )?reduzierten? (?:bewegungs)?gleichungen",
+        r"(?:de )?reduserte (?:bevegelses)?(?:ligningene|ligninger|likninger|likningene)",
+    )),
+    "balance": _compiled((
+        r"(?:the )?(?:conditions? (?:for|of) )?(?:gravity )?balanc(?:e|ed|ing)(?: conditions?| of gravity)?",
+        r"(?:die )?(?:ausgleichsbedingung(?:en)?|bedingung(?:en)? für den (?:gewichts|massen)ausgleich)",
+        r"(?:betingelse(?:r|n|ne)? for )?balanser(?:ing|t)",
+    )),
+}  # fmt: skip
+
+ANNOUNCED = {
+    "singular": _compiled((
+        r"singular|rank|invertib|determinant|\\det\b|\bdet\b|vanish",
+        r"singulär|\brang\b|invertierbar|verschwind",
+        r"singulær|inverterbar|forsvinn",
+    )),
+    "inverse": _compiled((
+        r"invers|reach|solution|branch|elbow", r"rückwärtskinemati|erreich|lösung|ellbogen|ellenbogen",
+        r"løsning|\bnå\b|albue",
+    )),
+    "equilibria": _compiled((
+        r"equilibri|at rest\b|balance", r"gleichgewicht|ruhelage|in ruhe\b", r"likevekt|\bi ro\b",
+    )),
+}  # fmt: skip
+
+DENIED = _compiled((
+    r"\b(?:not|never|no|non-?singular|un(?!d\b|s\b|ser|ten\b|[dt]er\b)\w+|except|near|about|around|lineari[sz]\w*"
+    r"|far from|full rank|regular)\b",
+    r"\b(?:nicht|kein\w*|nie|außer|nahe|regulär|linearisier\w*|weit (?:von|weg)|volle[nr]? rang)\b",
+    r"\b(?:ikke|ingen|aldri|unntatt|nær|rundt|regulær|langt fra|full rang)\b",
+))  # fmt: skip
+
+CASE = re.compile(
+    r"\b(?:for|at|if|when|with|für|bei|wenn|falls|mit|ved|når|hvis|med)[\s,:$]*(?:\\[\[(]\s*)?\Z",
+    re.IGNORECASE,
+)
+_IS_ZERO = r"(?:=|\$)\s*0\s*(?:\$|\\[\])])"
+SAID = {
+    "singular": _compiled((
+        r"singular|rank|invertib|vanish|\bzero\b", r"singulär|\brang\b|invertierbar|verschwind|\bnull\b",
+        r"singulær|inverterbar|forsvinn", _IS_ZERO,
+    )),
+    "equilibria": _compiled((ANNOUNCED["equilibria"].pattern, _IS_ZERO)),
+}  # fmt: skip
+
+OR = _any("or", "oder", "eller", "ou")
+AND = _any("and", "und", "og", "et", "y")
+_IT = r"(?:(?:which|it|this|that|was|das|dies|woraus|daraus|es|det|dette|som) )?"
+SO = rf"(?:(?:{AND}) )?" + _any(
+    r"(?:i\.\s?e\.", "that is", "hence", "thus", "therefore", "so(?: that)?",
+    rf"{_IT}(?:gives?|yields?|implies|means|(?:follows?|results?)(?! from)(?: that)?)",
+    r"d\.\s?h\.", "das heißt", "also", "somit", "folglich", "damit", "woraus", "daraus",
+    rf"{_IT}(?:(?:folgt|ergibt)(?! aus)(?: sich)?(?:,? dass)?|liefert|bedeutet)",
+    r"dvs\.?", "det vil si", "altså", "dermed", rf"{_IT}(?:gir|betyr|(?:følger|medfører)(?! av)(?: at)?)",
+) + ")"  # fmt: skip
+SINCE = _any(
+    "since", "because", "follows? from", "results? from", "weil", "denn", "(?:folgt|ergibt sich) aus",
+    "fordi", "siden", "følger av",
+)  # fmt: skip
+ALL = _any("any", "all", "every", r"(?:alle|jede|beliebige|freie)[rsmn]?", "arbitrary", "hver", "vilkårlige?")
+ARBITRARY = _any("arbitrary", r"any(?:thing|where)?", "free", "beliebig", "frei", "vilkårlig", "fri")
+REGARDLESS = _any(
+    r"(?:independent(?:ly)?|regardless|irrespective) of", "whatever",
+    "unabhängig von", "uavhengig av", "uansett",
+)  # fmt: skip
+INTEGER = _any(
+    r"(?:(?:is|are) )?(?:an )?integers?", "whole numbers?", r"(?:sind |ist )?ganzzahlig", "heltall"
+)
+STABLE = r"(?:un)?stable|(?:in)?stabil\w*|ustabil\w*"
+
+
+# The text of an alternative as people write it
 
 Together = tuple[str, ...]
 """The texts of equations that hold together."""
@@ -299,3 +415,87 @@ def _split(text: str, separator: re.Pattern[str]) -> list[str]:
             found += [text[start : sign.start()], sign[0]]
             start = sign.end()
     return [*found, text[start:]]
+
+
+# Spaces as people write them: `span{[1, 0]}`, `\alpha [1, 0]^T`, `none`, `R^2`
+
+_SPAN = re.compile(
+    r"\s*(?:\\(?:mathrm|operatorname\*?|text|textrm|mathop|mathcal)\s*\{\s*span\s*\}|\\?span(?![a-z]))\s*",
+    re.I,
+)
+_FACTOR = re.compile(r"\s*(\\?[A-Za-z]+|[αβγλμ])\s*\\?[*,;]?\s*(?=\\begin|\\left|\[|\()")
+_NOTHING = re.compile(
+    r"(?:none|nothing|empty|no(?: \w+)? (?:direction|motion|vector)s?|∅|\\(?:empty|var)?(?:nothing|set)|"
+    r"[\[{(]?\s*[\]})]|\\?\{\s*(?:\\(?:mathbf|vec|bm)\s*\{?)?\s*0\s*\}?\s*\\?\})\.?",
+    re.I,
+)
+_SPAN_TEXT_WHOLE = re.compile(
+    r"\\?(?:mathbb\s*\{?\s*R\s*\}?|[Rℝ])\s*(?:\^\s*\{?\s*([1-6])\s*\}?|([¹²³⁴⁵⁶])|([1-6]))"
+)
+_FOR_ALL = re.compile(
+    r"\s*[,;]\s*(?:\\\S\s*)?(?:\\?forall|∀|for all)?\s*\S{1,8}\s*(?:\\in\b|∈|\bin\b)[^\[\]]*\Z"
+)
+_OPENING = re.compile(r"\s*(?:\\left\s*)?(\\?\{|\[|\()\s*")
+_CLOSING = re.compile(r"\s*(?:\\right\s*)?(\\?\}|\]|\))\s*\Z")
+_RAISED = "¹²³⁴⁵⁶"
+
+
+_JACOBIAN = (
+    r"(?:\\(?:left|big|Big))?\(?\s*\{?\\?(?:mathbf|bm|boldsymbol)?\{?J\}?\s*(?:_\{?[a-z]+\}?)?(?:\([^()]*\))?"
+)
+_TURNED_OVER = r"\s*\^\s*\{?\s*(?:T|\\top|\\intercal|\\mathrm\{T\}|\\mathsf\{T\})\s*\}?"
+_NULL = r"\s*\\?(?:mathcal|mathrm|operatorname|text)?\s*\{?\s*(?:N|[Kk]er(?:nel)?|[Nn]ull(?:space)?)\s*\}?\s*"
+_RANGE = r"\s*\\?(?:mathcal|mathrm|operatorname|text)?\s*\{?\s*(?:R|[Rr]ange|[Ii]m(?:age)?)\s*\}?\s*"
+_SPACES = {
+    "lost": re.compile(rf"{_NULL}{_JACOBIAN}{_TURNED_OVER}.*|\s*\\?(?:text|mathrm)?\{{?\s*lost\b.*"),
+    "nullspace": re.compile(rf"{_NULL}(?:{_JACOBIAN}.*)?"),
+    "rangespace": re.compile(rf"{_RANGE}(?:{_JACOBIAN}.*)?"),
+}
+
+
+def space_named(text: str) -> str:
+    r"""The answer that a text is the name of; empty for any other.
+
+    >>> [space_named(text) for text in (r"\mathcal{N}(J_r)", r"\ker J^T", "R(J)", "N_1")]
+    ['nullspace', 'lost', 'rangespace', '']
+    """
+    return next((name for name, pattern in _SPACES.items() if pattern.fullmatch(text.strip())), "")
+
+
+def span_text(value: PlacedText, is_name: Callable[[str], bool]) -> PlacedText:
+    """The text of the vectors alone; `is_name` says whether a word has a meaning in the problem."""
+    text = value.text.strip().strip("$").strip()
+    if _NOTHING.fullmatch(text):
+        return placed([("0", value.origin(0))])
+    if (whole := _SPAN_TEXT_WHOLE.fullmatch(text)) is not None:
+        size = int(whole[1] or whole[3] or _RAISED.index(whole[2]) + 1)
+        rows = ", ".join(str([int(i == j) for j in range(size)]) for i in range(size))
+        return placed([(f"[{rows}]", value.origin(0))])
+    if (numbers := _FOR_ALL.search(value.text)) is not None:
+        value = value.part(0, numbers.start())
+    if (span := _SPAN.match(value.text)) is not None:
+        return _between(value, span.end())
+    factor = _FACTOR.match(value.text)
+    if (
+        factor is not None
+        and factor[1].lower() not in ("\\begin", "\\left")
+        and not is_name(factor[1].strip("\\"))
+    ):
+        return value.part(factor.end(), len(value.text))
+    return value
+
+
+def _between(value: PlacedText, start: int) -> PlacedText:
+    """What stands between the brackets behind `span`, as a list."""
+    rest = value.part(start, len(value.text))
+    opening, closing = _OPENING.match(rest.text), _CLOSING.search(rest.text)
+    if opening is None or closing is None or closing.start() < opening.end():
+        return rest
+    inner = rest.part(opening.end(), closing.start())
+    pieces = [(inner.text[a:b], inner.origin(a)) for a, b in _stretches(inner)]
+    return placed([("[", rest.origin(opening.start(1))), *pieces, ("]", rest.origin(closing.start(1)))])
+
+
+def _stretches(value: PlacedText) -> list[tuple[int, int]]:
+    ends = [*value.starts[1:], len(value.text)]
+    return [(a, b) for a, b in zip(value.starts, ends, strict=True) if a < b]

@@ -13,14 +13,13 @@ from itertools import islice
 from dynsolve.answers.reading.answer_list import Member
 from dynsolve.answers.reading.displays import OPENS, Display
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.left_side import read_left_side, spoken_of
-from dynsolve.answers.reading.right_side import RightSide, is_value, read_right_side
-from dynsolve.answers.reading.shapes import shown
+from dynsolve.answers.reading.left_side import RightSide, is_value, read_left_side, read_right_side, spoken_of
+from dynsolve.answers.reading.matrix_parts import shown
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.tokens.prepare import prepared
-from dynsolve.answers.submission import PICTURE, Answer, NotRecognized, Place
+from dynsolve.answers.verdict import PICTURE, Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
-from dynsolve.notation.walk import names_in
+from dynsolve.notation.tree import names_in
 
 NOT_READ = "it stands where no equation is read"
 

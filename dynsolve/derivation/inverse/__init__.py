@@ -5,18 +5,17 @@ fewer unknowns stand, as a textbook does: turned into the frame of a joint (Paul
 and added.  Where one holds a single unknown in a known form, that unknown is solved for, and
 counts as known from then on.
 
-    unknowns      the ring of the search: one angle a coordinate, the task's values as symbols
-    equations     an equation left = right, and the ways in which others come from it
-    terms         an expression as A cos ψ + B sin ψ + C in the unknowns
-    subproblems   the forms that are solved, each with its solutions and when there are any
-    solving       how a task is solved, as data: the steps, and the names that are given on the way
-    search        which unknown is solved for next, from which equations
-    chain         the arm as motions about its joint axes; points on several of them
+    equations     the ring of the search, one angle a coordinate, the task's values as symbols; an equation
+                  left = right, and the ways in which others come from it
+    subproblems   A cos ψ + B sin ψ + C in the unknowns: the forms that are solved, each with its solutions
+    solving       how a task is solved, as data: the steps, the sets of signs that solve it, and equations
+                  between the values of the task alone
+    search        which unknown is solved for next, from which equations, and under which conditions a
+                  branch
+                  solves a task with more components than joints move
     names         names for what becomes known: a wrist's centre, the entries of its rotation
-    pose          a full pose, part by part: from such points, and from the rotation that is left
-    branches      the sets of signs that solve the task, found by putting in
-    relations     equations between the values of the task alone, from those of a search
-    conditions    those under which a branch solves a task with more components than joints move
+    pose          a full pose, part by part: from points that some joints do not move, and the rotation that
+                  is left
     numeric       configurations that reach numbers, by Newton's method from many starts
 
 Spong, Hutchinson, Vidyasagar, section 3.3 (2006); Craig, chapter 4; Paul, Robot Manipulators (1981);

@@ -15,12 +15,9 @@ from fractions import Fraction
 from itertools import combinations
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant, minors, work
-from dynsolve.algebra.trig_factor import trig_factors, trig_quotient
-from dynsolve.derivation.singular.conditions import Condition
-from dynsolve.derivation.singular.core import core
-from dynsolve.derivation.singular.zeros import can_hold, follows
+from dynsolve.algebra.factors import trig_factors, trig_quotient
+from dynsolve.algebra.matrix import Matrix, determinant, minors, work
+from dynsolve.derivation.singular.zeros import Condition, can_hold, core, follows
 
 Direction = tuple[Expr, ...]
 """w, a component for each row of J."""

@@ -7,17 +7,12 @@ from dataclasses import dataclass, field
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import is_positive, squares, trig_factors
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import minors, parts, work
-from dynsolve.algebra.positivity import is_positive
-from dynsolve.algebra.trig_factor import squares, trig_factors
-from dynsolve.derivation.existence import conditions
-from dynsolve.derivation.parameter_signs import ParameterSigns
-from dynsolve.derivation.singular.conditions import Condition
-from dynsolve.derivation.singular.core import core
+from dynsolve.algebra.matrix import Matrix, minors, parts, work
+from dynsolve.derivation.elimination import ParameterSigns, conditions
 from dynsolve.derivation.singular.losses import Loss, loss
-from dynsolve.derivation.singular.zeros import can_hold, exceptions, follows, obstacles
+from dynsolve.derivation.singular.zeros import Condition, can_hold, core, exceptions, follows, obstacles
 
 Alternative = tuple[Condition, ...]
 """Conditions that hold together."""

@@ -3,20 +3,35 @@
 Each parameter is a number of a fixed seed here: what is found holds for general values of them.
 Equations without a solution, not even in complex numbers, have a Gröbner basis with a number in it.
 An expression f is 0 wherever others are, if these and t f = 1 have no solution (Rabinowitsch).
+
+An equation f(q) = 0 that is a factor of something, and what expressions become where it holds.
+
+What decides about the rank of a matrix: what is left of it when everything simple is taken away.
+
+Rows may be turned among each other by an angle, and multiples of rows and columns added to others: the
+rank stays what it is, everywhere.  A Jacobian so gets the axes of the frame in which it is shortest.
+Where an entry is a number or a length, its row and its column can be cleared and left out: the rank of
+the matrix is 1 more than that of the rest.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import permutations
 from math import lcm
 from random import Random
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.factors import is_positive, trig_quotient
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
+
+# Whether equations can hold together, and what follows from them, by Buchberger's algorithm
 
 LIMITS = (40, 150, 400)
 """Of a basis: its polynomials, the terms of one, and the binary digits of its coefficients."""
@@ -150,3 +165,225 @@ def _drawn(ring: Ring) -> Iterator[tuple[int, fmpq]]:
             t = fmpq(draw.randint(2, 49), 50)
             yield pair.sine, 2 * t / (1 + t * t)
             yield pair.cosine, (1 - t * t) / (1 + t * t)
+
+
+# An equation f(q) = 0 that is a factor of something, and what expressions become where it holds
+
+
+@dataclass(frozen=True)
+class Condition:
+    """f = 0, with f irreducible in a ring of one angle a coordinate."""
+
+    expr: Expr
+
+    def reduced(self, other: Expr) -> Expr:
+        """Another expression where this holds, up to a factor that is never 0.
+
+        An angle's sine, cosine or both are put in, a length that stands linearly is replaced;
+        of any other condition it is only seen whether the expression has it as a factor.
+        """
+        (value,) = self.reduced_together((other,))
+        return value
+
+    def reduced_together(self, others: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Several expressions where this holds, up to a positive factor that all of them share."""
+        for pair, sine, cosine in self._turn:
+            return tuple(_at_angle(other, pair, sine, cosine) for other in others)
+        for index, factor, rest in self._length:
+            highest = max(
+                (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
+            )
+            even = highest + highest % 2
+            return tuple(_at_length(other, index, factor, rest, even) for other in others)
+        return tuple(other.ring.zero if self._divides(other) else self._remainder(other) for other in others)
+
+    def multiplier(self, others: Sequence[Expr]) -> Expr:
+        """What `reduced_together` multiplies by: the factor of a length that stands in one of the others."""
+        for index, factor, _ in self._length:
+            if any(other.poly.degrees()[index] > 0 for other in others if not other.is_zero):
+                return factor
+        return self.expr.ring.one
+
+    def _remainder(self, other: Expr) -> Expr:
+        """Another expression less a multiple of this one, where that is shorter."""
+        rest = Expr(other.ring, other.ring.reduce(divmod(other.poly, self.expr.poly)[1]))
+        return rest if len(rest) < len(other) else other
+
+    def _divides(self, other: Expr) -> bool:
+        return trig_quotient(other, self.expr) is not None
+
+    @property
+    def fixes_coordinate(self) -> bool:
+        """Whether an angle has few values, or a length one, where this holds."""
+        return bool(self._turn or self._length)
+
+    @property
+    def fixes_length(self) -> bool:
+        """Whether it is a length that has few values."""
+        return bool(self._length)
+
+    @property
+    def keeps_values(self) -> bool:
+        """Whether expressions that are reduced keep their values, and get no factor."""
+        return not self._length or self._length[0][1] == self.expr.ring.one
+
+    @cached_property
+    def _turn(self) -> list[tuple[Pair, int | None, int | None]]:
+        """(pair, sine, cosine) where the condition fixes an angle up to a sign; None is ±1."""
+        ring = self.expr.ring
+        for pair in ring.pairs:
+            s, c = ring.generator(pair.sine), ring.generator(pair.cosine)
+            known = ((s, 0, None), (c, None, 0), (c - ring.one, 0, 1), (c + ring.one, 0, -1),
+                     (s - ring.one, 1, 0), (s + ring.one, -1, 0))  # fmt: skip
+            for form, sine, cosine in known:
+                if self.expr == form or self.expr == -form:
+                    return [(pair, sine, cosine)]
+        return []
+
+    @cached_property
+    def _length(self) -> list[tuple[int, Expr, Expr]]:
+        """(generator d, m, n) where the condition is m d + n = 0 with m free of coordinates."""
+        ring = self.expr.ring
+        for name, kind in ring.coordinates:
+            if kind != "prismatic":
+                continue
+            index = ring.symbol_indices[(name, 0)]
+            factor = ring.coefficient(self.expr, name)
+            if not factor.is_zero and not ring.depends_on_coordinates(factor):
+                return [(index, factor, self.expr - factor * ring.generator(index))]
+        return []
+
+
+def _at_angle(expr: Expr, pair: Pair, sine: int | None, cosine: int | None) -> Expr:
+    """An expression where sin and cos of an angle have these values; where one is 0 the other is ±1."""
+    ring = expr.ring
+    terms: dict[tuple[int, ...], Any] = {}
+    for exponents, factor in expr.poly.to_dict().items():
+        powers = list(exponents)
+        for place, value in ((pair.sine, sine), (pair.cosine, cosine)):
+            power = int(powers[place])
+            if value is None:
+                powers[place] = power % 2
+            else:
+                factor = factor * value**power
+                powers[place] = 0
+        if factor:
+            key = tuple(powers)
+            terms[key] = terms.get(key, 0) + factor
+    return Expr(ring, ring.ctx.from_dict({key: value for key, value in terms.items() if value}))
+
+
+def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr, highest: int) -> Expr:
+    """Σ aₖ dᵏ with d = -n/m, times m to the highest power t: Σ aₖ (-n)ᵏ mᵗ⁻ᵏ."""
+    ring = expr.ring
+    by_power: dict[int, dict[tuple[int, ...], Any]] = {}
+    for exponents, value in expr.poly.to_dict().items():
+        key = (*exponents[:index], 0, *exponents[index + 1 :])
+        by_power.setdefault(int(exponents[index]), {})[key] = value
+    total = ring.zero
+    for power, terms in by_power.items():
+        total += Expr(ring, ring.ctx.from_dict(terms)) * (-rest) ** power * factor ** (highest - power)
+    return total
+
+
+# What decides about the rank of a matrix
+
+Rows = tuple[tuple[Expr, ...], ...]
+
+
+def core(matrix: Matrix) -> tuple[int, Matrix]:
+    """(k, rest): everywhere the rank of the matrix is k more than that of the rest."""
+    rows, pivots = _without_zeros(matrix.rows), 0
+    while rows:
+        if (place := _pivot(rows)) is not None:
+            rows, pivots = _without_zeros(_cleared(rows, *place)), pivots + 1
+        elif (shorter := _shorter(matrix, rows)) is not None:
+            rows = shorter
+        else:
+            break
+    return pivots, Matrix(matrix.ring, rows)
+
+
+def _without_zeros(rows: Rows) -> Rows:
+    """Without the rows and columns that are 0."""
+    kept = [row for row in rows if not all(entry.is_zero for entry in row)]
+    return _turned_over(column for column in zip(*kept, strict=True) if not all(e.is_zero for e in column))
+
+
+def _turned_over(lines: Iterator[tuple[Expr, ...]] | Rows) -> Rows:
+    return tuple(zip(*lines, strict=True))
+
+
+def _pivot(rows: Rows) -> tuple[int, int] | None:
+    """The place of an entry that is never 0: a number first, and where least is to be cleared."""
+    places = [
+        (not entry.is_number, _size((row,)) * _size((tuple(other[j] for other in rows),)), i, j)
+        for i, row in enumerate(rows)
+        for j, entry in enumerate(row)
+        if _is_never_zero(entry)
+    ]
+    return min(places)[2:] if places else None
+
+
+def _is_never_zero(entry: Expr) -> bool:
+    ring = entry.ring
+    return len(entry) == 1 and not ring.depends_on_coordinates(entry) and (
+        is_positive(entry) or is_positive(-entry)
+    )  # fmt: skip
+
+
+def _cleared(rows: Rows, i: int, j: int) -> Rows:
+    """The rows without row i and column j, from which multiples of row i were taken so that column j is 0."""
+    pivot = rows[i][j]
+
+    def entry(row: tuple[Expr, ...], k: int) -> Expr:
+        if row[j].is_zero:
+            return row[k]
+        across = row[j] * rows[i][k]
+        return row[k] - across / pivot.number if pivot.is_number else row[k] * pivot - across
+
+    columns = [k for k in range(len(rows[i])) if k != j]
+    return tuple(tuple(entry(row, k) for k in columns) for row in (*rows[:i], *rows[i + 1 :]))
+
+
+def _shorter(matrix: Matrix, rows: Rows) -> Rows | None:
+    """The shortest that two rows turned, or a row or column added to another, make of the matrix, or None."""
+    columns = _turned_over(rows)
+    found = [(_size(new) - _size(rows), k, new) for k, new in enumerate(_with_turns(matrix, rows))]
+    for lines, back in ((rows, tuple), (columns, _turned_over)):
+        found += [
+            (_size(new) - _size(rows), len(found) + k, back(new)) for k, new in enumerate(_with_sums(lines))
+        ]
+    gain, _, best = min(found, key=lambda one: one[:2], default=(0, 0, rows))
+    return best if gain < 0 else None
+
+
+def _with_turns(matrix: Matrix, rows: Rows) -> Iterator[Rows]:
+    ring = matrix.ring
+    for pair in ring.pairs:
+        s, c = ring.generator(pair.sine), ring.generator(pair.cosine)
+        for i, j in permutations(range(len(rows)), 2):
+            mine, other = rows[i], rows[j]
+            turned = tuple(c * a + s * b for a, b in zip(mine, other, strict=True))
+            across = tuple(c * b - s * a for a, b in zip(mine, other, strict=True))
+            yield _replaced(rows, {i: turned, j: across})
+
+
+def _with_sums(lines: Rows) -> Iterator[Rows]:
+    """Less a multiple of another line, by which a term of an entry is gone."""
+    for i, j in permutations(range(len(lines)), 2):
+        ring = lines[i][0].ring
+        pairs = [both for both in zip(lines[i], lines[j], strict=True) if not any(e.is_zero for e in both)]
+        for times in dict.fromkeys(Expr(ring, divmod(a.poly, b.poly)[0]) for a, b in pairs):
+            if not times.is_zero:
+                yield _replaced(
+                    lines, {i: tuple(a - times * b for a, b in zip(lines[i], lines[j], strict=True))}
+                )
+
+
+def _replaced(lines: Rows, new: dict[int, tuple[Expr, ...]]) -> Rows:
+    return tuple(new.get(k, line) for k, line in enumerate(lines))
+
+
+def _size(lines: Rows) -> int:
+    return sum(len(entry) for line in lines for entry in line)

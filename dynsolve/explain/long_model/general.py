@@ -42,9 +42,9 @@ from dynsolve.notation.tree import (
     Symbol,
     Transpose,
     equation,
+    mapped,
     number,
 )
-from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Joint, JointType

@@ -9,8 +9,7 @@ from itertools import chain
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.expr import Expr
-from dynsolve.derivation.jacobian import joint_frame, linear_jacobian
-from dynsolve.derivation.kinematics import dh_matrix, origin, rotation
+from dynsolve.derivation.kinematics import dh_matrix, joint_frame, linear_jacobian, origin, rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

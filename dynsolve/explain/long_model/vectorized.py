@@ -8,8 +8,7 @@ from itertools import chain, pairwise
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
-from dynsolve.derivation.jacobian import joint_frame
-from dynsolve.derivation.kinematics import axis
+from dynsolve.derivation.kinematics import axis, joint_frame
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import as_shown
@@ -42,8 +41,10 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     equation,
+    names_in,
+    walk,
+    with_children,
 )
-from dynsolve.notation.walk import names_in, walk, with_children
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, JointType
 

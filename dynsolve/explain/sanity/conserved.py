@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from dynsolve.algebra import minors
+from dynsolve.algebra import matrix
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
@@ -279,4 +279,4 @@ def _by_sine(form: Node) -> Node:
 
 def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
     """The determinant of a square matrix, by its rows."""
-    return minors.determinant(Matrix.of(rows[0][0].ring, rows))
+    return matrix.determinant(Matrix.of(rows[0][0].ring, rows))

@@ -17,10 +17,8 @@ from itertools import combinations, product
 from flint import fmpq_mpoly
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.compact.monomials import Monomial
-from dynsolve.algebra.compact.terms import Rational
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.compact.terms import Monomial, Rational
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.inequality import Bound
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say

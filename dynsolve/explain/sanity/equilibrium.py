@@ -15,11 +15,9 @@ from math import lcm
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.angles import angle_node
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.matrix import cross
-from dynsolve.derivation.jacobian import joint_frame
-from dynsolve.derivation.kinematics import axis, origin
+from dynsolve.derivation.kinematics import axis, joint_frame, origin
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

@@ -12,7 +12,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import linear_name

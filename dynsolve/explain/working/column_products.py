@@ -53,8 +53,8 @@ from dynsolve.notation.tree import (
     Row,
     Sum,
     equation,
+    walk,
 )
-from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
 

@@ -55,8 +55,8 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     equation,
+    walk,
 )
-from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate
 

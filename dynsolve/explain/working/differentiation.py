@@ -26,8 +26,9 @@ from dynsolve.notation.tree import (
     Quotient,
     Sum,
     Symbol,
+    mapped,
+    walk,
 )
-from dynsolve.notation.walk import mapped, walk
 
 Rule = Callable[[Symbol], Node]
 """The derivative of every symbol: ZERO for what is held fixed."""

@@ -17,8 +17,7 @@ from math import prod
 from flint import fmpq_mpoly
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
@@ -44,9 +43,10 @@ from dynsolve.notation.tree import (
     Sum,
     Transpose,
     equation,
+    mapped,
+    walk,
 )
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import mapped, walk
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ def by(operation: str | Prose, used: Iterable[Identity], cancelled: Prose = ()) 
 def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | None:
     """The identities that are used on the way from one tree to an equal one; None if they are not equal.
 
-    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.unicode import to_unicode
     >>> from dynsolve.notation.tree import Symbol
     >>> q1, q2 = Symbol("q1"), Symbol("q2")

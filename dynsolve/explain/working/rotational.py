@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 
-from dynsolve.algebra.compact.matrix_factor import matrix_factor
+from dynsolve.algebra.compact.collect import matrix_factor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose

@@ -20,8 +20,7 @@ from typing import Any, NamedTuple
 from flint import fmpq_mpoly
 
 from dynsolve.algebra.angles import angle_node
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator, Pair
+from dynsolve.algebra.expr import Expr, Generator, Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
@@ -58,8 +57,8 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     Transpose,
+    walk,
 )
-from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Robot
 

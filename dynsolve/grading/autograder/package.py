@@ -16,9 +16,9 @@ from pathlib import Path
 
 import dynsolve
 from dynsolve.errors import UsageError
-from dynsolve.grading.extensions import FILE as EXTENSIONS
-from dynsolve.grading.platforms.archives import zipped
+from dynsolve.grading.platforms.moodle import zipped
 from dynsolve.grading.set_file import SET_FILE, load_set
+from dynsolve.grading.uploads import FILE as EXTENSIONS
 from dynsolve.render.files import write_whole
 
 COURSE, PROGRAM = "course", "program"

@@ -1,13 +1,9 @@
 """The learning platforms: one file each for what it hands out and what it imports.
 
-    owner, owners   whose file it is, asking the platforms in turn
-    members         who the members of a group are
+    members         whose file it is, asking the platforms in turn; who the members of a group are
     roster          the table of students that a platform exports
-    archives        zips that a platform takes back
     registry        the platforms by name
-    canvas, canvas_names, canvas_comments
-    moodle, moodle_feedback
-    gradescope
+    canvas, moodle, gradescope
 
 To add a platform, write a file like `canvas` with
 

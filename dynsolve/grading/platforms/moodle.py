@@ -3,22 +3,106 @@
 Moodle finds a column by its header in the site's language, so the worksheet is given
 back as it came, with Grade and Feedback comments filled in.  Headers are known in some
 languages; in others the columns are found by what stands in them.
+
+The zip of feedback files for Moodle: a folder a participant, or a group, named as its downloads are.
+
+Moodle finds whose a folder is by the number in its name; that of a group reaches all its members
+(`importziplib.php` of its feedback files), so that they must read the same.
+
+Zips that a platform takes back: the same files give the same bytes.
 """
 
 from __future__ import annotations
 
+import io
 import re
-from collections.abc import Iterator
+import zipfile
+from collections.abc import Collection, Iterable, Iterator
 from fractions import Fraction
 from pathlib import Path
+from typing import IO
 
 from dynsolve.grading.cohort import Standing, most, standings
-from dynsolve.grading.files import decimal
-from dynsolve.grading.platforms.moodle_feedback import write_feedback
-from dynsolve.grading.platforms.owner import FileOwner, Person
+from dynsolve.grading.files import decimal, folder_name
+from dynsolve.grading.platforms.gradescope import FileOwner, Person
 from dynsolve.grading.platforms.roster import MOST_NAMED, Roster, not_judged, number, unmatched
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
+from dynsolve.render.files import changed
+
+# Zips that a platform takes back: the same files give the same bytes
+
+Files = Iterable[tuple[str, bytes]]
+"""Files by their names within the zip."""
+
+
+def write_archive(path: Path, files: Files) -> None:
+    """Write a zip of files, one of which is in memory at a time."""
+    with changed(path) as stream:
+        _write(stream, files)
+
+
+def zipped(files: Files, programs: Collection[str] = ()) -> bytes:
+    """The bytes of a zip of files, of which some are programs."""
+    stream = io.BytesIO()
+    _write(stream, files, programs)
+    return stream.getvalue()
+
+
+def _write(stream: IO[bytes], files: Files, programs: Collection[str] = ()) -> None:
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, content in files:
+            entry = zipfile.ZipInfo(name)  # dated 1980
+            entry.external_attr = (0o100755 if name in programs else 0o100644) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, content)
+
+
+# The zip of feedback files for Moodle
+
+_NUMBERED = re.compile(r".+_\d+", re.DOTALL)
+
+
+def write_feedback(folder: Path, record: Record) -> Iterator[str]:
+    """Write `moodle-feedback.zip`, giving warnings on who cannot get a page by it."""
+    groups = record.groups()
+    members: dict[str, list[str]] = {}
+    for student, id in record.students().items():
+        if student in groups:
+            members.setdefault(groups[student], []).append(student)
+        elif id:
+            members[student] = [student]
+    apart = [name for name, students in members.items() if _differ(folder, students)]
+    unknown = [name for name in members if not _NUMBERED.fullmatch(name)]
+    told = {
+        name: _pages(folder, members[name][0]) for name in sorted(members) if name not in (*apart, *unknown)
+    }
+    write_archive(folder / "moodle-feedback.zip", _entries(told))
+    for name in apart:
+        yield f"the pages of {name} are not the same for all its members, as Moodle has them: see feedback/"
+    for name in unknown:
+        yield f"the files of {name} have no number, by which Moodle would know whose their pages are"
+
+
+def _pages(folder: Path, student: str) -> list[Path]:
+    return sorted((folder / "feedback" / folder_name(student)).glob("*.html"))
+
+
+def _differ(folder: Path, students: list[str]) -> bool:
+    """Whether the pages of a group's members are not the same."""
+    first, *others = ({p.name: p.read_bytes() for p in _pages(folder, student)} for student in students)
+    return any(other != first for other in others)
+
+
+def _entries(told: dict[str, list[Path]]) -> Iterator[tuple[str, bytes]]:
+    for whose, pages in told.items():
+        safe = re.sub(r"[/\\:*?\"<>|]", "_", whose)
+        for page in pages:
+            name = "feedback.html" if len(pages) == 1 else page.name
+            yield f"{safe}_assignfeedback_file/{name}", page.read_bytes()
+
+
+# Moodle
 
 _NAMED = re.compile(r"(?P<who>.+?)(?:_(?P<id>\d+))?_assignsubmission_[a-z]+_?(?P<name>.*)", re.DOTALL)
 

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.platforms import canvas, gradescope, moodle
-from dynsolve.grading.platforms.owner import Person
+from dynsolve.grading.platforms.gradescope import Person
 from dynsolve.grading.platforms.roster import Roster, from_text, read_roster, to_text
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
 
 
 @dataclass(frozen=True, slots=True)

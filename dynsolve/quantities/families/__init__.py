@@ -2,11 +2,9 @@
 
 By the sections of the textbook:
 
-    kinematics      A and H, and the Jacobian of the end of the arm
-    bodies          mass centres, velocities, inertia
-    energies        P and K of bodies and of the robot, L
-    lagrange        the derivatives of L, the generalized forces
-    vectorized      D, the Christoffel symbols, C, g
+    bodies          A and H, the Jacobian of the end of the arm; mass centres, velocities, inertia
+    lagrange        P, K and L; the derivatives of L, the generalized forces; D, the Christoffel symbols, C,
+                    g
 
 What acts beside gravity, and what only some exercises ask, is in the files `*_families` of
 `dynsolve.quantities`.  To add a quantity:
@@ -20,21 +18,45 @@ Reading, judging, marks, numbers, JSON and NumPy take what they must know from t
 
 from __future__ import annotations
 
-from dynsolve.quantities import (
-    action_families,
-    constraint_families,
-    definite_families,
-    kinematic_families,
-    model_families,
-    recursion_families,
-    static_families,
+from dynsolve.quantities import action_families, kinematic_families, model_families
+from dynsolve.quantities.families import bodies, lagrange
+from dynsolve.quantities.families.bodies import (
+    DH,
+    H0,
+    I_BODY,
+    JV,
+    JV_BODY,
+    JW,
+    JW_BODY,
+    RC,
+    A,
+    H,
+    I,
+    J,
+    R,
+    V,
+    W,
 )
-from dynsolve.quantities.families import bodies, energies, kinematics, lagrange, vectorized
-from dynsolve.quantities.families.bodies import I_BODY, JV_BODY, JW_BODY, RC, I, R, V, W
-from dynsolve.quantities.families.energies import K_BODY, KV, KW, P_BODY, K, L, P
-from dynsolve.quantities.families.kinematics import DH, H0, JV, JW, A, H, J
-from dynsolve.quantities.families.lagrange import DDT, DLDQ, DLDQD, FORCE, TAU
-from dynsolve.quantities.families.vectorized import C_SYMBOL, CHRISTOFFEL, CQD, C, D, G
+from dynsolve.quantities.families.lagrange import (
+    C_SYMBOL,
+    CHRISTOFFEL,
+    CQD,
+    DDT,
+    DLDQ,
+    DLDQD,
+    FORCE,
+    K_BODY,
+    KV,
+    KW,
+    P_BODY,
+    TAU,
+    C,
+    D,
+    G,
+    K,
+    L,
+    P,
+)
 from dynsolve.quantities.family import Family
 
 __all__ = [
@@ -47,24 +69,24 @@ __all__ = [
 ]  # fmt: skip
 
 FAMILIES: tuple[Family, ...] = (
-    *kinematics.FAMILIES,
+    *bodies.KINEMATICS_FAMILIES,
     *kinematic_families.FAMILIES,
     *bodies.FAMILIES,
-    *energies.OF_BODIES,
+    *lagrange.OF_BODIES,
     *action_families.OF_ENERGY,
-    *energies.OF_ROBOT,
+    *lagrange.OF_ROBOT,
     *action_families.OF_TORQUE,
     *lagrange.FAMILIES,
-    *vectorized.FAMILIES,
+    *lagrange.VECTORIZED_FAMILIES,
     *action_families.OF_THE_MODEL,
-    *recursion_families.FAMILIES,
+    *action_families.FAMILIES,
     *model_families.FAMILIES,
-    *static_families.FAMILIES,
-    *constraint_families.FAMILIES,
-    *definite_families.FAMILIES,
+    *action_families.STATIC_FAMILIES,
+    *action_families.CONSTRAINT_FAMILIES,
+    *action_families.DEFINITE_FAMILIES,
 )
 
 HOLD_FORCES = frozenset(
-    {constraint_families.LAMBDA.name, constraint_families.REDUCED.name, model_families.QDD_FORWARD.name}
+    {action_families.LAMBDA.name, action_families.REDUCED.name, model_families.QDD_FORWARD.name}
 )
 """The names of the results that hold the generalized forces by their names."""

@@ -1,14 +1,22 @@
-"""The families of the Euler-Lagrange equations: the derivatives of L, and the generalized forces."""
+"""The families of the Euler-Lagrange equations: the derivatives of L, and the generalized forces.
+
+The families of the energies: those of the bodies, what they add up to, and the Lagrangian.
+
+The families of the vectorized form: D, the Christoffel symbols, C, g, and their entries.
+"""
 
 from __future__ import annotations
 
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Node, Product, Symbol
 from dynsolve.quantities import letters
-from dynsolve.quantities.family import Family, Owner, of_coordinate, of_robot
-from dynsolve.quantities.spelling import each
+from dynsolve.quantities.families.bodies import ANGULAR, LINEAR
+from dynsolve.quantities.family import Family, Owner, of_body, of_coordinate, of_robot
+from dynsolve.quantities.letters import each
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
-from dynsolve.robot.units import ENERGY, MOMENTUM
+from dynsolve.robot.units import ENERGY, INERTIA, MOMENTUM
+
+# The families of the Euler-Lagrange equations
 
 
 def _momentum(q: Coordinate) -> Node:
@@ -82,4 +90,228 @@ TAU = Family(
 )
 
 FAMILIES: tuple[Family, ...] = (DLDQD, DDT, DLDQ, FORCE, TAU)
+"""The records above, in their order."""
+
+
+# The families of the energies: those of the bodies, what they add up to, and the Lagrangian
+
+_KINETIC = "K Ek T E"
+"""What stands before the name of a velocity in that of the energy that belongs to it."""
+
+_POTENTIAL, _IN_ALL = "E W U V P", "tot total ges gesamt"
+
+P_BODY = Family(
+    name="P{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=of_body(lambda body: letters.of_body("P", body)),
+    json="P",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(*each("U Ep PE V Wp", "{b}"), *each(_POTENTIAL, "pot", "{b}"), *each("E W", "{b}", "pot p")),
+    part_of="P",
+)
+
+KV = Family(
+    name="Kv{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=of_body(lambda body: letters.energy_part("v", body)),
+    json="Kv",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(*each(_KINETIC, LINEAR), *each("K T E", "{b}", "v"), *each("Klin Ktrans Kt KT KL Kl", "{b}")),
+    part_of="K{b}",
+)
+
+KW = Family(
+    name="Kw{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=of_body(lambda body: letters.energy_part("omega", body)),
+    json="Kw",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(*each(_KINETIC, ANGULAR), *each("K T E", "{b}", "omega w"), *each("Krot Kr KR", "{b}")),
+    part_of="K{b}",
+    needs_rotation=True,
+)
+
+K_BODY = Family(
+    name="K{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=of_body(lambda body: letters.of_body("K", body)),
+    json="K",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(*each("T Ek KE Wk", "{b}"), *each("E W T K", "kin", "{b}"), *each("E W", "{b}", "kin k")),
+    part_of="K",
+)
+
+P = Family(
+    name="P",
+    stage=Stage.ENERGY,
+    letter=of_robot(letters.P),
+    json="P",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(
+        *("U", "Ep", "PE", "V", "Wp", "EP", "Etp", "Epottot", "Epotges", "Wpotges"),
+        *each(_POTENTIAL, "pot potential potentiell potensiell"),
+        *each("P U V", _IN_ALL),
+    ),
+)
+
+K = Family(
+    name="K",
+    stage=Stage.ENERGY,
+    letter=of_robot(letters.K),
+    json="K",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(
+        *("T", "Ek", "KE", "Wk", "EK", "Ekintot", "Ekinges", "Wkinges"),
+        *each("E W K T", "kin kinetic kinetisch kinetisk"),
+        *each("K T", _IN_ALL),
+    ),
+)
+
+L = Family(
+    name="L",
+    stage=Stage.LAGRANGIAN,
+    letter=of_robot(letters.L),
+    json="L",
+    dimension=ENERGY,
+    unit="J",
+    spellings=("Lagrangian",),
+)
+
+OF_BODIES: tuple[Family, ...] = (P_BODY, KV, KW, K_BODY)
+OF_ROBOT: tuple[Family, ...] = (P, K, L)
+"""The records above; what springs and rotors add stands between them in the derivation."""
+
+
+# The families of the vectorized form: D, the Christoffel symbols, C, g, and their entries
+
+D = Family(
+    name="D",
+    stage=Stage.VECTORIZED,
+    shape=("n", "n"),
+    letter=of_robot(letters.D),
+    json="D",
+    dimension=INERTIA,
+    per=("row", "column"),
+    spellings=("M", "B", "Dq", "Mq"),
+    aliases=("M", "B"),
+)
+
+D_ENTRY = Family(
+    name="d{i}{j}",
+    rule="D",
+    owner=Owner.PAIR,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i, j: letters.entry("d", i, j),
+    spellings=each("D m M b B", "{i}{j}"),
+    aliases=each("D m M b B", "{i}{j}"),
+    part_of="D",
+    is_symmetric_entry=True,
+)
+
+CHRISTOFFEL = Family(name="christoffel", stage=Stage.VECTORIZED, is_answer=False)
+
+C_SYMBOL = Family(
+    name="c{i}{j}{k}",
+    rule="christoffel",
+    owner=Owner.TRIPLE,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i, j, k: letters.entry("c", i, j, k),
+    spellings=each("C Gamma", "{i}{j}{k}"),
+    aliases=("C{i}{j}{k}",),
+    part_of="christoffel",
+)
+
+C = Family(
+    name="C",
+    stage=Stage.VECTORIZED,
+    shape=("n", "n"),
+    letter=of_robot(letters.C),
+    json="C",
+    dimension=MOMENTUM,
+    per=("row", "column"),
+    dimension_is_told=False,
+    spellings=("S",),
+)
+
+C_ENTRY = Family(
+    name="C{i}{j}",
+    rule="C",
+    owner=Owner.PAIR,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i, j: letters.entry("c", i, j),
+    spellings=("c{i}{j}",),
+    aliases=("c{i}{j}",),
+    part_of="C",
+)
+
+G = Family(
+    name="g",
+    stage=Stage.VECTORIZED,
+    shape=("n", 1),
+    letter=of_robot(letters.G),
+    json="g",
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    spellings=("G", "phi", "gvec"),
+    aliases=("G",),
+)
+
+G_ENTRY = Family(
+    name="g{i}",
+    rule="g",
+    owner=Owner.COORDINATE,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i: letters.entry("g", i),
+    spellings=("G{i}", "phi{i}", "Phi{i}"),
+    aliases=("phi{i}", "G{i}"),
+    part_of="g",
+)
+
+CQD = Family(
+    name="Cqd",
+    stage=Stage.VECTORIZED,
+    shape=("n", 1),
+    letter=of_robot(Product((letters.C, letters.QD))),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    spellings=("c", "V", "Cqdot", "h", "C", "n", "N"),
+    aliases=("c", "V"),
+)
+
+# -- the same, assembled directly ------------------------------------------------------------------
+
+G_DIRECT = Family(
+    name="g_direct",
+    stage=Stage.VECTORIZED,
+    shape=("n", 1),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    is_answer=False,
+)
+
+D_DIRECT = Family(
+    name="D_direct",
+    stage=Stage.VECTORIZED,
+    shape=("n", "n"),
+    dimension=INERTIA,
+    per=("row", "column"),
+    is_answer=False,
+)
+
+VECTORIZED_FAMILIES: tuple[Family, ...] = (
+    D, D_ENTRY, CHRISTOFFEL, C_SYMBOL, C, C_ENTRY, G, G_ENTRY, CQD, G_DIRECT, D_DIRECT,
+)  # fmt: skip
 """The records above, in their order."""

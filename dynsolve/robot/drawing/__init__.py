@@ -5,11 +5,10 @@ axis, x along the common normal of two axes that follow each other, the hand las
 conventions fill their rows from the same normals, and differ in which of them shares a
 row with which joint.
 
-    drawn       what is drawn: joint axes and the hand in one pose, world coordinates
     angles      constant angles, found from exact cosines and sines
-    normals     the common normal of two lines: skew, intersecting, parallel, coincident
-    procedure   the normals along the arm, where free chosen as a textbook would
-    places      where a sliding axis that is drawn nowhere in particular is laid
+    normals     what is drawn, joint axes and the hand in one pose; the common normal of two lines; the
+                normals
+                along the arm, where free chosen as a textbook would
     rows        the rows of a table from the normals, and frame 0 in the world
 
 Everything is exact.  Letters are positive and independent of each other: what vanishes for

@@ -17,8 +17,8 @@ from random import Random
 
 from dynsolve.algebra.angles import Angle, Atom, names_of
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.errors import AlgebraError
 
 _SEED = 20_060_302

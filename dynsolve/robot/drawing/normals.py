@@ -10,6 +10,14 @@ second, a is its length and α the angle from z to z' about it (Spong et al. 3.2
 
 What is free is chosen so that fewer entries of the table differ from 0: of two directions
 the one nearer to the x before, of parallel normals the one through a given foot.
+
+The normals along an arm as it is drawn: the textbook's procedure.
+
+A normal leads from each axis to the next; one more stands before the first axis, where frame
+0 is, and one after the last leads to the hand.  Frame 0 is at the origin of the world with
+its x where the first axis allows it: where they can be the world's, they are.
+
+What a drawing of an arm shows: its joint axes and its hand in one pose.
 """
 
 from __future__ import annotations
@@ -19,6 +27,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
+from itertools import pairwise
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -27,7 +36,84 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Number
 from dynsolve.robot.drawing.angles import angle_between, direction_angles, sign
-from dynsolve.robot.drawing.drawn import Line, dot
+from dynsolve.robot.model import Convention, JointType
+
+# What a drawing of an arm shows: its joint axes and its hand in one pose
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A directed line in space: a point of it and its unit direction, both 3×1 in world coordinates."""
+
+    point: Matrix
+    direction: Matrix
+
+    def foot(self, point: Matrix) -> Matrix:
+        """The point of the line that is nearest to another, 3×1."""
+        return self.point + self.direction.scale(dot(self.direction, point - self.point))
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnAxis:
+    """A joint axis in the pose that is drawn.
+
+    `coordinate` names its joint variable.  The place of a sliding axis moves nothing; where
+    the drawing leaves it open, `is_placed` is False and the line any of them (`places`).
+    """
+
+    coordinate: str
+    type: JointType
+    line: Line
+    is_placed: bool = True
+
+    @property
+    def slides(self) -> bool:
+        """Whether the joint is prismatic."""
+        return self.type is JointType.PRISMATIC
+
+
+@dataclass(frozen=True, slots=True)
+class Hand:
+    """The hand in the pose that is drawn: where it is, and its axes z and x where they are given."""
+
+    at: Matrix
+    z: Matrix | None = None
+    x: Matrix | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """An arm as it is drawn; every vector is 3×1 over `ring`, in world coordinates.
+
+    The letter of a sliding joint is its value in that pose, where the drawing has it at
+    all; where it does not, the joint is at 0.  Turning joints are at 0 as drawn where
+    `zero_is_drawn`; otherwise the coordinates are the variables of the table.
+    """
+
+    ring: Ring
+    convention: Convention
+    axes: tuple[DrawnAxis, ...]
+    hand: Hand
+    zero_is_drawn: bool
+
+    def drawn_slide(self, axis: DrawnAxis) -> bool:
+        """Whether the axis slides, and the drawing has its letter."""
+        return axis.slides and self.ring.has_symbol(axis.coordinate)
+
+    @property
+    def vectors(self) -> Iterator[Matrix]:
+        """Every point and direction."""
+        for axis in self.axes:
+            yield from (axis.line.point, axis.line.direction)
+        yield from (vector for vector in (self.hand.at, self.hand.z, self.hand.x) if vector is not None)
+
+
+def dot(a: Matrix, b: Matrix) -> Expr:
+    """a · b of two 3×1 columns."""
+    return a.ring.dot(a.entries, b.entries)
+
+
+# The common normal of two lines: where x_i, a_i and α_i come from
 
 _HALF_TURN = Angle((), Fraction(180))
 
@@ -171,3 +257,88 @@ def _between(z: Matrix, other: Matrix) -> Angle:
             "name it: with an angle beta a direction is written [cos(beta), 0, sin(beta)]",
         )
     return angle
+
+
+# The normals along an arm as it is drawn: the textbook's procedure
+
+
+@dataclass(frozen=True, slots=True)
+class Normals:
+    """The normals of an arm: `all[0]` at frame 0, `all[i]` from axis i to i + 1, `all[-1]` to the hand.
+
+    `hand` is the line of the hand's z, the last axis's direction where none is given, and
+    `hand_x` the hand's x, or that of the last normal.
+    """
+
+    drawing: Drawing
+    all: tuple[Normal, ...]
+    hand: Line
+    hand_x: Matrix
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The joint axes, and the hand's z."""
+        return (*(axis.line for axis in self.drawing.axes), self.hand)
+
+
+def normals_of(drawing: Drawing) -> Normals:
+    """The normals of an arm all of whose axes have a place.
+
+    Raises NoAngle for an angle that is not found, NeedsMore for what the ring does not hold.
+    """
+    found = [_base(drawing.axes[0].line)]
+    for i, (axis, following) in enumerate(pairwise(drawing.axes), 1):
+        foot = _foot(drawing, axis, found[-1])
+        with naming_axis(i):
+            found.append(common_normal(axis.line, following.line, found[-1].x, foot))
+    last, hand = drawing.axes[-1], drawing.hand
+    if hand.z is None:
+        end = parallel_normal(last.line, hand.at, found[-1].x, Angle.zero())
+        line = Line(hand.at, last.line.direction)
+    else:
+        line = Line(hand.at, hand.z)
+        end = common_normal(last.line, line, found[-1].x if hand.x is None else hand.x, hand.at)
+    return Normals(drawing, (*found, end), line, end.x if hand.x is None else hand.x)
+
+
+def _foot(drawing: Drawing, axis: DrawnAxis, before: Normal) -> Matrix:
+    """Where a normal of parallel axes starts: d is 0 there, of a sliding joint its bare variable."""
+    if not drawing.drawn_slide(axis):
+        return before.end
+    return before.end + axis.line.direction.scale(drawing.ring.symbol(axis.coordinate))
+
+
+def _base(first: Line) -> Normal:
+    """Frame 0: its x and its origin, which lies on the first axis."""
+    ring = first.point.ring
+    origin = first.foot(Matrix.zero(ring, 3, 1))
+    return Normal(Relation.BASE, _base_x(first), origin, origin, ring.zero, Angle.zero())
+
+
+def _base_x(first: Line) -> Matrix:
+    """The first of the world's axes x, y, z that is perpendicular to the first joint axis."""
+    ring = first.point.ring
+    identity = Matrix.identity(ring, 3)
+    for k in range(3):
+        if dot(identity.column_at(k), first.direction).is_zero:
+            return identity.column_at(k)
+    # none is: across from the world's z, in the world's x-y plane
+    vector = cross(identity.column_at(2), first.direction)
+    x, _ = unit(vector, identity.column_at(0), identity.column_at(2))
+    return x
+
+
+def frames(normals: Normals, modified: bool) -> Iterator[tuple[Matrix, Matrix, Matrix]]:
+    """(origin, x, z) of frame 0, 1, ... in the pose that is drawn, each 3×1 in world coordinates.
+
+    Standard: z_i is the axis of joint i + 1, modified: of joint i; the hand's frame is the last.
+    """
+    lines = normals.lines
+    if modified:
+        first = normals.all[0]
+        yield first.end, first.x, lines[0].direction
+        for normal, line in zip(normals.all[1:], lines, strict=False):
+            yield normal.start, normal.x, line.direction
+    else:
+        for normal, line in zip(normals.all, lines, strict=True):
+            yield normal.end, normal.x, line.direction

@@ -6,20 +6,38 @@
 where z is the axis of joint i and z' that of joint i + 1.  A row of the standard table holds
 θ_i, d_i, a_i, α_i, one of the modified table α_{i-1}, a_{i-1}, θ_i, d_i (there both in its own
 order of motions).  Where one row cannot reach the hand, a fixed row follows.
+
+Where a sliding axis is laid that is drawn nowhere in particular.
+
+A prismatic joint has a direction and no place (Craig 3.4): its axis may be any line along
+it.  Of the lines through the axis before, through the axis after it or the hand, and
+through the origin of the world, those are taken with which fewest lengths of the table differ from 0.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import product
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.robot.drawing.angles import angle_of
-from dynsolve.robot.drawing.drawn import DrawnAxis, dot
-from dynsolve.robot.drawing.normals import NoAngle, naming_axis
-from dynsolve.robot.drawing.procedure import Normals
+from dynsolve.robot.drawing.normals import (
+    Drawing,
+    DrawnAxis,
+    Line,
+    NeedsMore,
+    NoAngle,
+    Normals,
+    dot,
+    naming_axis,
+    normals_of,
+)
 from dynsolve.robot.model import Convention
+
+# The rows of a Denavit-Hartenberg table from the normals of an arm
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,3 +122,46 @@ def _theta(x_before: Matrix, x: Matrix, z: Matrix, axis: DrawnAxis | None) -> An
             help = "write zero: table, and the coordinate is the angle of the table itself"
         raise NoAngle(f"θ at {where} is no number of degrees in the pose that is drawn", help)
     return angle
+
+
+# Where a sliding axis is laid that is drawn nowhere in particular
+
+_MOST_CHOICES = 81
+
+
+def placed(drawing: Drawing) -> Drawing:
+    """The drawing with every sliding axis in a place.
+
+    Raises what `normals_of` and `rows_of` raise.
+    """
+    if all(axis.is_placed for axis in drawing.axes):
+        return drawing
+    choices = [tuple(_choices(drawing, i)) for i in range(len(drawing.axes))]
+    every = (
+        replace(drawing, axes=axes) for axes, _ in zip(product(*choices), range(_MOST_CHOICES), strict=False)
+    )
+    return min(every, key=_offsets)
+
+
+def _choices(drawing: Drawing, i: int) -> Iterator[DrawnAxis]:
+    """The axis as it is, or in each of the places it may have."""
+    axis = drawing.axes[i]
+    if axis.is_placed:
+        yield axis
+        return
+    points = [other.line.point for other in drawing.axes[:i][::-1] if other.is_placed][:1]
+    points += [other.line.point for other in drawing.axes[i + 1 :] if other.is_placed][:1]
+    points += [drawing.hand.at, Matrix.zero(drawing.ring, 3, 1)]
+    for point in dict.fromkeys(points):
+        yield replace(axis, line=Line(point, axis.line.direction))
+
+
+def _offsets(drawing: Drawing) -> int:
+    """How many lengths of the table and of the base differ from 0; many where there is no table."""
+    try:
+        normals = normals_of(drawing)
+        lengths = [length for row in rows_of(normals) for length in (row.a, row.d)]
+    except (NoAngle, NeedsMore):
+        return 4 * len(drawing.axes)
+    lengths += normals.all[0].end.entries
+    return sum(not length.is_zero for length in lengths)

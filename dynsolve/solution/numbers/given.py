@@ -2,11 +2,15 @@
 
 `L1=0.4` on a command line, `L1: 0.4` in a problem file and `L1=0.4` in a call come
 here as text; what leaves is exact.
+
+Assignments, `L1=0.4`, as they are written on a command line or in a Python call, with their places.
+
+The unit of every result of a robot: N m, kg m², J, by its role and the type of its coordinates.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fractions import Fraction
@@ -16,16 +20,128 @@ from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, Finding, InputError, ReadError
 from dynsolve.explain.writing import and_joined
-from dynsolve.notation.names import normalize
+from dynsolve.notation.characters import normalize
 from dynsolve.notation.text import read
 from dynsolve.notation.tokens import tokens
 from dynsolve.notation.tree import Degrees, Negative, Node, Number, Product, number
 from dynsolve.problem import Problem
+from dynsolve.quantities.family import Family
+from dynsolve.quantities.index import quantities
 from dynsolve.robot import units
-from dynsolve.robot.model import JointType, Robot
-from dynsolve.solution.numbers import measures
-from dynsolve.solution.numbers.assignments import Assignment
+from dynsolve.robot.dimensions import Dimensions
+from dynsolve.robot.model import Coordinate, JointType, Robot
+from dynsolve.robot.units import Dimension
 from dynsolve.solution.numbers.substitution import Replacements
+
+# Assignments, `L1=0.4`, as they are written on a command line or in a Python call, with their places
+
+Plain = int | float | Fraction | str
+"""What a Python user may give as a value: a float stands for the decimal it is printed as."""
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """`name=value` as it was written, and where: `file` with the line and the columns of both parts."""
+
+    name: str
+    value: str
+    file: str = ""
+    excerpt: str = ""
+    line: int = 0
+    name_column: int = 0
+    value_column: int = 0
+
+    def at_name(self, message: str, help: str = "", offset: int = 0, length: int = 0) -> Finding:
+        """A finding at the name."""
+        column = self.name_column + offset if self.name_column else 0
+        return Finding(message, help, self.file, self.line, column, length or len(self.name), self.excerpt)
+
+    def at_value(self, message: str, help: str = "", offset: int = 0, length: int = 0) -> Finding:
+        """A finding at the value, or at a part of it."""
+        column = self.value_column + offset if self.value_column else 0
+        return Finding(message, help, self.file, self.line, column, length or len(self.value), self.excerpt)
+
+
+def of_option(option: str, texts: Iterable[str]) -> Iterator[Assignment]:
+    """The assignments of an option's values: `theta1=30deg,L2=0.2`.
+
+    Raises InputError for a part that is none.
+    """
+    for text in texts:
+        start = 0
+        for part in text.split(","):
+            name, equals, value = part.partition("=")
+            lead = start + len(part) - len(part.lstrip())
+            if not equals or not name.strip() or not value.strip():
+                if part.strip() or text.count(",") == 0:
+                    message = f"`{part.strip()}` is no assignment" if part.strip() else "nothing is assigned"
+                    finding = Finding(
+                        message, "write name=value: L1=0.4, theta1=30deg",
+                        option, 0, lead + 1, max(len(part.strip()), 1), text,
+                    )  # fmt: skip
+                    raise InputError([finding])
+            else:
+                at = start + len(name) + 1 + len(value) - len(value.lstrip())
+                yield Assignment(name.strip(), value.strip(), option, text, 0, lead + 1, at + 1)
+            start += len(part) + 1
+
+
+def of_call(values: Mapping[str, Plain]) -> Iterator[Assignment]:
+    """The assignments of a Python call."""
+    for name, value in values.items():
+        text = value if isinstance(value, str) else str(value)
+        yield Assignment(name, text.strip(), f"{name}={text.strip()}")
+
+
+# The unit of every result of a robot
+
+Units = Sequence[Sequence[str]]
+"""The unit of every entry, row by row; "" for a pure number."""
+
+
+def of_coordinate(q: Coordinate, dots: int = 0) -> str:
+    """rad or m, with each derivative per second."""
+    base = "rad" if q.type is JointType.REVOLUTE else "m"
+    return base + ("", "/s", "/s^2")[dots]
+
+
+def of_parameters(robot: Robot) -> dict[str, Dimension]:
+    """The dimension of every parameter, concluded from where it stands; unknown ones are left out."""
+    known = Dimensions(robot.ring, robot)
+    found = {
+        g.name: known.of_generator(g)
+        for g in robot.ring.generators
+        if g.kind == "symbol" and not g.dots and g.name in robot.parameters
+    }
+    return {name: dim for name, dim in found.items() if dim is not None}
+
+
+def of_result(robot: Robot, name: str) -> str | Units:
+    """The unit of a result by its name: of a scalar, or of each entry of a matrix.
+
+    Empty for pure numbers, and for what holds lengths beside them.
+    A torque is in N m, an energy in J, though both are kg m²/s².
+    """
+    known = quantities(robot)
+    quantity = known.result(name)
+    if quantity is None or quantity.family.dimension is None:
+        return ""
+    if quantity.shape is None:
+        return _unit(quantity.family, known.dimension(quantity))
+    rows, columns = quantity.shape
+    entries = [
+        [_unit(quantity.family, known.dimension(quantity, i, j)) for j in range(columns)] for i in range(rows)
+    ]
+    return entries if any(map(any, entries)) else ""
+
+
+def _unit(family: Family, found: Dimension | None) -> str:
+    if found is None:
+        return ""
+    return family.unit if family.unit and found == family.dimension else units.si(found)
+
+
+# Values that a user gives for parameters and states, read and checked, each fault at its place
 
 Key = tuple[str, int]
 """A name and its number of dots: ("theta1", 1) is a velocity."""
@@ -127,9 +243,7 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
         message = f"the state lacks {and_joined(lacking)}"
         reader.report(Finding(message, f"a state gives every coordinate: add {example}", option))
     whole = {
-        (q.name, dots): entries.get(
-            (q.name, dots), GivenValue(Number(0), "0", measures.of_coordinate(q, dots))
-        )
+        (q.name, dots): entries.get((q.name, dots), GivenValue(Number(0), "0", of_coordinate(q, dots)))
         for dots in (0, 1, 2)
         for q in robot.coordinates
     }
@@ -181,7 +295,7 @@ class _Reader:
         self.problem, self.robot = problem, problem.robot
         self.findings: list[Finding] = []
         self.warnings: list[Finding] = []
-        self.dimensions = measures.of_parameters(self.robot)
+        self.dimensions = of_parameters(self.robot)
         self.angles = _angle_names(self.robot)
 
     def report(self, finding: Finding) -> None:
@@ -293,7 +407,7 @@ class _Reader:
             return given
         for q in self.robot.coordinates:
             if q.name == name:
-                return measures.of_coordinate(q, dots) if dots or name not in self.angles else ""
+                return of_coordinate(q, dots) if dots or name not in self.angles else ""
         return units.si(self.dimensions[name]) if name in self.dimensions else ""
 
     def measured(self, key: Key, entry: GivenValue) -> GivenValue:

@@ -12,7 +12,7 @@ from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled, is_zero
-from dynsolve.algebra.fraction_matrix import FractionMatrix, tidy
+from dynsolve.algebra.linear_systems import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError, Finding
@@ -21,8 +21,13 @@ from dynsolve.notation import tree
 from dynsolve.notation.tree import Node
 from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers.given import Given
-from dynsolve.solution.numbers.rounding import DIGITS, has_constants, rounded, without_constants
-from dynsolve.solution.numbers.substitution import Substitution
+from dynsolve.solution.numbers.substitution import (
+    DIGITS,
+    Substitution,
+    has_constants,
+    rounded,
+    without_constants,
+)
 
 Exact = Expr | Matrix | FractionMatrix
 """What a result may be."""
@@ -150,7 +155,7 @@ class State(_NumericResults):
 
     def symbolic(self, name: str) -> Any:
         """A result as an exact SymPy object."""
-        from dynsolve.solution.symbolic import to_sympy
+        from dynsolve.solution.numeric import to_sympy
 
         return to_sympy(self(name))
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.contents import Contents, ContentsCollector
+from dynsolve.algebra.angles import Angle, Contents, ContentsCollector
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.text import read
 

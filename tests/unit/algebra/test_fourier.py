@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dynsolve.algebra.fourier import FourierForm, fourier_form, positive, terms_of
+from dynsolve.algebra.ring import FourierForm, fourier_form, positive, terms_of
 
 ANGLES = (0.7, -1.3)
 

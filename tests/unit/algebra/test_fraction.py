@@ -5,9 +5,8 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal, is_zero, simplified
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.notation.text import read
 
 RING = build_ring(

@@ -7,7 +7,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dynsolve.algebra.integer_basis import coordinates_in, integer_basis
+from dynsolve.algebra.angles import coordinates_in, integer_basis
 
 rates = st.sampled_from([Fraction(n, d) for n in range(-3, 4) for d in (1, 2, 3)])
 vectors = st.lists(st.tuples(rates, rates, rates), max_size=5)

@@ -6,9 +6,8 @@ from random import Random
 
 import pytest
 
-from dynsolve.algebra.build import build_ring
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant, minors
+from dynsolve.algebra.matrix import Matrix, determinant, minors
+from dynsolve.algebra.ring_values import build_ring
 from dynsolve.notation.tree import Symbol
 
 RING = build_ring([], [Symbol(name) for name in "abc"])

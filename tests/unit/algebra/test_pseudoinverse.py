@@ -5,14 +5,20 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, add, cancelled, equal, multiply
-from dynsolve.algebra.fraction_matrix import FractionMatrix, fraction_of
+from dynsolve.algebra.linear_systems import (
+    FractionMatrix,
+    fraction_of,
+    is_solvable,
+    nullspace,
+    pseudoinverse_times,
+    rangespace,
+    rank_parts,
+    same_span,
+)
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.pseudoinverse import is_solvable, pseudoinverse_times, rank_parts
-from dynsolve.algebra.ring_values import value_of
-from dynsolve.algebra.spans import nullspace, rangespace, same_span
+from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.notation.text import read
 
 Q1, BOTH = Angle.of("q1"), Angle.of("q1") + Angle.of("q2")

@@ -10,11 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Number, Power, Product, Quotient

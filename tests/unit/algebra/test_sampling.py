@@ -7,8 +7,8 @@ from math import pi
 
 import pytest
 
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import build_ring
 from dynsolve.algebra.sampling import ENOUGH, samples
 from dynsolve.notation.tree import Symbol
 

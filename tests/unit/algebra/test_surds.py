@@ -7,9 +7,7 @@ from math import atan2, isclose, pi
 
 import pytest
 
-from dynsolve.algebra.surd_angles import SurdAngle
-from dynsolve.algebra.surd_values import NoValue, Undetermined, exact_value
-from dynsolve.algebra.surds import NotExact, Surd
+from dynsolve.algebra.surds import NotExact, NoValue, Surd, SurdAngle, Undetermined, exact_value
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Arguments, Function, Node
 from dynsolve.notation.unicode import UnicodePrinter

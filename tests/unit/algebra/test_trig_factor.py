@@ -5,11 +5,10 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import leading, squares, trig_factors, trig_quotient
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_values import value_of
-from dynsolve.algebra.trig_factor import leading, squares, trig_factors, trig_quotient
+from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.notation.text import read
 
 COORDINATES = [("d1", "prismatic"), ("q2", "revolute"), ("q3", "revolute")]

@@ -11,8 +11,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.submission import Submission
-from dynsolve.answers.verdict import Report
+from dynsolve.answers.verdict import Report, Submission
 
 _FONT = r"(?:\\(?:mathbf|bm|boldsymbol|mathrm|mathit|mathcal|bar|vec)\s*\{?\s*)?"
 _INDEX = r"(?:_?\{?[1-9]{1,2}\}?|[₁-₉]{1,2})"

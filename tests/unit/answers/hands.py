@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.submission import Answer, Place, Submission
-from dynsolve.answers.verdict import JudgedAnswer, Report
+from dynsolve.answers.verdict import Answer, JudgedAnswer, Place, Report, Submission
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import derive
 from dynsolve.notation import tree

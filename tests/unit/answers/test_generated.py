@@ -9,12 +9,12 @@ import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.changed_rules import ChangedDerivation
-from dynsolve.answers.diagnosis.parts import parts
+from dynsolve.answers.diagnosis.mends import parts
+from dynsolve.answers.diagnosis.own_steps import ChangedDerivation
 from dynsolve.answers.judge import check
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.submission import Answer, Place, Submission
+from dynsolve.answers.verdict import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
 from tests.unit.answers.hands import key, problem
 

@@ -11,7 +11,7 @@ import pytest
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.report import to_json
-from dynsolve.grading.queue import for_a_human
+from dynsolve.grading.cohort import for_a_human
 from dynsolve.grading.record import RecordedAnswer
 from dynsolve.solution.solution import load
 

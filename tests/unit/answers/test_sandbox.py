@@ -6,17 +6,16 @@ import time
 
 import pytest
 
-from dynsolve.answers import sandbox
+from dynsolve.answers import judge
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.submission import Submission
-from dynsolve.answers.verdict import Report
+from dynsolve.answers.verdict import Report, Submission
 from tests.unit.answers.hands import answer, checker
 
 G2 = "m2*lc2*g*cos(q1 + q2)"
 
 
 def test_the_work_of_a_child_comes_back() -> None:
-    assert sandbox.limited(lambda: [1, "two"], 2) == [1, "two"]
+    assert judge.limited(lambda: [1, "two"], 2) == [1, "two"]
 
 
 def test_an_error_of_a_child_is_raised() -> None:
@@ -24,12 +23,12 @@ def test_an_error_of_a_child_is_raised() -> None:
         raise ValueError("of the child")
 
     with pytest.raises(ValueError, match="of the child"):
-        sandbox.limited(fail, 2)
+        judge.limited(fail, 2)
 
 
 def test_memory_has_a_limit() -> None:
-    with pytest.raises(sandbox.Stopped):
-        sandbox.limited(lambda: bytearray(3 << 30), 2)
+    with pytest.raises(judge.Stopped):
+        judge.limited(lambda: bytearray(3 << 30), 2)
 
 
 def test_time_has_a_limit() -> None:
@@ -38,8 +37,8 @@ def test_time_has_a_limit() -> None:
             pass
 
     start = time.process_time()
-    with pytest.raises(sandbox.Stopped):
-        sandbox.limited(spin, 1)
+    with pytest.raises(judge.Stopped):
+        judge.limited(spin, 1)
     assert time.process_time() - start < 1
 
 
@@ -55,14 +54,14 @@ def test_the_answer_that_goes_over_is_unreadable_and_the_others_are_judged(
 
     monkeypatch.setattr(Checker, "__call__", heavy)
     hand = Submission("", "", "", (answer("P1", "0", 0), answer("g2", G2, 1)))
-    report = sandbox.check_within(checker("planar-2r"), hand)
+    report = judge.check_within(checker("planar-2r"), hand)
     found = {a.name: a for a in report.answers}
-    assert (found["P1"].verdict, found["P1"].fault) == ("unreadable", sandbox.TOO_MUCH)
+    assert (found["P1"].verdict, found["P1"].fault) == ("unreadable", judge.TOO_MUCH)
     assert found["g2"].verdict == "correct"
 
 
 def test_a_report_comes_back_as_it_was_made() -> None:
     hand = Submission("", "", "", (answer("g2", "0", 0), answer("K", "m1*q1_dot", 1)))
-    report = sandbox.check_within(checker("planar-2r"), hand)
+    report = judge.check_within(checker("planar-2r"), hand)
     direct = checker("planar-2r")(hand)
     assert report == direct

@@ -9,8 +9,8 @@ import pytest
 
 import dynsolve
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
-from dynsolve.derivation.energy import velocities
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.derivation.link_frame import velocities
 from dynsolve.derivation.rules import derive
 from dynsolve.derivation.verification import verify
 from dynsolve.errors import VerificationError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import given, settings
 
-from dynsolve.derivation.agreement import agreement, given_axes_agree
+from dynsolve.derivation.euler_lagrange import agreement, given_axes_agree
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.problem import read_problem

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.derivation.balance_check import verify_balance
+from dynsolve.derivation.balance import verify_balance
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.explain.forms import Forms

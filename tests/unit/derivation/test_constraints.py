@@ -7,7 +7,7 @@ import unicodedata
 import pytest
 
 import dynsolve
-from dynsolve.derivation.constraint_check import verify_constraints
+from dynsolve.derivation.constraints import verify_constraints
 from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.notation.tree import Matrix, Negative
 from dynsolve.notation.unicode import to_unicode

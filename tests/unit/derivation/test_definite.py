@@ -8,11 +8,11 @@ import pytest
 
 import dynsolve
 from dynsolve.derivation.definite import Answer, Definiteness, Refusal
-from dynsolve.derivation.definite_check import verify_definite
+from dynsolve.derivation.model_check import verify_definite
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.problem import read_problem
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.support import ROOT, solve_json
 

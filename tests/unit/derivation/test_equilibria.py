@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 import dynsolve
+from dynsolve.derivation.equilibria import Stability
 from dynsolve.derivation.equilibrium_check import Case, verify_equilibria
 from dynsolve.derivation.rules import derive
-from dynsolve.derivation.stability import Stability
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inverse_formulas import ConfigurationForms

@@ -8,10 +8,9 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.derivation.forward_check import COMPARED, verify_forward
+from dynsolve.derivation.forward_dynamics import COMPARED, verify_forward
 from dynsolve.errors import VerificationError
-from dynsolve.notation.tree import Matrix, Negative
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Matrix, Negative, walk
 from dynsolve.quantities import letters
 from tests.support import numbers, solve_json
 

@@ -8,7 +8,7 @@ import pytest
 import sympy
 
 import dynsolve
-from dynsolve.derivation.linear_check import verify_linear
+from dynsolve.derivation.linearization import verify_linear
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms

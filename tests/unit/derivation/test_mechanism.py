@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import dynsolve
-from dynsolve.derivation.hyper_dual import HyperDual, cos, sin
+from dynsolve.derivation.mechanism_check import HyperDual, cos, sin
 from dynsolve.derivation.rules import derive
 from dynsolve.derivation.verification import verify
 from dynsolve.errors import VerificationError

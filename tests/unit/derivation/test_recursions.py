@@ -6,7 +6,7 @@ import pytest
 import sympy
 
 import dynsolve
-from dynsolve.derivation.recursion_check import recursion_names, verify_recursions
+from dynsolve.derivation.model_check import recursion_names, verify_recursions
 from dynsolve.errors import UsageError, VerificationError
 from dynsolve.notation.tree import Matrix, Negative
 from dynsolve.problem import read_problem

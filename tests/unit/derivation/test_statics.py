@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import dynsolve
+from dynsolve.derivation.rate_check import verify_statics
 from dynsolve.derivation.rules import derive
-from dynsolve.derivation.static_check import verify_statics
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Matrix, Negative

@@ -14,12 +14,10 @@ from dynsolve import document
 from dynsolve.document import Block, Document, Fold, Formula, Heading, Text
 from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.step import Detail
-from dynsolve.notation.tree import Node, Relation, Row
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Node, Relation, Row, walk
 from dynsolve.quantities.stages import COURSE
 from dynsolve.solution.depths import CHECKS
-from dynsolve.solution.documents import solution_document
-from dynsolve.solution.summary import TITLE
+from dynsolve.solution.documents import TITLE, solution_document
 from tests.support import solved
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from dynsolve.draw.labels import Label
-from dynsolve.draw.occupied import Box, Taken
+from dynsolve.draw.labels import Box, Label, Taken
 from dynsolve.draw.paths import WHITE, flattened, line
 from dynsolve.draw.scene import Scene, scene
 from dynsolve.notation.unicode import to_unicode

@@ -6,11 +6,10 @@ import pytest
 
 import dynsolve
 from dynsolve.document.figures import ArmFigure
-from dynsolve.draw.arm_figure import drawn_arm
-from dynsolve.draw.drawn_lengths import numbers
-from dynsolve.draw.held_pose import held_pose
+from dynsolve.draw.figure import drawn_arm
 from dynsolve.draw.orientation import orientation
-from dynsolve.draw.skeleton import skeleton
+from dynsolve.draw.pose_search import held_pose
+from dynsolve.draw.skeleton import numbers, skeleton
 from dynsolve.draw.vectors import dot, length, subtract
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Symbol

@@ -7,15 +7,13 @@ from dataclasses import replace
 
 import pytest
 
-from dynsolve.draw.bodies import DrawnBody, Form, drawn_bodies, sleeves
-from dynsolve.draw.body_solids import body_solids
-from dynsolve.draw.drawn_lengths import numbers
-from dynsolve.draw.mass_centers import with_masses
+from dynsolve.draw.mass_centers import DrawnBody, Form, drawn_bodies, sleeves, with_masses
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.primitives import BODY
-from dynsolve.draw.skeleton import skeleton
+from dynsolve.draw.skeleton import numbers, skeleton
+from dynsolve.draw.solids import body_solids
 from dynsolve.draw.vectors import dot
 from dynsolve.problem import load, read_problem
 from dynsolve.problem.model import Problem

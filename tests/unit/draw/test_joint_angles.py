@@ -7,14 +7,13 @@ from collections.abc import Iterator
 
 import pytest
 
-from dynsolve.draw.annotate import Notes, reach_of_axis
-from dynsolve.draw.drawn_lengths import numbers
 from dynsolve.draw.joint_angles import has_offsets, joint_angles, names_of_angles, parallels
-from dynsolve.draw.occupied import Taken
+from dynsolve.draw.labels import Taken
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import GREY, VARIABLE, flattened
-from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
+from dynsolve.draw.poses import Notes, Pose, reach_of_axis
+from dynsolve.draw.skeleton import numbers
 from dynsolve.draw.vectors import Point, Vector, cross, dot
 from dynsolve.notation.printing import Style
 from dynsolve.notation.unicode import to_unicode

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.draw.drawn_lengths import numbers
-from dynsolve.draw.last_links import last_links
 from dynsolve.draw.mass_centers import with_masses
+from dynsolve.draw.pose_search import last_links
 from dynsolve.draw.scene import OFF_LINKS
-from dynsolve.draw.skeleton import skeleton
+from dynsolve.draw.skeleton import numbers, skeleton
 from dynsolve.draw.vectors import Vector, distance
 from dynsolve.problem import read_problem
 from tests.unit.draw.pictures import drawn_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 from dynsolve.draw import paths
-from dynsolve.draw.occupied import CELL, Box, Taken
+from dynsolve.draw.labels import CELL, Box, Taken
 
 
 def test_the_cells_in_a_box_are_counted_as_lines_are_added() -> None:

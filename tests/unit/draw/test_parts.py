@@ -7,15 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.algebra.floats import evaluate
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.kinematics import base_transform, dh_matrix, frame
 from dynsolve.draw import PictureFormat, draw, picture
 from dynsolve.draw.convert import to_pdf, to_png
-from dynsolve.draw.drawn_lengths import numbers
-from dynsolve.draw.occupied import Box, Taken
-from dynsolve.draw.paths import circle, flattened
-from dynsolve.draw.skeleton import skeleton
-from dynsolve.draw.typography import typeset
+from dynsolve.draw.labels import Box, Taken
+from dynsolve.draw.paths import circle, flattened, typeset
+from dynsolve.draw.skeleton import numbers, skeleton
 from dynsolve.draw.vectors import IDENTITY, applied, distance, into, turned
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Degrees, Letter, Number, Quotient, Row, Sum, Symbol, Words

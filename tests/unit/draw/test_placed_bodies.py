@@ -10,12 +10,11 @@ from random import Random
 import pytest
 
 from dynsolve.draw import draw, is_drawn
-from dynsolve.draw.drawn_lengths import finite
 from dynsolve.draw.placed_bodies import BALLS, BOXES, DISKS, RODS, placed_scene
-from dynsolve.draw.placed_pose import placed_pose
+from dynsolve.draw.placed_pose import Kind, Piece, Place, placed_pose, ways
 from dynsolve.draw.placed_springs import DAMPERS, NOT_DRAWN, SPRINGS
+from dynsolve.draw.skeleton import finite
 from dynsolve.draw.vectors import NEAR, cross, distance, dot, scale
-from dynsolve.draw.ways import Kind, Piece, Place, ways
 from dynsolve.errors import UsageError
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import to_unicode

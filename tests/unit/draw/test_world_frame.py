@@ -6,15 +6,14 @@ import math
 
 import pytest
 
-from dynsolve.draw.annotate import Notes
-from dynsolve.draw.drawn_lengths import numbers
-from dynsolve.draw.occupied import Taken
+from dynsolve.draw.labels import Taken
+from dynsolve.draw.lengths import WORLD, has_world, moves, world_frame
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import BLACK, flattened
-from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
+from dynsolve.draw.poses import Notes, Pose
+from dynsolve.draw.skeleton import numbers
 from dynsolve.draw.vectors import ORIGIN, dot, subtract
-from dynsolve.draw.world_frame import WORLD, has_world, moves, world_frame
 from dynsolve.notation.printing import Style
 from dynsolve.problem import read_problem
 from tests.unit.draw.pictures import drawn_text, names, overlapping, struck_through

@@ -15,8 +15,7 @@ from dynsolve.derivation.newton_euler import Arm, inverse_dynamics
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.parameters import BaseParameters
-from dynsolve.notation.tree import Symbol
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Symbol, walk
 from dynsolve.robot.model import Robot
 from tests.support import ACTING, STEMS, solved
 

@@ -14,7 +14,7 @@ import pytest
 from dynsolve.document import Document, Text
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import BOOKS, CRAIG, GEOMETRY, GIVEN, LYNCH_PARK, SPONG, spong
-from dynsolve.render.references import formulas
+from dynsolve.render.line_breaking import formulas
 from dynsolve.solution.documents import solution_document
 from tests.support import STEMS, solved
 

@@ -9,10 +9,9 @@ import pytest
 from dynsolve.explain.abbreviations import InertiaNames
 from dynsolve.explain.named_steps import DERIVATIVES
 from dynsolve.explain.step import Detail, Step
-from dynsolve.notation.tree import Node, Relation
+from dynsolve.notation.tree import Node, Relation, walk
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
 from tests.unit.explain.test_abbreviated_steps import displayed

@@ -6,7 +6,7 @@ import pytest
 
 from dynsolve import solve
 from dynsolve.notation.tree import Number, Symbol
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.support import solve_json
 

@@ -12,7 +12,7 @@ import dynsolve
 from dynsolve.document.figures import Figure, LineKind
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import evaluate
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 
 ELBOW = (

@@ -6,7 +6,7 @@ from unicodedata import normalize
 
 import dynsolve
 from dynsolve.explain.step import Detail
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 
 CART = """

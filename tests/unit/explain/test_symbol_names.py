@@ -11,11 +11,10 @@ import pytest
 from dynsolve.document import Block, Table, Text
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.step import Detail, Step
-from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Symbol
+from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Symbol, walk, with_children
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk, with_children
-from dynsolve.render.references import unfolded
+from dynsolve.render.line_breaking import unfolded
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
 from tests.unit.explain.test_abbreviated_steps import displayed

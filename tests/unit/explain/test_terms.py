@@ -12,9 +12,7 @@ from dynsolve.explain.step import Detail
 from dynsolve.explain.terms import terms_of, value_of_term
 from dynsolve.notation.tree import equation
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.solution.documents import solution_document
-from dynsolve.solution.measured_steps import measured_steps
-from dynsolve.solution.summary import TITLE, in_model
+from dynsolve.solution.documents import TITLE, in_model, measured_steps, solution_document
 from tests.robots import robots
 from tests.support import STEMS, solved
 from tests.unit.explain.test_abbreviated_steps import displayed

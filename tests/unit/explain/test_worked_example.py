@@ -7,7 +7,7 @@ import pytest
 import dynsolve
 from dynsolve.explain.step import Detail
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.support import ROOT, solved
 from tests.unit.explain.told import everything_said

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from dynsolve.grading.hand_ins import Intake, take_in
-from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import Uploads
 
 ANSWER = "answers:\n  K: m1*g\n"

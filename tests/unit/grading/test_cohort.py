@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import dynsolve
-from dynsolve.grading.queue import queue
+from dynsolve.grading.cohort import queue
 from dynsolve.grading.record import Record
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 HALF_K2 = """answers:
   K1: I1zz*theta1'^2/2

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import ProblemError
-from dynsolve.grading.groups import Membership, read_groups
 from dynsolve.grading.platforms import canvas, gradescope, moodle
+from dynsolve.grading.platforms.gradescope import FileOwner, Person
 from dynsolve.grading.platforms.members import Groups
-from dynsolve.grading.platforms.owner import FileOwner, Person
 from dynsolve.grading.platforms.roster import Roster, read_roster
+from dynsolve.grading.set_file import Membership, read_groups
 
 WORKSHEET = """\
 Identifier,Full name,Email address,Status,Group,Grade,Maximum Grade,Last modified (grade),Feedback comments

@@ -8,12 +8,11 @@ from pathlib import Path, PurePosixPath
 import pytest
 
 from dynsolve.errors import ProblemError
-from dynsolve.grading.extensions import read_extensions
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.platforms.gradescope import read_metadata
-from dynsolve.grading.platforms.owners import FileOwners
-from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.uploads import Uploads
+from dynsolve.grading.platforms.members import FileOwners
+from dynsolve.grading.set_file import ProblemSet
+from dynsolve.grading.uploads import Uploads, read_extensions
 from tests.unit.grading.taken import ANSWER, taken_in
 
 

@@ -8,7 +8,7 @@ from statistics import correlation, pstdev
 
 import pytest
 
-from dynsolve.grading.item_analysis import Item, item_rest
+from dynsolve.grading.cohort import Item, item_rest
 
 
 def _by_the_corrected_form(marks: list[float], totals: list[float]) -> float:

@@ -9,7 +9,7 @@ import pytest
 import dynsolve
 from dynsolve.grading.platforms import moodle
 from dynsolve.grading.platforms.roster import read_roster
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 from tests.support import with_files
 
 G = "answers:\n  g: [0, 0]\n"

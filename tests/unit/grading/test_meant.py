@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import UsageError
-from dynsolve.grading.meant import meant_student
 from dynsolve.grading.platforms.registry import keep_names, keep_platform
 from dynsolve.grading.platforms.roster import Roster
+from dynsolve.grading.public import meant_student
 from dynsolve.grading.record import Record
 
 GRADEBOOK = (

@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.problem.library import find
-from dynsolve.problem.reader import read_problem
+from dynsolve.problem.reader import find, read_problem
 from tests.support import with_files
 
 WORKSHEET = """\

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from dynsolve.grading.pages import HEAD_HERE, unpack
+from dynsolve.grading.teacher import HEAD_HERE, unpack
 from dynsolve.grading.work import grade_one
 from tests.support import ROOT
 

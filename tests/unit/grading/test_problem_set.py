@@ -9,7 +9,7 @@ import pytest
 
 from dynsolve.errors import ProblemError
 from dynsolve.grading.set_file import load_set
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 
 def _folder(tmp_path: Path, text: str) -> str:
@@ -102,7 +102,7 @@ def test_faults_are_told_in_the_order_of_the_file(tmp_path: Path) -> None:
 def test_the_schema_knows_every_key_and_takes_what_the_reader_takes() -> None:
     import jsonschema
 
-    from dynsolve.grading.set_keys import POLICY, SET, set_schema
+    from dynsolve.grading.set_file import POLICY, SET, set_schema
 
     schema = set_schema()
     jsonschema.Draft202012Validator.check_schema(schema)

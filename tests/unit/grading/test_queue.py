@@ -11,7 +11,7 @@ import pytest
 
 import dynsolve
 from dynsolve.grading.public import Grades
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 from tests.support import with_files
 
 D = "answers:\n  D: [[I1zz + m2*L2^2, 0], [0, m2]]\n  tau: [0, 0\n"

@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 import pytest
 
 from dynsolve.grading.hand_ins import take_in
-from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import MAX_INSIDE, Uploads
 from tests.unit.grading.taken import ANSWER
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.answers.reading.documents import FORMATS, pandoc
-from dynsolve.grading.sections import parts, without
+from dynsolve.answers.reading.files import FORMATS, pandoc
+from dynsolve.grading.which_problem import parts, without
 from dynsolve.problem import load
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 STEMS = ("in3140-rp", "planar-2r")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.grading.hand_ins import take_in
-from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import Uploads
 from tests.unit.grading.taken import ANSWER, taken_in
 

@@ -13,12 +13,12 @@ from typing import Any
 
 import pytest
 
-from dynsolve.answers.marking.policy import Policy, to_data
+from dynsolve.answers.marking.marks import Policy, to_data
 from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
 from dynsolve.grading.pool import Bounds, LocalPool, Worker
 from dynsolve.grading.work import grade_one
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 from tests.support import ROOT
 
 MARKS = {"K": "4", "tau": "6"}
@@ -99,7 +99,7 @@ def test_a_later_file_that_cannot_be_read_takes_no_answer_away() -> None:
 
 
 def test_of_several_files_a_line_says_which() -> None:
-    from dynsolve.grading.pages import unpack
+    from dynsolve.grading.teacher import unpack
 
     texts = ("answers:\n  K2: m1\n  Kenetic: 0\n", "symbols: {z: z}\nanswers:\n  K: 0\n  K2: m2\n  D: (\n")
     result = grade_one(payload(*texts))
@@ -188,7 +188,7 @@ def test_the_same_wrong_value_has_one_form_however_it_is_written() -> None:
 
 
 def test_the_page_says_nothing_of_marks_until_it_is_written() -> None:
-    from dynsolve.grading.pages import HEAD_HERE, unpack
+    from dynsolve.grading.teacher import HEAD_HERE, unpack
 
     page = unpack(base64.b64decode(grade_one(payload(RIGHT_K))["html"]))
     assert page.count(HEAD_HERE) == 1 and "Marks:" not in page

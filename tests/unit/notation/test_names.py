@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.errors import ReadError
-from dynsolve.notation.characters import GREEK
-from dynsolve.notation.names import normalize, split
+from dynsolve.notation.characters import GREEK, normalize, split
 
 SPELLINGS = [
     ("m1", "m1"),

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from dynsolve.notation.size import Size, TooLargeError, size
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Matrix, Node, Number, Power, Product, Sum, Symbol
-from dynsolve.solution.symbolic import to_sympy
+from dynsolve.solution.numeric import to_sympy
 from tests.unit.notation.trees import rational_trees
 
 A, B = Symbol("a"), Symbol("b")

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Power, Product, Sum, Symbol
-from dynsolve.notation.walk import children, mapped, walk, with_children
+from dynsolve.notation.tree import Node, Power, Product, Sum, Symbol, children, mapped, walk, with_children
 from tests.unit.notation.trees import ONE_OF_EACH, TWO, A, B, C, trees
 
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.problem.documentation import template
 from dynsolve.problem.lint import lint, lint_text
+from dynsolve.problem.schema import template
 from tests.support import LIBRARY, TEXTBOOKS
 from tests.unit.problem.marked import PLANAR, places, unmarked
 

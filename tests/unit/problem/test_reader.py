@@ -12,7 +12,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.text import read
 from dynsolve.problem import load, read_problem
-from dynsolve.problem.documentation import template
+from dynsolve.problem.schema import template
 from dynsolve.robot.model import AxesKind, Convention, JointType
 from tests.support import LIBRARY, TEXTBOOKS
 from tests.unit.problem.marked import PLANAR, RP

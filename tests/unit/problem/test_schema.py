@@ -9,10 +9,9 @@ import jsonschema
 import pytest
 import yaml
 
-from dynsolve.problem.documentation import template
-from dynsolve.problem.schema import schema
+from dynsolve.problem.kinds import CENTERS
+from dynsolve.problem.schema import schema, template
 from dynsolve.problem.specification import ABOUT, BODY, PROBLEM, ROW, TENSOR
-from dynsolve.problem.value_kinds import CENTERS
 from dynsolve.robot.shapes import KINDS
 from tests.support import LIBRARY, TEXTBOOKS
 

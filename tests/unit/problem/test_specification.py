@@ -9,10 +9,9 @@ import pytest
 import yaml
 
 from dynsolve.problem import read_problem
-from dynsolve.problem.documentation import template
 from dynsolve.problem.kinds import Key
 from dynsolve.problem.lint import lint_text
-from dynsolve.problem.schema import schema
+from dynsolve.problem.schema import schema, template
 from dynsolve.problem.specification import BODY, DRAWING, PROBLEM, ROW, dimensions
 from dynsolve.robot.shapes import KINDS
 from tests.unit.problem.marked import RP, errors

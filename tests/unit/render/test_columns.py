@@ -7,9 +7,8 @@ import pytest
 from dynsolve.document import Document, Equations
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Symbol, equation
-from dynsolve.render.columns import in_columns
 from dynsolve.render.latex import render
-from dynsolve.render.typesetting import Line
+from dynsolve.render.typesetting import Line, in_columns
 
 LONG = "m1*l1^2 + m2*l2^2 + m3*l3^2 + I1 + I2 + I3"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dynsolve.document import Block, Formula, Heading, Note, Table, Text
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Number, Symbol, equation
-from dynsolve.render.page_ends import before_closing, closing, introduces
+from dynsolve.render.page import before_closing, closing, introduces
 
 MATRIX = Formula(equation(Letter("A"), Matrix(((Number(1),), (Number(0),)))))
 SHORT = Formula(equation(Symbol("h1"), read("l1").tree))

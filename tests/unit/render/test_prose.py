@@ -7,7 +7,7 @@ import pytest
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.render.latex_text import latex_text
+from dynsolve.render.latex import latex_text
 from dynsolve.render.markdown import escaped
 from dynsolve.render.prose import visible, with_formulas
 

@@ -7,7 +7,7 @@ from dynsolve.explain.step import Detail
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Symbol, equation
 from dynsolve.render import html, markdown, terminal
-from dynsolve.render.references import numbered
+from dynsolve.render.line_breaking import numbered
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
 

@@ -20,8 +20,8 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.latex import LatexPrinter
-from dynsolve.render.matrices import entry_equations
-from dynsolve.render.strokes import in_line
+from dynsolve.render.page import in_line
+from dynsolve.render.terminal_boxes import entry_equations
 
 Q1, L, D = Symbol("q1", 1), Letter("L", style="script"), Letter("D", style="bold")
 

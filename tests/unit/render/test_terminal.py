@@ -10,8 +10,7 @@ from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Node, Number, Product, Transpose, equation
 from dynsolve.notation.unicode import width
-from dynsolve.render.terminal import render
-from dynsolve.render.terminal_breaking import break_sum
+from dynsolve.render.terminal import break_sum, render
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
 

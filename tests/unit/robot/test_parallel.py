@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.robot.parallel import Turn, absolute_angles
+from dynsolve.robot.geometry import Turn, absolute_angles
 
 NAMES = ("q1", "q2", "q3", "q4")
 q1, q2, q3, q4 = (Angle.of(name) for name in NAMES)

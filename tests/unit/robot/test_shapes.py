@@ -8,8 +8,8 @@ from functools import cache
 import pytest
 import sympy as sp
 
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import build_ring
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Symbol
 from dynsolve.robot.shapes import AXES, KINDS, Shape

@@ -11,7 +11,7 @@ from dynsolve.notation.latex import to_latex
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot import units
-from dynsolve.solution.numbers import measures
+from dynsolve.solution.numbers import given
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_units_are_upright_with_raised_powers() -> None:
 
 
 def test_parameters_have_the_dimension_of_their_role() -> None:
-    found = measures.of_parameters(dynsolve.load("in3140-rp").robot)
+    found = given.of_parameters(dynsolve.load("in3140-rp").robot)
     assert {name: units.si(dim) for name, dim in found.items()} == {
         "L1": "m", "m1": "kg", "I1zz": "kg m^2", "m2": "kg", "g": "m/s^2",
     }  # fmt: skip
@@ -56,7 +56,7 @@ def test_results_of_an_angle_and_a_length() -> None:
     robot = dynsolve.load("in3140-rp").robot
 
     def of(name: str) -> object:
-        return measures.of_result(robot, name)
+        return given.of_result(robot, name)
 
     assert of("D") == [["kg m^2", "kg m"], ["kg m", "kg"]]
     assert of("C") == [["kg m^2/s", "kg m/s"], ["kg m/s", "kg/s"]]

@@ -15,11 +15,10 @@ from dynsolve.explain.signs import formulas_in, kind_of
 from dynsolve.explain.step import Detail
 from dynsolve.explain.terms import ID
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Function, Letter, Matrix, Node, Relation, Sum, Symbol
+from dynsolve.notation.tree import Function, Letter, Matrix, Node, Relation, Sum, Symbol, children, walk
 from dynsolve.notation.unicode import to_unicode, width
-from dynsolve.notation.walk import children, walk
-from dynsolve.render.formats import Format
-from dynsolve.render.page_ends import leads_on
+from dynsolve.render.files import Format
+from dynsolve.render.page import leads_on
 from dynsolve.solution.depths import condensed
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.reports import report

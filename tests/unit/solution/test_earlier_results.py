@@ -10,11 +10,10 @@ import pytest
 
 from dynsolve.document import Block, Equations, Fold, Formula, Note, Prose, Reference, Text, Uses
 from dynsolve.explain.step import Detail, Step
-from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Row, Sum, Symbol
+from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Row, Sum, Symbol, children
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import children
 from dynsolve.render import markdown
-from dynsolve.render.references import numbered
+from dynsolve.render.line_breaking import numbered
 from dynsolve.solution.depths import labelled_results
 from dynsolve.solution.documents import solution_document
 from tests.support import ALL_PROBLEMS, solved

@@ -14,7 +14,7 @@ from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.build import times
 from dynsolve.notation.tree import Node
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution import documents
 from dynsolve.solution.reports import report
 from tests.support import solved

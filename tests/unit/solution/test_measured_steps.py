@@ -9,10 +9,9 @@ from itertools import pairwise
 import pytest
 
 from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Node, Number, Relation
+from dynsolve.notation.tree import Node, Number, Relation, walk
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk
-from dynsolve.solution.measured_steps import measured_steps
+from dynsolve.solution.documents import measured_steps
 from tests.support import solved
 
 

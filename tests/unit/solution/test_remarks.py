@@ -8,7 +8,7 @@ import dynsolve
 from dynsolve.errors import ProblemError
 from dynsolve.explain.step import Detail, Step
 from dynsolve.problem import read_problem
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 
 RP = """

@@ -13,8 +13,8 @@ import sympy
 import dynsolve
 from dynsolve.errors import ProblemError, UsageError, VerificationError
 from dynsolve.notation.text import read
-from dynsolve.problem.library import bundled, find
-from dynsolve.solution.symbolic import to_sympy
+from dynsolve.problem.reader import bundled, find
+from dynsolve.solution.numeric import to_sympy
 from tests.support import LIBRARY, numbers, solved
 
 q1, q2, q1_dot, q2_dot = sympy.symbols("q1 q2 q1_dot q2_dot", real=True)
@@ -167,10 +167,10 @@ def test_progress_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_ways_that_disagree_are_never_returned(monkeypatch: pytest.MonkeyPatch) -> None:
-    from dynsolve.derivation import agreement
+    from dynsolve.derivation import euler_lagrange
     from dynsolve.solution import dynamics
 
-    monkeypatch.setattr(dynamics, "agreement", lambda *_: agreement.Agreement(True, False, True, True))
+    monkeypatch.setattr(dynamics, "agreement", lambda *_: euler_lagrange.Agreement(True, False, True, True))
     with pytest.raises(VerificationError):
         dynsolve.solve("planar-2r")
 

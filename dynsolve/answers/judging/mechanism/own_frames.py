@@ -16,15 +16,16 @@ from dataclasses import dataclass, replace
 from itertools import islice
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.mechanism.comparison import Agreement
-from dynsolve.answers.judging.mechanism.own_places import Displacement, NotExact, OwnPlaces
-from dynsolve.answers.judging.mechanism.restated import (
+from dynsolve.answers.judging.mechanism.own_places import (
     Counts,
+    Displacement,
+    NotExact,
+    OwnPlaces,
     restated,
     restated_state,
     speaks_of_coordinates,
 )
-from dynsolve.answers.judging.mechanism.tables import COLUMNS, Table, TableRow
+from dynsolve.answers.judging.mechanism.tables import COLUMNS, Agreement, Table, TableRow
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Node, Symbol

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dynsolve.answers.reading.grammar import brackets, derivatives, functions
-from dynsolve.answers.reading.grammar.rates import rate
-from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
-from dynsolve.answers.reading.limits import MAX_ENTRIES
+from dynsolve.answers.reading.grammar import brackets, derivatives, references
+from dynsolve.answers.reading.grammar.reader import Reader, rate
+from dynsolve.answers.reading.grids import MAX_ENTRIES, Abstract, Grid, Value, divided, transposed
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Number
@@ -31,7 +29,7 @@ def is_call(reader: Reader) -> bool:
         return False
     if token.text in _MADE | _MATRICES | _DERIVATIVES | _OTHERS or token.text in _DOTS:
         return True
-    if functions.is_elsewhere(token) and functions.name_of(token, reader.vocabulary) is None:
+    if references.is_elsewhere(token) and references.name_of(token, reader.vocabulary) is None:
         length = token.end - token.start
         raise ReadError(
             f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt"

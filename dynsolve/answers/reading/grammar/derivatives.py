@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dynsolve.answers.reading.grammar.differentiation import Rule, by_symbol, by_time, derivative
-from dynsolve.answers.reading.grammar.forms import Form
-from dynsolve.answers.reading.grammar.rates import rate
-from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grids import Abstract, Grid, Value, grid, times
-from dynsolve.answers.reading.limits import check_size
+from dynsolve.answers.reading.grammar.reader import Reader, rate
+from dynsolve.answers.reading.grammar.scripts import Form
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, check_size, grid, times
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Node, Reference, Symbol
-from dynsolve.quantities.spelling import key
+from dynsolve.quantities.letters import key
 
 
 class UnknownVariable(ReadError):

@@ -1,4 +1,4 @@
-"""The descent: prepared tokens -> a value in the symbols of the problem.
+r"""The descent: prepared tokens -> a value in the symbols of the problem.
 
     sum      = [sign] term {("+" | "-") term}
     term     = factor {["*" | "/" | cdot | times] factor}        a product needs no sign
@@ -8,25 +8,17 @@
 Each rule is a method of `FormulaReader`, or a function of the module that is named after
 what it reads: `brackets`, `functions`, `derivatives`, `calls`, `names`, `numbers`.  Values are only put
 together: nothing is computed.
+
+Numbers as they are written: decimals, and degrees as `90°`, `90 deg` or `90^\circ`.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 
-from dynsolve.answers.reading.grammar import (
-    brackets,
-    calls,
-    derivatives,
-    functions,
-    names,
-    numbers,
-    references,
-    shorthand,
-)
-from dynsolve.answers.reading.grammar.forms import Form, Scripts
+from dynsolve.answers.reading.grammar import brackets, calls, derivatives, names, references
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS, MARKS
+from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS, MARKS, Form, Scripts
 from dynsolve.answers.reading.grids import (
     Grid,
     Value,
@@ -37,7 +29,51 @@ from dynsolve.answers.reading.grids import (
 )
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node, Number, Power, Product, Quotient
+from dynsolve.notation import tokens as plain
+from dynsolve.notation.tree import Degrees, Node, Number, Power, Product, Quotient
+
+# Numbers as they are written: decimals, and degrees as `90°`, `90 deg` or `90^\circ`
+
+_BEFORE_DEGREES = frozenset({"°", "name", "^"})
+"""The tokens that the sign of degrees may begin with."""
+
+
+def read(reader: Reader) -> Value:
+    """A number, with its degrees."""
+    token = reader.take()
+    if token.text == "0" and reader.token.kind == "_":  # 0_{2×2}
+        reader.take(), reader.group()
+    if len(token.text) == 1 and reader.token.kind not in _BEFORE_DEGREES:  # as most numbers are
+        return reader.scripted(Number(int(token.text)))
+    value = plain.rational(plain.FormulaToken("number", token.text, token.start, token.end))
+    if reader.token.kind == "°" or (reader.token.kind == "name" and reader.token.text == "deg"):
+        reader.take()
+        return Degrees(value.numerator, value.denominator)
+    if reader.token.kind == "^" and _circle(reader):
+        return Degrees(value.numerator, value.denominator)
+    return reader.scripted(_written(value, token.text))
+
+
+def _circle(reader: Reader) -> bool:
+    r"""Take `^\circ`, if that is what stands here."""
+    ahead = [reader.peek(1), reader.peek(2), reader.peek(3)]
+    if ahead[0].text == "circ":
+        reader.take(), reader.take()
+        return True
+    if ahead[0].kind == "{" and ahead[1].text == "circ" and ahead[2].kind == "}":
+        reader.take(), reader.take(), reader.take(), reader.take()
+        return True
+    return False
+
+
+def _written(value: Fraction, text: str) -> Number:
+    """A number with as many decimals as were written: 0.10 is 10/100, which rounds more than 0.1 does."""
+    _, point, decimals = text.partition(".")
+    scale = 10 ** len(decimals) if point and decimals.isdigit() and value else value.denominator
+    return Number(int(value * scale), scale, scale != 1)
+
+
+# The descent: prepared tokens -> a value in the symbols of the problem
 
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _SMALL_POWERS = frozenset("23456789")
@@ -189,7 +225,7 @@ class FormulaReader(Reader):
         if kind == "name" or kind == "letter":
             return self.word(token)
         if kind == "number":
-            return numbers.read(self)
+            return read(self)
         if kind == "fraction":
             p, _, q = self.take().text.partition("/")
             return self.scripted(Quotient(Number(int(p)), Number(int(q))))
@@ -202,7 +238,7 @@ class FormulaReader(Reader):
             self.take()
             argument = self.atom()
             self.nesting -= 1
-            return functions.applied(self, "sqrt", argument, token)
+            return references.applied(self, "sqrt", argument, token)
         if kind in ("^", "_"):
             return self.framed()
         if kind == "|":
@@ -219,12 +255,12 @@ class FormulaReader(Reader):
                 return symbol
             if derivatives.stands_here(self):
                 return self.scripted(derivatives.read(self))
-            if (function := functions.name_of(token, self.vocabulary)) is not None:
-                return functions.read(self, function)
+            if (function := references.name_of(token, self.vocabulary)) is not None:
+                return references.read(self, function)
             if calls.is_call(self):
                 return self.scripted(calls.read(self))
-        if shorthand.is_short_function(self):
-            return functions.read(self, "sin" if token.text in "sS" else "cos")
+        if references.is_short_function(self):
+            return references.read(self, "sin" if token.text in "sS" else "cos")
         return names.value_of(self, self.form())
 
     def bare_symbol(self, token: Token) -> Node | None:
@@ -283,10 +319,10 @@ class FormulaReader(Reader):
         if token.kind not in ("name", "letter") and not accented:
             return False
         return not (
-            functions.name_of(token, self.vocabulary) is not None
+            references.name_of(token, self.vocabulary) is not None
             or calls.is_call(self)
             or derivatives.stands_here(self)
-            or shorthand.is_short_function(self)
+            or references.is_short_function(self)
         )
 
     def framed(self) -> Value:
@@ -323,7 +359,7 @@ class FormulaReader(Reader):
         if self.script(scripts) and scripts.powers == [Fraction(2)]:
             return self.with_scripts(value, scripts, opening.start)
         if isinstance(value, Node):
-            return self.with_scripts(functions.applied(self, "abs", value, opening), scripts, opening.start)
+            return self.with_scripts(references.applied(self, "abs", value, opening), scripts, opening.start)
         message = "the length of a vector cannot be read"
         raise ReadError(message, opening.start, 1, "write it out; |v|^2 is read for a vector v")
 
@@ -341,8 +377,8 @@ class FormulaReader(Reader):
             return self.scripted(derivatives.total_rate(self, self.atom(), ACCENTS[name]))
         if name in ACCENTS or name in MARKS or name == "script":
             return names.value_of(self, self.form())
-        if (function := functions.name_of(token, self.vocabulary)) is not None:
-            return functions.read(self, function)
+        if (function := references.name_of(token, self.vocabulary)) is not None:
+            return references.read(self, function)
         if name == "frac":
             return self.scripted(self.fraction())
         if derivatives.stands_here(self):

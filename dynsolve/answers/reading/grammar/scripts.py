@@ -1,20 +1,196 @@
-r"""Names as they are written, and the scripts behind them: `\dot{L}_2^{\star 2}`, theta1'', q^T."""
+r"""Names as they are written, and the scripts behind them: `\dot{L}_2^{\star 2}`, theta1'', q^T.
+
+Moving over the tokens of one formula: one is looked at, brackets close, levels are counted.
+
+A name as it is written, with what stands over, under and beside it: `\dot{L}_2^{\star 2}`.
+"""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from fractions import Fraction
 
-from dynsolve.answers.reading.grammar.cursor import Cursor
-from dynsolve.answers.reading.grammar.exponents import bounded, constant, raised_number
-from dynsolve.answers.reading.grammar.forms import PSEUDO_INVERSE, Form, Scripts, index_text, is_angle
-from dynsolve.answers.reading.grids import Value
+from dynsolve.answers.reading.grammar.differentiation import bounded, constant, raised_number
+from dynsolve.answers.reading.grids import MAX_NESTING, Value
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import families
+from dynsolve.quantities.letters import key
+
+# Moving over the tokens of one formula
+
+
+class Cursor:
+    """A place in a list of tokens; `token` is the one that is looked at, `nesting` the level it is on."""
+
+    __slots__ = ("nesting", "position", "token", "tokens")
+
+    def __init__(self, tokens: list[Token]) -> None:
+        end = tokens[-1].end if tokens else 0
+        self.tokens = tokens if tokens and tokens[-1].kind == "end" else [*tokens, Token("end", "", end, end)]
+        self.position = 0
+        self.token = self.tokens[0]
+        self.nesting = 0
+
+    def take(self) -> Token:
+        """The token that is looked at; the next one is looked at then."""
+        token = self.token
+        self.position += 1
+        self.token = self.tokens[self.position] if self.position < len(self.tokens) else self.tokens[-1]
+        return token
+
+    def peek(self, ahead: int = 1) -> Token:
+        """A token further on."""
+        at = self.position + ahead
+        return self.tokens[at] if at < len(self.tokens) else self.tokens[-1]
+
+    def expect(self, kind: str, opening: Token) -> Token:
+        """Take the token that closes a bracket."""
+        if self.token.kind == kind:
+            return self.take()
+        if self.token.kind == "end":
+            message = f"this `{opening.text}` is never closed"
+            raise ReadError(message, opening.start, 1, f"add the `{kind}` that it belongs to")
+        raise self.unexpected(f"`{kind}` is expected here")
+
+    def unexpected(self, help: str = "") -> ReadError:
+        """The error about the token that is looked at."""
+        token = self.token
+        if token.kind == "end":
+            return ReadError("the formula ends here too early", max(token.start - 1, 0), 1, help)
+        if token.kind in (")", "]", "}"):
+            help = help or "delete it, or add the bracket that it belongs to"
+            return ReadError(f"this `{token.text}` closes nothing", token.start, 1, help)
+        if (
+            token.kind == ","
+            and self.peek().kind == "number"
+            and self.tokens[self.position - 1].kind == "number"
+        ):
+            help = "a decimal is written with a point: 9.81"
+        shown = "\\" + token.text if token.kind in ("command", "letter") else token.text
+        help = help or "a sum of products of numbers, names and functions is expected"
+        length = max(token.end - token.start, 1)
+        return ReadError(f"`{shown[:40]}` cannot stand here", token.start, length, help)
+
+    def enter(self) -> None:
+        """One level deeper."""
+        self.nesting += 1
+        if self.nesting > MAX_NESTING:
+            message = f"more than {MAX_NESTING} levels of brackets, fractions and signs"
+            raise ReadError(message, self.token.start, 1, "name a part of it with an abbreviation")
+
+    def group(self) -> list[Token]:
+        """The tokens of an argument: those between braces, or one token."""
+        opening = self.take()
+        if opening.kind == "end":
+            raise ReadError("an argument is missing here", max(opening.start - 1, 0), 1, "write it in { }")
+        if opening.kind not in ("{", "("):
+            return [opening]
+        if opening.kind == "(":
+            return [opening, *self.until(")", opening), Token(")", ")", opening.start, opening.start + 1)]
+        return self.until("}", opening)
+
+    def until(self, closing: str, opening: Token) -> list[Token]:
+        """The tokens up to the bracket that closes, which is taken too."""
+        level, start = 1, self.position
+        while self.token.kind != "end":
+            level += (self.token.kind == opening.kind != closing) - (self.token.kind == closing)
+            if level == 0:
+                found = self.tokens[start : self.position]
+                self.take()
+                return found
+            self.take()
+        message = f"this `{opening.text}` is never closed"
+        raise ReadError(message, opening.start, 1, f"add the `{closing}` that it belongs to")
+
+
+# A name as it is written, with what stands over, under and beside it: `\dot{L}_2^{\star 2}`
+
+PSEUDO_INVERSE = "pinv"
+"""What the name of a pseudo-inverse ends in: J^# is a name of its own."""
+
+
+@dataclass(slots=True)
+class Scripts:
+    """What stands behind a factor: the mark of a joint variable, powers, T, primes."""
+
+    powers: list[Fraction] = field(default_factory=list)
+    mark: bool = False
+    transposed: bool = False
+    primes: int = 0
+
+    @property
+    def any(self) -> bool:
+        """Whether there is one."""
+        return bool(self.powers or self.mark or self.transposed or self.primes)
+
+
+@dataclass(slots=True)
+class Form:
+    r"""A name before it is looked up.
+
+    `base` with `index` is the name; `script` says that it is set in calligraphic type;
+    `dots` are those over it.  `angle` are the tokens of an index that is an angle
+    (`C_{\theta_1}`).  `repaired` says that a power stood under the dot.
+    """
+
+    base: str
+    start: int
+    end: int
+    index: str = ""
+    script: bool = False
+    dots: int = 0
+    angle: list[Token] = field(default_factory=list)
+    scripts: Scripts = field(default_factory=Scripts)
+    repaired: bool = False
+
+    @property
+    def key(self) -> str:
+        """The letters and digits of the name."""
+        return key(self.base + self.index)
+
+    @property
+    def marked_key(self) -> str:
+        """The key with the mark, the primes and dots, or the square behind it: of I^*, I', v_1^2."""
+        scripts = self.scripts
+        squared = "^2" if scripts.powers == [2] else ""
+        return f"{self.key}{'*' * scripts.mark}{chr(39) * (self.dots + scripts.primes)}{squared}"
+
+    @property
+    def base_index(self) -> str:
+        """The index of a name that is written in one piece: the i of P_i."""
+        return self.base.partition("_")[2]
+
+    @property
+    def text(self) -> str:
+        """The name as messages show it."""
+        index = self.index.strip("_{}").removesuffix(PSEUDO_INVERSE)
+        mark = "^#" if self.index.endswith(PSEUDO_INVERSE) else ""
+        return (f"{self.base}_{{{index}}}" if index else self.base) + mark
+
+
+def index_text(tokens: list[Token]) -> str:
+    r"""The index that tokens spell: `{\omega_1}` is omega1, `{1,zz}` is 1zz."""
+    kept, dots = [], ""
+    for token in tokens:
+        if token.kind == "command" and token.text in ("dot", "ddot"):
+            dots = token.text  # SymPy sets the ddot of theta1_ddot as a d with a dot
+        elif token.kind in ("name", "letter", "number", "+", "-"):
+            kept.append(token.text + (dots or ("", "dot", "ddot")[token.dots]))
+            dots = ""
+    return key("".join(kept))
+
+
+def is_angle(tokens: list[Token]) -> bool:
+    r"""Whether an index is an angle rather than digits: `\theta_1`, `q_1+q_2`, `1+2`."""
+    return any(t.kind in ("name", "letter", "+", "-", "command") for t in tokens)
+
+
+# Names as they are written, and the scripts behind them
 
 ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
 

@@ -6,10 +6,8 @@ import pytest
 from hypothesis import given, settings
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.floats import evaluate
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.python import to_python

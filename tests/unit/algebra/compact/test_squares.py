@@ -7,11 +7,10 @@ import random
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import build_ring, evaluate
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.tree_values import evaluate as value_of_tree
 from dynsolve.notation.unicode import to_unicode

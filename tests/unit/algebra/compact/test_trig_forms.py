@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dynsolve.algebra.compact.constant_forms import ConstantForms
-from dynsolve.algebra.compact.trig_forms import TrigForm, TrigPolynomial, trig_forms
+from dynsolve.algebra.compact.trig_forms import ConstantForms, TrigForm, TrigPolynomial, trig_forms
 
 ANGLES = (0.7, -1.3)
 

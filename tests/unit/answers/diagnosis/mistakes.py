@@ -22,8 +22,8 @@ from dynsolve.notation.tree import (
     Quotient,
     Sum,
     Symbol,
+    with_children,
 )  # fmt: skip
-from dynsolve.notation.walk import with_children
 
 FUNCTIONS: dict[str, Callable[[float], float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt,

@@ -12,9 +12,8 @@ import pytest
 
 from dynsolve.notation import tree
 from dynsolve.notation.printing import PLAIN
-from dynsolve.notation.tree import Node, Number, Symbol
+from dynsolve.notation.tree import Node, Number, Symbol, walk, with_children
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk, with_children
 from tests.unit.answers.diagnosis.mistakes import mended, mistakes, near, value
 from tests.unit.answers.diagnosis.test_mistakes import NAMES_A_STEP, SEEDS, judged, read
 from tests.unit.answers.hands import checker, problem, submission

@@ -8,8 +8,7 @@ from functools import lru_cache
 
 import pytest
 
-from dynsolve.answers.submission import Answer, Place, Submission
-from dynsolve.answers.verdict import JudgedAnswer
+from dynsolve.answers.verdict import Answer, JudgedAnswer, Place, Submission
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number
 from tests.unit.answers.diagnosis.mistakes import mended, mistakes, near, value

@@ -7,8 +7,8 @@ import random
 import pytest
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.parts import parts
-from dynsolve.answers.submission import Answer, Place, Submission
+from dynsolve.answers.diagnosis.mends import parts
+from dynsolve.answers.verdict import Answer, Place, Submission
 from tests.unit.answers.hands import Text, checker, codes, judge, judged
 from tests.unit.answers.test_generated import forms, graph
 

@@ -8,8 +8,7 @@ from fractions import Fraction
 import pytest
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.marking.marks import mark
-from dynsolve.answers.marking.policy import Policy
+from dynsolve.answers.marking.marks import Policy, mark
 from dynsolve.answers.verdict import Report
 from dynsolve.quantities.index import quantities
 from tests.unit.answers.hands import Text, checker, judge, problem, verdicts

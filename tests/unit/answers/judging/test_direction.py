@@ -11,9 +11,8 @@ import pytest
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.answer_verdict import NOT_FROM_OWN
 from dynsolve.answers.judge import check
-from dynsolve.answers.submission import Answer, Place, Submission
-from dynsolve.answers.verdict import Report
-from dynsolve.derivation import vectorized
+from dynsolve.answers.verdict import Answer, Place, Report, Submission
+from dynsolve.derivation import euler_lagrange
 from tests.unit.answers.hands import key, problem, verdicts
 from tests.unit.answers.test_generated import forms, graph, spoilt
 
@@ -32,7 +31,7 @@ def hand_in(stem: str, values: Mapping[str, Any]) -> Report:
 def assembled(stem: str, D: Matrix, Cqd: Matrix, g: Matrix) -> Matrix:
     """τ of D, C q̇ and g."""
     robot = problem(stem).robot
-    return Matrix.column(robot.ring, [vectorized.torque(robot, D, Cqd, g, k=k) for k in range(robot.n)])
+    return Matrix.column(robot.ring, [euler_lagrange.torque(robot, D, Cqd, g, k=k) for k in range(robot.n)])
 
 
 def symmetric_slip(D: Matrix, draw: random.Random) -> Matrix:

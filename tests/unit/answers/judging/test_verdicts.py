@@ -6,7 +6,7 @@ import pytest
 
 from dynsolve.answers.answer_verdict import NOT_CHRISTOFFEL
 from dynsolve.answers.judge import check
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import Submission
 from tests.unit.answers.hands import (
     Text,
     answer,

@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dynsolve.answers.marking.marks import deduction, mark, maximum
-from dynsolve.answers.marking.policy import Policy, rounded, shown
+from dynsolve.answers.marking.marks import Policy, deduction, mark, maximum, rounded, shown
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.owners import Owners

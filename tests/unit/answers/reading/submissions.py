@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import cache
 
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Answer, Submission
+from dynsolve.answers.verdict import Answer, Submission
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import Problem, load
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 
 @cache

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Answer, Submission
+from dynsolve.answers.verdict import Answer, Submission
 from dynsolve.problem import load
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 from tests.support import COURSE_DOCUMENT
 
 READ = [

@@ -7,11 +7,10 @@ from functools import cache
 
 import pytest
 
-from dynsolve.answers.reading import documents
-from dynsolve.answers.reading.documents import FORMATS, as_report, pandoc
-from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.sandbox import check_file
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.judge import check_file
+from dynsolve.answers.reading import files
+from dynsolve.answers.reading.files import FORMATS, as_report, pandoc, read_submission
+from dynsolve.answers.verdict import Submission
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import style_of
 from dynsolve.notation.latex import to_latex
@@ -87,13 +86,13 @@ def test_a_file_cannot_reach_for_others() -> None:
 
 @needs_pandoc
 def test_an_archive_that_unpacks_to_too_much_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(documents, "_MAX_UNPACKED", 1000)
+    monkeypatch.setattr(files, "_MAX_UNPACKED", 1000)
     with pytest.raises(ReadError, match="too large"):
         as_report(document("$$K = m_1$$", ".odt"), ".odt")
 
 
 def test_without_the_extra_the_file_says_what_reads_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(documents, "pandoc", lambda: None)
+    monkeypatch.setattr(files, "pandoc", lambda: None)
     (fault,) = read_submission(problem("planar-2r"), b"PK", "x.docx").faults
     assert "pandoc" in fault.message
     assert "dynsolve[office]" in fault.help

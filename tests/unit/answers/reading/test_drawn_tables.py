@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.reading.documents import FORMATS
-from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.reading.files import FORMATS, read_submission
+from dynsolve.answers.verdict import Submission
 from tests.unit.answers.hands import checker, problem
 from tests.unit.answers.reading.test_documents import document, needs_pandoc
 from tests.unit.problem.test_drawing import OFFSET_ARM

@@ -6,10 +6,10 @@ import pytest
 
 from dynsolve.answers.judge import check
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import Submission
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 LINE = read_problem("""
 gravity: none

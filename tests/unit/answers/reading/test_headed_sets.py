@@ -6,7 +6,7 @@ import pytest
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import Submission
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 

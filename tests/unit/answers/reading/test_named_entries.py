@@ -7,7 +7,7 @@ import pytest
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.problem import load
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 ARM = Checker(load(find("planar-2r")))  # C as every textbook has it, h = -m₂ l₁ l_c2 s₂
 ENTRIES = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 from tests.unit.answers.hands import checker, verdicts
 from tests.unit.answers.reading.submissions import report
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import Submission
 from tests.golden.answers.test_notation import RIGHT, with_slip
 from tests.unit.answers.reading.submissions import report
 

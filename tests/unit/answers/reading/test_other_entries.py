@@ -7,7 +7,7 @@ import time
 import pytest
 
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.reading.other_entries import said_zero
+from dynsolve.answers.reading.matrix_parts import said_zero
 from dynsolve.answers.reading.sources import Source
 from tests.unit.answers.hands import checker, problem, verdicts
 

@@ -9,7 +9,7 @@ import pytest
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.problem import load, read_problem
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 PENDULUM = """
 gravity: [0, 0, -g]

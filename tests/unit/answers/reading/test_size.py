@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from dynsolve.answers.reading.limits import check_size
+from dynsolve.answers.reading.grids import check_size
 from dynsolve.errors import ReadError
 from dynsolve.notation.size import Size, size
 from dynsolve.notation.text import read

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.answers.reading.asides import spoken_verdicts
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.spoken_verdicts import spoken_verdicts
 from tests.unit.answers.reading.submissions import report
 
 SAID = [

@@ -7,7 +7,7 @@ import pytest
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.problem import load
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 ARM = Checker(load(find("planar-2r")))
 G1 = r"(m_1 l_{c1} + m_2 l_1) g \cos(q_1) + m_2 l_{c2} g \cos(q_1 + q_2)"

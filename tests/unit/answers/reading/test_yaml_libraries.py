@@ -14,7 +14,7 @@ import yaml
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import Submission
 from dynsolve.explain.context import style_of
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.latex import to_latex

@@ -8,9 +8,8 @@ from itertools import islice
 import pytest
 
 from dynsolve.algebra.sampling import samples
-from dynsolve.derivation.inverse.branches import MOST, branches, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.pose import solve_pose
-from dynsolve.derivation.inverse.solving import Solving
+from dynsolve.derivation.inverse.solving import MOST, Solving, branches, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.subproblems import TwoLines
 from dynsolve.derivation.rules import derive
 from dynsolve.problem import read_problem

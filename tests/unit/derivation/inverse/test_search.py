@@ -9,9 +9,8 @@ from random import Random
 import pytest
 
 from dynsolve.algebra.sampling import samples
-from dynsolve.derivation.inverse.branches import MOST, branches, configuration, reach_of, solves_task
 from dynsolve.derivation.inverse.search import solve_task
-from dynsolve.derivation.inverse.solving import Solving
+from dynsolve.derivation.inverse.solving import MOST, Solving, branches, configuration, reach_of, solves_task
 from dynsolve.derivation.reached import same_configuration
 from dynsolve.derivation.rules import derive
 from dynsolve.problem import read_problem

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.transfer import Transfer
-from dynsolve.derivation.inverse.unknowns import search_ring
+from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.inverse.equations import search_ring
 from dynsolve.derivation.rules import derive
 from dynsolve.derivation.singular.sets import singular_set
 from dynsolve.notation.python import to_python

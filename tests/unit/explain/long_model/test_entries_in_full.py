@@ -23,9 +23,9 @@ from dynsolve.notation.tree import (
     Slashed,
     Sum,
     Symbol,
+    walk,
 )
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from tests.support import solved
 from tests.unit.explain.working.evaluated import evaluated

@@ -12,9 +12,8 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Reference
 from dynsolve.explain.long_model.vectorized import on_parallel_axes
 from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Letter, Matrix, Number, Product, Relation, Row, Symbol
+from dynsolve.notation.tree import Letter, Matrix, Number, Product, Relation, Row, Symbol, walk
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.render.prose import with_formulas
 from tests.support import solved

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from dynsolve.algebra.floats import evaluate
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.determinant import cases
 from dynsolve.explain.sanity.equilibrium import (

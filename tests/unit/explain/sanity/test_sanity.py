@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, Check, sanity_steps
 from dynsolve.explain.sanity.definite import blocks, definite_step, determinant

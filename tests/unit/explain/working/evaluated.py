@@ -9,8 +9,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Product, Relation, Sum, Transpose
-from dynsolve.notation.walk import walk
+from dynsolve.notation.tree import Node, Product, Relation, Sum, Transpose, walk
 
 Value = Expr | Matrix
 

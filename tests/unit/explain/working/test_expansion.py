@@ -6,9 +6,8 @@ import pytest
 
 from dynsolve.explain.working.differentiation import by_rates, multiplied_out
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Symbol, mapped
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import mapped
 
 CASES = """
 m*(a + b*cos(q))*(c + sin(q)) | m (a c + a sin(q) + b c cos(q) + b sin(q) cos(q))

@@ -14,7 +14,7 @@ from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Cross, Relation
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.render.formats import Format
+from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.robots import robots
 from tests.support import STEMS, solved

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.problem.reader import read_problem
 from tests.unit.grading.platforms.marked import MARKS, TEXT
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from dynsolve.grading.hand_ins import Intake
 from dynsolve.grading.platforms.registry import chosen_roster, export, keep_platform
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
 from tests.support import ROOT
 
 TEXT = (ROOT / "problems" / "in3140-rp.yaml").read_text(encoding="utf-8")

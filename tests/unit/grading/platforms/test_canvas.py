@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import InputError
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
 from tests.unit.grading.platforms.marked import STUDENTS, exported, graded
 
 CANVAS = """\

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.grading.platforms.canvas_comments import write_comments
+from dynsolve.grading.platforms.canvas import write_comments
 from dynsolve.grading.record import Record, Waiting
 
 

@@ -10,8 +10,8 @@ import jsonschema
 import pytest
 
 import dynsolve
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
 from tests.support import with_files
 from tests.unit.grading.platforms.marked import BLANK, ENGLISH, MARKS, RESULTS, TEXT, exported, graded
 

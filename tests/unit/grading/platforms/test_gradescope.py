@@ -7,8 +7,8 @@ from pathlib import Path
 
 import jsonschema
 
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
 from tests.unit.grading.platforms.marked import RESULTS, exported, graded
 
 

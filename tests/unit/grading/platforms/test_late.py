@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from dynsolve.grading.platforms.registry import chosen_roster, keep_platform, late
-from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import ProblemSet
 
 
 def test_moodles_status_says_who_was_late(tmp_path: Path, problems: ProblemSet, record: Record) -> None:

@@ -11,8 +11,7 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import InputError
 from dynsolve.notation.tree import Degrees, Number
 from dynsolve.problem import Problem, read_problem
-from dynsolve.solution.numbers.assignments import of_option
-from dynsolve.solution.numbers.given import Given, parameters, state
+from dynsolve.solution.numbers.given import Given, of_option, parameters, state
 
 RP = dynsolve.load("in3140-rp")
 TILTED = read_problem(

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from dynsolve import solve
-from dynsolve.solution.numbers.assignments import of_call
+from dynsolve.solution.numbers.given import of_call
 
 ARM = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2, alpha: 90deg}, {theta: q3*, a: l3}]\nfind: [singular]\n"
 """Where l2 + l3 cos q3 = 0 the tip is on the axis of joint 2, which it reaches where l3 ≥ l2."""

@@ -9,13 +9,11 @@ import sympy
 
 import dynsolve
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import build_ring
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Degrees, Node, Number
-from dynsolve.solution.numbers.rounding import rounded, significant, without_constants
-from dynsolve.solution.numbers.substitution import Substitution
+from dynsolve.solution.numbers.substitution import Substitution, rounded, significant, without_constants
 from tests.support import STEMS, solved
 
 SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})

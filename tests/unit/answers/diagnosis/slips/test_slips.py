@@ -8,13 +8,13 @@ import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
+from dynsolve.answers.diagnosis.own_steps import DerivationSlips
 from dynsolve.answers.diagnosis.slips import SLIPS
-from dynsolve.answers.diagnosis.slips.record import Slip
+from dynsolve.answers.diagnosis.slips.dynamics import Slip
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.submission import Answer, Place, Submission
+from dynsolve.answers.verdict import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
 from tests.unit.answers.hands import checker, codes, judged, key, problem
 

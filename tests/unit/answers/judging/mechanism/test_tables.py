@@ -6,7 +6,7 @@ from itertools import permutations
 
 import pytest
 
-from dynsolve.answers.judging.mechanism.comparison import TableComparer
+from dynsolve.answers.judging.mechanism.tables import TableComparer
 from dynsolve.answers.table_verdict import HELD
 from dynsolve.problem import read_problem
 from tests.unit.answers.hands import codes, judged

@@ -8,12 +8,12 @@ from functools import cache
 import pytest
 
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Answer
+from dynsolve.answers.verdict import Answer
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem import Problem, load
-from dynsolve.problem.library import find
+from dynsolve.problem.reader import find
 
 
 @cache

@@ -1,0 +1,227 @@
+"""Matrices of fractions: what comes out of a system of equations.
+
+Systems of linear equations with exact coefficients: solved, of least norm, of least squares.
+
+Every matrix J of rank r is B M⁻¹ R, with r independent columns B, r independent rows R and
+the square part M where they meet; its pseudoinverse is
+
+    J⁺ = Rᵀ (R Rᵀ)⁻¹ M (Bᵀ B)⁻¹ Bᵀ,
+
+which is J⁻¹ of a square matrix of full rank, Jᵀ (J Jᵀ)⁻¹ of one with independent rows and
+(Jᵀ J)⁻¹ Jᵀ of one with independent columns.  Where lengths are xᵀ W x, the part on the left is
+W⁻¹ Rᵀ (R W⁻¹ Rᵀ)⁻¹ in place of Rᵀ (R Rᵀ)⁻¹.  Ranks are those for general values of what is
+left as a symbol.
+
+Golub, Van Loan, Matrix Computations, section 5.5; Ben-Israel, Greville, Generalized Inverses, 1.6.
+
+Spaces spanned by exact vectors: what a matrix takes to zero, what it reaches, whether two are the same.
+
+A basis is a matrix whose columns span the space; of {0} it has no columns.  Ranks are those for
+general values of what is left as a symbol.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr, cancelled, equal, is_zero
+from dynsolve.algebra.matrix import Matrix, determinant
+from dynsolve.algebra.ring import Ring
+
+# Matrices of fractions: what comes out of a system of equations
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FractionMatrix:
+    """An r×c matrix of fractions over a ring; frozen.  `==` decides equality exactly."""
+
+    ring: Ring
+    rows: tuple[tuple[RationalExpr, ...], ...]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(rows, columns)"""
+        return len(self.rows), len(self.rows[0]) if self.rows else 0
+
+    @property
+    def entries(self) -> tuple[RationalExpr, ...]:
+        """All entries, row by row."""
+        return tuple(entry for row in self.rows for entry in row)
+
+    def __getitem__(self, place: tuple[int, int]) -> RationalExpr:
+        return self.rows[place[0]][place[1]]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FractionMatrix | Matrix) or self.shape != other.shape:
+            return False
+        pairs = zip(self.entries, map(fraction_of, other.entries), strict=True)
+        return all(equal(a, b) for a, b in pairs)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def map(self, function: Callable[[RationalExpr], RationalExpr]) -> FractionMatrix:
+        """The matrix of function(entry)."""
+        return FractionMatrix(self.ring, tuple(tuple(map(function, row)) for row in self.rows))
+
+
+def fraction_of(entry: Expr | RationalExpr) -> RationalExpr:
+    """An entry of either kind of matrix as a fraction."""
+    return entry if isinstance(entry, RationalExpr) else RationalExpr(entry)
+
+
+def quotient(numerators: Matrix, divisor: Expr) -> Matrix | FractionMatrix:
+    """A matrix over one divisor, each entry cancelled; polynomials where nothing is left below."""
+    ring = numerators.ring
+    rows = [[cancelled(RationalExpr(entry, divisor)) for entry in row] for row in numerators.rows]
+    return tidy(ring, rows)
+
+
+def tidy(ring: Ring, rows: Iterable[Iterable[RationalExpr]]) -> Matrix | FractionMatrix:
+    """A matrix of fractions, one of polynomials where it has no denominators."""
+    listed = tuple(tuple(row) for row in rows)
+    if all(entry.divisor is None for row in listed for entry in row):
+        return Matrix.of(ring, ([entry.numerator for entry in row] for row in listed))
+    return FractionMatrix(ring, listed)
+
+
+# Systems of linear equations with exact coefficients
+
+
+@dataclass(frozen=True, slots=True)
+class RankParts:
+    """Independent rows and columns of a matrix, as many as its rank."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+    @property
+    def rank(self) -> int:
+        """The rank."""
+        return len(self.rows)
+
+
+def rank_parts(matrix: Matrix) -> RankParts:
+    """The first independent rows and columns: a minor of the greatest size that is not 0."""
+    height, width = matrix.shape
+    for size in range(min(height, width), 0, -1):
+        for rows in combinations(range(height), size):
+            for columns in combinations(range(width), size):
+                if not is_zero(determinant(part(matrix, rows, columns))):
+                    return RankParts(rows, columns)
+    return RankParts((), ())
+
+
+def part(matrix: Matrix, rows: tuple[int, ...], columns: tuple[int, ...]) -> Matrix:
+    """The entries where some rows and columns meet."""
+    return Matrix.of(matrix.ring, ([matrix[i, j] for j in columns] for i in rows))
+
+
+def adjugate(matrix: Matrix) -> Matrix:
+    """adj A, n×n, with A adj A = det A."""
+    size = range(len(matrix.rows))
+
+    def entry(i: int, j: int) -> Expr:
+        rows, columns = tuple(k for k in size if k != j), tuple(k for k in size if k != i)
+        minor = determinant(part(matrix, rows, columns))
+        return minor if (i + j) % 2 == 0 else -minor
+
+    return Matrix.of(matrix.ring, ([entry(i, j) for j in size] for i in size))
+
+
+def pseudoinverse_times(
+    matrix: Matrix, right: Matrix, weights: Matrix | None = None
+) -> Matrix | FractionMatrix:
+    """J⁺ b: the solution of J x = b; of many the shortest; of none what is nearest to one.
+
+    With `weights` W, symmetric and positive definite, the shortest is that with the least xᵀ W x.
+    """
+    found, ring = rank_parts(matrix), matrix.ring
+    height, width = matrix.shape
+    if not found.rank:
+        return Matrix.zero(ring, width, 1)
+    if found.rank == height == width:
+        return quotient(adjugate(matrix) @ right, determinant(matrix))
+    every_row, every_column = tuple(range(height)), tuple(range(width))
+    R = part(matrix, found.rows, every_column)
+    value, divisor = right, ring.one
+    if found.rank == height:
+        value = right
+    else:
+        B = part(matrix, every_row, found.columns)
+        squares = B.T @ B
+        value = part(matrix, found.rows, found.columns) @ adjugate(squares) @ B.T @ right
+        divisor = determinant(squares)
+    lifted = R.T if weights is None else adjugate(weights) @ R.T  # a factor of W⁻¹ cancels
+    squares = R @ lifted
+    return quotient(lifted @ adjugate(squares) @ value, divisor * determinant(squares))
+
+
+def is_solvable(matrix: Matrix, right: Matrix) -> bool:
+    """Whether J x = b has a solution: whether b adds nothing to the rank."""
+    both = Matrix(matrix.ring, tuple((*row, b) for row, (b,) in zip(matrix.rows, right.rows, strict=True)))
+    return rank_parts(both).rank == rank_parts(matrix).rank
+
+
+# Spaces spanned by exact vectors
+
+
+def nullspace(matrix: Matrix) -> Matrix:
+    """A basis of the x with A x = 0, without denominators.
+
+    With r independent rows and columns that meet in M, a further column j depends on these:
+    x_j = det M, and the others are -adj M times that column.
+    """
+    found, ring = rank_parts(matrix), matrix.ring
+    width = matrix.shape[1]
+    M = part(matrix, found.rows, found.columns)
+    size = determinant(M) if found.rank else ring.one
+    vectors = []
+    for free in (j for j in range(width) if j not in found.columns):
+        vector = [ring.zero] * width
+        vector[free] = size
+        depending = adjugate(M) @ part(matrix, found.rows, (free,)) if found.rank else None
+        for k, column in enumerate(found.columns):
+            assert depending is not None
+            vector[column] = -depending[k, 0]
+        vectors.append(primitive(vector))
+    return basis(matrix, vectors, width)
+
+
+def rangespace(matrix: Matrix) -> Matrix:
+    """A basis of all A x: independent columns; of a matrix with independent rows the unit vectors."""
+    found, height = rank_parts(matrix), matrix.shape[0]
+    if found.rank == height:
+        return Matrix.identity(matrix.ring, height)
+    vectors = [primitive([row[j] for row in matrix.rows]) for j in found.columns]
+    return basis(matrix, vectors, height)
+
+
+def basis(like: Matrix, vectors: Sequence[Sequence[Expr]], height: int) -> Matrix:
+    """The matrix with these columns; without any it still has its height."""
+    return Matrix.of(like.ring, ([vector[i] for vector in vectors] for i in range(height)))
+
+
+def primitive(vector: Sequence[Expr]) -> list[Expr]:
+    """A vector over what its entries share, the first that is not 0 with a positive leading number."""
+    ring = vector[0].ring
+    shared = ring.zero.poly
+    for entry in vector:
+        shared = shared.gcd(entry.poly)
+    first = next((entry for entry in vector if not entry.is_zero), None)
+    if first is None:
+        return list(vector)
+    lead = first.poly.leading_coefficient() / shared.leading_coefficient()
+    return [Expr(ring, divmod(entry.poly, shared)[0] / lead) for entry in vector]
+
+
+def same_span(one: Matrix, other: Matrix) -> bool:
+    """Whether the columns of two matrices of one height span the same space."""
+    both = Matrix(one.ring, tuple((*a, *b) for a, b in zip(one.rows, other.rows, strict=True)))
+    return _rank(one) == _rank(other) == _rank(both)
+
+
+def _rank(matrix: Matrix) -> int:
+    return rank_parts(matrix).rank if matrix.shape[1] else RankParts((), ()).rank

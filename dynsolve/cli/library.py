@@ -1,0 +1,122 @@
+"""`dynsolve problems`: the library that comes with dynsolve.
+
+`dynsolve new`: a problem file to start from.
+
+`dynsolve schema`: the JSON Schema of problem files, for editors.
+
+`dynsolve docs`: the formats of files, verdicts and exit codes, as problems/README.md tells them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from dynsolve.errors import UsageError
+
+# `dynsolve problems`: the library that comes with dynsolve
+
+
+def problems(
+    name: Annotated[
+        str | None, typer.Argument(help="Print this problem's file, to be copied.", show_default=False)
+    ] = None,
+) -> None:
+    """List the bundled problems, or print one of them."""
+    from dynsolve.problem import load
+    from dynsolve.problem.reader import bundled, find
+
+    if name is not None:
+        typer.echo(find(name).read_text(encoding="utf-8"), nl=False)
+        return
+    known = bundled()
+    width = max(map(len, known), default=0)
+    for stem, path in known.items():
+        typer.echo(f"{stem:{width}}  {load(path).title}")
+
+
+# `dynsolve new`: a problem file to start from
+
+
+def new(
+    file: Annotated[
+        str, typer.Argument(help="Where to write it; - for standard output.", show_default=False)
+    ],
+    force: Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")] = False,
+) -> None:
+    """Write a commented problem file to start from."""
+    from dynsolve.problem.schema import template
+
+    if file == "-":
+        typer.echo(template(), nl=False)
+        return
+    path = Path(file)
+    try:
+        with path.open("w" if force else "x", encoding="utf-8") as stream:
+            stream.write(template())
+    except FileExistsError:
+        raise UsageError(f"{file} exists; --force overwrites it") from None
+    except OSError as error:
+        raise UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    typer.echo(f"wrote {file}; now: dynsolve solve {file}", err=True)
+
+
+# `dynsolve schema`: the JSON Schema of problem files, for editors
+
+
+def schema(
+    of_set: Annotated[bool, typer.Option("--set", help="That of a set.yaml, for `grade`.")] = False,
+) -> None:
+    """Print the JSON Schema of problem files, for editors."""
+    from json import dumps
+
+    if of_set:
+        from dynsolve.grading.set_file import set_schema as chosen
+    else:
+        from dynsolve.problem.schema import schema as chosen
+
+    typer.echo(dumps(chosen(), indent=2, ensure_ascii=False))
+
+
+# `dynsolve docs`
+
+
+def docs(
+    topic: Annotated[str | None, typer.Argument(help="What to read about.", show_default=False)] = None,
+) -> None:
+    """List what there is to read, or print one topic."""
+    known = topics()
+    if topic is None:
+        width = max(map(len, known))
+        for name, text in known.items():
+            typer.echo(f"{name:{width}}  {_first_words(text)}")
+    elif topic in known:
+        typer.echo(known[topic], nl=False)
+    else:
+        from dynsolve.problem.kinds import did_you_mean
+
+        help = did_you_mean(topic, known) or f"topics are {', '.join(known)}"
+        raise UsageError(f"there is nothing about {topic[:40]}; {help}")
+
+
+def topics() -> dict[str, str]:
+    """The sections of the page by the names that links on it have: `problem-file`."""
+    import re
+
+    from dynsolve.problem.reader import folder
+
+    page = (folder() / "README.md").read_text(encoding="utf-8")
+    sections = re.split("^(?=## )", page, flags=re.MULTILINE)[1:]
+    return {_title(section).lower().replace(" ", "-"): section for section in sections}
+
+
+def _title(section: str) -> str:
+    return section.partition("\n")[0].removeprefix("## ")
+
+
+def _first_words(section: str) -> str:
+    """The headings within a section, which say what it is about."""
+    parts = [line.removeprefix("### ") for line in section.splitlines() if line.startswith("### ")]
+    return ", ".join([_title(section), *parts])

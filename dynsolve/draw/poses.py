@@ -1,0 +1,519 @@
+"""A robot in a pose, and the cost of the pose.
+
+A pose is good where nothing hides anything: origins lie apart on paper, links do
+not cross, axes are not seen end on, and the arm stays above the ground.
+
+The annotations around a robot: axes of frames, mass centres, gravity.
+
+Each function gives paths, and the labels that belong to them.
+
+Springs at joints: a spiral about the axis of one that turns, a zigzag beside one that slides.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations, pairwise
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.draw import paths
+from dynsolve.draw.labels import Taken, Wanted
+from dynsolve.draw.mass_centers import DrawnBody
+from dynsolve.draw.orientation import Orientation
+from dynsolve.draw.parts import RADIUS, TUBE, JointBody, Parts
+from dynsolve.draw.paths import Path, typeset
+from dynsolve.draw.skeleton import Leg, RobotNumbers, Skeleton, finite
+from dynsolve.draw.vectors import (
+    NEAR,
+    Point,
+    Vector,
+    View,
+    add,
+    along,
+    cross,
+    distance,
+    dot,
+    moved,
+    point_to_segment,
+    scale,
+    segment_distance,
+    subtract,
+)
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Node, Number, Row, Symbol, Words
+from dynsolve.quantities import letters
+from dynsolve.robot.actions import Elastic
+from dynsolve.robot.model import JointType, Robot
+
+# A robot in a pose, and the cost of the pose
+
+AXIS = 44.0
+"""How long the axes of frames are drawn."""
+
+ARC = 28.0
+"""The radius of the arc of an angle in space, which its joint's body is not to hide."""
+
+MANY = 4
+"""A robot with more rows than that has more to write beside it than there is room for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """A robot in its pose, seen from where it shows best, with the uniform bodies on its links."""
+
+    skeleton: Skeleton
+    parts: Parts
+    view: View
+    bodies: tuple[DrawnBody, ...] = ()
+
+
+_SQUARE_TO_PAPER = 1.0
+"""The cost of a link that stands upright or level in a plane, a special case that may mislead."""
+
+Choice = tuple[float, ...]
+"""Values of the coordinates, then azimuth and elevation where the view is free."""
+
+
+def cost_of(pose: Pose, orientation: Orientation) -> float:
+    """How far a pose is from good, 0 at best."""
+    view = pose.view
+    path = [view.point(point) for point in _with_hand(pose)]
+    centers = [view.point(part.center) for part in pose.parts.joints]
+    tips = _tips(pose)
+    return (
+        30.0 * max(0.0, 120.0 / view.size - 1.0)
+        + 40.0 * _crowding(path, 60.0)
+        + 25.0 * _crowding(centers, 48.0)
+        + 14.0 * _crowding([tip for _, tip in tips], 30.0)
+        + 30.0 * _crossings(pose, 36.0)
+        + 10.0 * _tips_on_links(path, tips)
+        + _foreshortening(pose)
+        + _lowness(pose.skeleton, orientation)
+    )
+
+
+def _with_hand(pose: Pose) -> tuple[Vector, ...]:
+    """The points of the chain, with the last joint where that stands beyond all of them."""
+    path, joints = pose.skeleton.path, pose.parts.joints
+    if not joints or len(path) < 2:
+        return path
+    last = joints[-1].center
+    ways = pairwise(path)
+    on_path = any(distance(a, last) + distance(last, b) < distance(a, b) + NEAR for a, b in ways)
+    return path if on_path else (*path, last)
+
+
+def _shortfall(value: float, wanted: float) -> float:
+    """0 where there is enough, up to 1 where there is nothing."""
+    return max(0.0, 1.0 - value / wanted) ** 2
+
+
+def _crowding(points: Sequence[Point], wanted: float) -> float:
+    return sum(_shortfall(math.dist(a, b), wanted) for a, b in combinations(points, 2))
+
+
+def _tips(pose: Pose) -> list[tuple[Point, Point]]:
+    """(origin, tip) of the axes of frames on paper."""
+    view, size = pose.view, pose.view.space(AXIS)
+    return [
+        (view.point(frame.origin), view.point(along(frame.origin, axis, size)))
+        for frame in pose.skeleton.frames
+        for axis in (frame.x, frame.z)
+        if not (view.flat and abs(dot(axis, view.toward)) > 0.9)
+    ]
+
+
+def _tips_on_links(path: Sequence[Point], tips: Sequence[tuple[Point, Point]]) -> float:
+    segments = list(pairwise(path))
+    return sum(_shortfall(point_to_segment(tip, *segment), 13.0) for _, tip in tips for segment in segments)
+
+
+def _crossings(pose: Pose, wanted: float) -> float:
+    """How near links come to each other that do not meet."""
+    view = pose.view
+    path = [view.point(point) for point in _with_hand(pose)]
+    segments = list(pairwise(path))
+    total = 0.0
+    for (i, first), (j, second) in combinations(enumerate(segments), 2):
+        if j == i + 1:
+            total += 0.6 * _fold(first, second)
+        else:
+            total += _shortfall(segment_distance(first, second), wanted)
+    return total
+
+
+def _fold(first: tuple[Point, Point], second: tuple[Point, Point]) -> float:
+    """1 where a link lies straight back on the one before it, 0 where it is far from that."""
+    (a, b), (_, c) = first, second
+    u, v = (a[0] - b[0], a[1] - b[1]), (c[0] - b[0], c[1] - b[1])
+    sizes = math.hypot(*u) * math.hypot(*v)
+    if sizes < NEAR:
+        return 1.0
+    return max(0.0, (u[0] * v[0] + u[1] * v[1]) / sizes - 0.4)
+
+
+def _foreshortening(pose: Pose) -> float:
+    view = pose.view
+    total = 0.0
+    for frame in pose.skeleton.frames:
+        for axis in (frame.x, frame.z):
+            if not (view.flat and abs(dot(axis, view.toward)) > 0.9):
+                total += 6.0 * _shortfall(math.hypot(*view.direction(axis)), 0.6)
+    for a, b in zip(pose.skeleton.path, pose.skeleton.path[1:], strict=False):
+        seen = math.dist(view.point(a), view.point(b)) / (distance(a, b) * view.size)
+        total += 8.0 * _shortfall(seen, 0.7)
+    return total
+
+
+def _lowness(body: Skeleton, orientation: Orientation) -> float:
+    """The cost of reaching below the base."""
+    start = body.frames[0].origin
+    heights = [dot(subtract(point, start), orientation.up) for point in body.path]
+    return 12.0 * sum(max(0.0, -0.05 - height) for height in heights)
+
+
+def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
+    """Small preferences: angles that can be seen, moderate values, the arm leading to the right."""
+    total = 0.0
+    for q, value in zip(robot.coordinates, choice, strict=False):
+        if q.type is JointType.PRISMATIC:
+            total += 1.5 * abs(value - 0.9)
+        else:
+            total += 0.3 * abs(value) + 1.5 * max(0.0, 0.3 - value)  # 90° more than 30° is seen to be obtuse
+    if pose.view.flat:
+        for leg in pose.skeleton.legs:
+            if leg.type is JointType.REVOLUTE:
+                total += 12.0 * _shortfall(leg.turn, 0.7) + 1.2 * abs(leg.turn - 0.8)
+        total += sum(_SQUARE_TO_PAPER for link in pairwise(pose.skeleton.path) if _is_square(pose, *link))
+    else:
+        total += 0.5 * abs(choice[-2] - math.radians(35))
+        if len(pose.skeleton.legs) <= MANY:
+            total += sum(_hidden_angle(leg, pose.view) for leg in pose.skeleton.legs)
+    first, last = pose.skeleton.frames[0].origin, pose.skeleton.frames[-1].origin
+    reach = pose.view.direction(subtract(last, first))[0]
+    return total + 1.5 * max(0.0, 1.0 - reach)
+
+
+def _is_square(pose: Pose, a: Vector, b: Vector) -> bool:
+    """Whether a link that a joint may turn stands upright or level on paper, as few poses have it."""
+    across, up = pose.view.direction(subtract(b, a))
+    return min(abs(across), abs(up)) < NEAR and distance(a, b) > NEAR
+
+
+def _hidden_angle(leg: Leg, view: View) -> float:
+    """The cost of an angle in space that is small, or very large, or behind its joint."""
+    if leg.type is not JointType.REVOLUTE:
+        return 0.0
+    angle = leg.turn
+    side = cross(leg.axis, leg.before)
+    behind = sum(
+        max(0.0, -dot(leg.before, view.toward) * math.cos(t) - dot(side, view.toward) * math.sin(t))
+        for t in (0.0, angle / 2, angle)
+    )
+    behind += max(0.0, -dot(leg.after, view.toward)) if leg.offset else 0.0
+    flat = _shortfall(abs(dot(leg.axis, view.toward)), 0.6)  # an arc that is seen from its edge
+    return (
+        12.0 * _shortfall(angle, 0.7)
+        + 0.8 * abs(angle - 1.1)
+        + 1.5 * max(0.0, angle - 2.8)
+        + 2.0 * behind
+        + 12.0 * flat
+    )
+
+
+# The annotations around a robot: axes of frames, mass centres, gravity
+
+_END_ON = 0.06
+"""The foreshortening below which an axis is drawn as a point or a cross in a circle."""
+
+_ALONG = 0.99
+"""The cosine from which gravity acts along an axis."""
+
+_PAST_ARC = 12.0
+"""How far the tip of an axis is on paper from the arc of an angle, which is not to cut its head."""
+
+_SAME = 5.0
+MARK = 6.0
+"""The radius of the mark of a mass centre."""
+
+_AROUND = 11.0
+"""Its radius around an axis that is seen end on."""
+
+
+@dataclass
+class Notes:
+    """Paths and labels as they are collected; `taken` is what is drawn so far, `solid` the robot's body.
+
+    `behind` are the paths that the body of the robot is drawn over, `lengths` the lines of lengths,
+    `tips` the heads of the axes' arrows, and `heads` where they are.
+    """
+
+    style: Style
+    taken: Taken
+    paths: list[Path] = field(default_factory=list)
+    behind: list[Path] = field(default_factory=list)
+    wanted: list[Wanted] = field(default_factory=list)
+    solid: Taken = field(default_factory=Taken)
+    lengths: Taken = field(default_factory=Taken)
+    heads: Taken = field(default_factory=Taken)
+    tips: list[Path] = field(default_factory=list)
+
+    def draw(self, *paths: Path, behind: bool = False) -> None:
+        """Add paths."""
+        (self.behind if behind else self.paths).extend(paths)
+        self.taken.add(paths)
+
+    def label(
+        self,
+        node: Node,
+        anchors: Sequence[Point],
+        toward: Point,
+        colour: str,
+        kind: str,
+        radius: float = 0.0,
+    ) -> None:
+        """Ask for a label."""
+        line = typeset(node, self.style)
+        self.wanted.append(Wanted(node, line, tuple(anchors), toward, colour, kind, radius))
+
+
+# -- frames ----------------------------------------------------------------------------------------
+
+
+def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
+    """The z and x axes of every frame; axes that fall on one another share a label.
+
+    Of frame 0 the y axis too where gravity acts along it.
+    """
+    view = pose.view
+    groups: list[tuple[Point, Point, list[Node]]] = []
+    for i, frame in enumerate(pose.skeleton.frames):
+        origin = view.point(frame.origin)
+        axes = [("x", frame.x), ("z", frame.z)]
+        if i == 0 and gravity and abs(dot(gravity, frame.axes[1])) > _ALONG:
+            axes.append(("y", frame.axes[1]))
+        for letter, axis in axes:
+            name = letters.bold(letter, Number(i))
+            tip = axis_arrow(origin, axis, pose, notes)
+            known = next(
+                (g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None
+            )
+            if known:
+                known[2].append(name)
+            else:
+                groups.append((origin, tip, [name]))
+    for origin, tip, names in groups:
+        toward = (tip[0] - origin[0], tip[1] - origin[1])
+        radius = MARK if tip == origin else 0.0
+        notes.label(_listed(names), [tip], toward, paths.FRAME, "axis", radius)
+
+
+def _listed(names: Sequence[Node]) -> Node:
+    parts: list[Node] = [names[0]]
+    for name in names[1:]:
+        parts += [Words(", "), name]
+    return parts[0] if len(parts) == 1 else Row(tuple(parts))
+
+
+def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
+    """Draw an axis, and give its tip."""
+    view = pose.view
+    x, y = view.direction(axis)
+    if _is_end_on(axis, pose):
+        notes.taken.add([Path(paths.circle(origin, MARK))])  # drawn last, by `axes_end_on`
+        return origin
+    reach = reach_of_axis((x, y), pose)
+    tip = (origin[0] + x * reach, origin[1] + y * reach)
+    back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
+    head = Path(paths.head(tip, (x, y)), None, fill=paths.FRAME)
+    notes.draw(
+        Path(paths.line(origin, back), paths.WHITE, 4.2),
+        Path(paths.line(origin, back), paths.FRAME, 1.6),
+        head,
+    )
+    notes.tips.append(head)
+    notes.heads.add([head])
+    return tip
+
+
+def axes_end_on(pose: Pose, notes: Notes) -> None:
+    """The axes that are seen end on, over the masses at their origins."""
+    for frame in pose.skeleton.frames:
+        for axis in (frame.x, frame.z):
+            if _is_end_on(axis, pose):
+                axis_end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
+
+
+def reach_of_axis(direction: Point, pose: Pose) -> float:
+    """How long an axis is drawn that has this direction on paper: beyond an arc, with its whole head."""
+    has_arcs = len(pose.skeleton.legs) <= MANY
+    return max(AXIS, ARC + _PAST_ARC / math.hypot(*direction)) if has_arcs else AXIS
+
+
+def _is_end_on(axis: Vector, pose: Pose) -> bool:
+    return math.hypot(*pose.view.direction(axis)) < _END_ON
+
+
+def axis_end_on(origin: Point, toward: bool, notes: Notes) -> None:
+    """An axis seen end on: a point for the tip of the arrow, a cross for its feathers."""
+    radius = MARK
+    notes.draw(Path(paths.circle(origin, radius), paths.FRAME, 1.4, paths.WHITE))
+    if toward:
+        notes.draw(Path(paths.circle(origin, 2.0), None, fill=paths.FRAME))
+        return
+    (x, y), s = origin, 0.7 * radius
+    for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
+        notes.draw(Path(paths.line(a, b), paths.FRAME, 1.4))
+
+
+# -- mass centres and gravity ----------------------------------------------------------------------
+
+
+def masses(pose: Pose, notes: Notes) -> None:
+    """Mass centres: the quartered disk of mechanics, a ball for a point mass."""
+    for mass in pose.skeleton.masses:
+        center = pose.view.point(mass.center)
+        if not _is_on_link(center, pose):
+            origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
+            notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
+        radius = _AROUND if _is_under_axis(center, pose) else MARK
+        notes.draw(*(_ball(center, radius) if mass.is_point else _quartered(center, radius)))
+        name = letters.bold("r", Row((Words("c"), letters.index_of(mass.name))))
+        notes.label(name, [center], (0.0, 0.0), paths.BLACK, "mass", radius)
+
+
+def has_masses_off_links(pose: Pose) -> bool:
+    """Whether a dashed line leads to some mass centre."""
+    return not all(_is_on_link(pose.view.point(mass.center), pose) for mass in pose.skeleton.masses)
+
+
+def _is_under_axis(center: Point, pose: Pose) -> bool:
+    """Whether an axis that is seen end on stands where a mass centre is."""
+    return any(
+        math.dist(center, pose.view.point(frame.origin)) < MARK
+        and any(_is_end_on(axis, pose) for axis in (frame.x, frame.z))
+        for frame in pose.skeleton.frames
+    )
+
+
+def _is_on_link(center: Point, pose: Pose) -> bool:
+    """Whether a mass centre is seen on a link."""
+    ways = [*((leg.foot, leg.head, leg.end) for leg in pose.skeleton.legs), *pose.parts.links]
+    lines = ((pose.view.point(a), pose.view.point(b)) for way in ways for a, b in pairwise(way))
+    return any(point_to_segment(center, a, b) < 2 * TUBE for a, b in lines)
+
+
+def _ball(center: Point, radius: float) -> tuple[Path, ...]:
+    return (Path(paths.circle(center, radius), paths.WHITE, 1.2, paths.BLACK),)
+
+
+def _quartered(center: Point, radius: float) -> tuple[Path, ...]:
+    quarters = tuple(
+        Path(
+            (
+                ("M", (center,)),
+                *paths.arc(center, (radius, 0.0), (0.0, radius), start, start + math.pi / 2, move=False),
+                ("Z", ()),
+            ),
+            None,
+            fill=paths.BLACK,
+        )
+        for start in (0.0, math.pi)
+    )
+    return (Path(paths.circle(center, radius), paths.BLACK, 1.2, paths.WHITE), *quarters)
+
+
+def gravity(place: Point, direction: Point | None, notes: Notes) -> None:
+    """The arrow of gravity; a cross in a circle where it points away from the viewer."""
+    node = Symbol("g")
+    if direction is None:
+        notes.draw(Path(paths.circle(place, 8.0), paths.BLACK, 1.4))
+        (x, y), s = place, 5.6
+        for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
+            notes.draw(Path(paths.line(a, b), paths.BLACK, 1.4))
+        notes.label(node, [(x + 8.0, y)], (1.0, 0.0), paths.BLACK, "gravity")
+        return
+    x, y = direction
+    tip = moved(place, (x, y), 46.0)
+    notes.draw(
+        Path(paths.line(place, moved(place, (x, y), 38.0)), paths.BLACK, 2.0),
+        Path(paths.head(tip, (x, y), 11.0), None, fill=paths.BLACK),
+    )
+    notes.label(node, [moved(place, (x, y), 22.0)], (1.0, 0.0), paths.BLACK, "gravity")
+
+
+# Springs at joints
+
+SPRINGS = "A spiral or a zigzag at a joint is a spring."
+OTHER_SPRINGS = "Springs on other than one joint, or given by their energy, are not drawn."
+NO_DAMPERS = "Dampers are not drawn."
+
+_INNER, _OUTER, _TURNS = RADIUS + 1.0, RADIUS + 13.0, 1.75
+_STEPS = 72
+_BESIDE, _HALF, _ENDS, _TOOTH, _LONGEST = 22.0, 6.0, 10.0, 6.0, 96.0
+"""Of a zigzag: how far beside its joint it runs, half its width, its ends, half its period, all its teeth."""
+
+
+def joint_springs(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Elastic]]:
+    """The linear springs that act on the coordinate of just one joint, with that joint."""
+    found = []
+    for spring in robot.actions.springs:
+        if spring.law is None:
+            continue
+        stretched = {k for k, q in enumerate(robot.coordinates) if _rate(spring.law, q.name, numbers) > NEAR}
+        rows = [joint.index for joint in robot.joints if {k for k, _ in joint.rates} & stretched]
+        found += [(part, spring.law) for part in pose.parts.joints if rows == [part.row]]
+    return found
+
+
+def _rate(law: Elastic, coordinate: str, numbers: RobotNumbers) -> float:
+    """How much the form that a spring is given by grows with a coordinate, without its sign."""
+    return abs(finite(law.of, {**numbers.values, coordinate: 1.0}) - finite(law.of, numbers.values))
+
+
+def springs(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
+    """Every such spring with its stiffness."""
+    for part, law in joint_springs(robot, numbers, pose):
+        name = Compactor(robot.ring, decimal=True).form(law.stiffness)
+        if part.type is JointType.REVOLUTE:
+            draw_spring(spiral(part.center, part.axis, pose.view), name, notes)
+        else:
+            leg = pose.skeleton.legs[part.row - 1]
+            draw_spring(zigzag(pose.view.point(leg.foot), pose.view.point(leg.head), _BESIDE), name, notes)
+
+
+def draw_spring(points: Iterator[Point], name: Node, notes: Notes) -> None:
+    """A spring along its points, and its stiffness."""
+    line = list(points)
+    path = paths.line(*line)
+    notes.draw(Path(path, paths.WHITE, 3.0), Path(path, paths.BLACK, 1.2))
+    notes.label(name, line[:: len(line) // 6], (0.0, 0.0), paths.BLACK, "spring")
+
+
+def spiral(center: Vector, axis: Vector, view: View, inner: float = _INNER) -> Iterator[Point]:
+    """Round an axis, outwards."""
+    across = cross(axis, view.toward)
+    first = view.right if math.hypot(*view.direction(across)) < NEAR else across
+    second = cross(axis, first)
+    for k in range(_STEPS + 1):
+        t = math.pi + 2 * math.pi * _TURNS * k / _STEPS
+        radius = view.space(inner + (_OUTER - _INNER) * k / _STEPS)
+        direction = add(scale(first, math.cos(t)), scale(second, math.sin(t)))
+        yield view.point(along(center, direction, radius))
+
+
+def zigzag(a: Point, b: Point, beside: float) -> Iterator[Point]:
+    """From a point to another, that far beside the line between them."""
+    reach = math.dist(a, b) or 1.0
+    way = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    across = -way[1], way[0]
+    ends = max(min(_ENDS, reach / 4), (reach - _LONGEST) / 2)
+    teeth = max(2, round((reach - 2 * ends) / _TOOTH))
+    start = moved(a, across, beside)
+    yield from (a, start, moved(start, way, ends))
+    for k in range(teeth):
+        corner = moved(start, way, ends + (reach - 2 * ends) * (k + 0.5) / teeth)
+        yield moved(corner, across, _HALF if k % 2 else -_HALF)
+    yield from (moved(start, way, reach - ends), moved(start, way, reach), b)
