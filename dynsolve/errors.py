@@ -10,9 +10,10 @@ import sys
 import traceback
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeVar
+
+from msgspec import Struct
 
 T = TypeVar("T")
 
@@ -33,8 +34,7 @@ class DynsolveError(Exception):
     exit_code = ExitCode.FAILED
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Struct, frozen=True):
     """One fault of an input file, with its place and its remedy.
 
     `line` and `column` count from 1; 0 where the fault has no place.  `length`

@@ -15,12 +15,12 @@ a vector of rational rates here; the eliminations are FLINT's.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields
 from fractions import Fraction
 from math import lcm
 from typing import Self
 
 from flint import fmpq_mat, fmpz_mat
+from msgspec import Struct
 
 from dynsolve.algebra.rationals import fraction, rational, rational_value
 from dynsolve.errors import AlgebraError
@@ -52,8 +52,7 @@ _DEGREES_PER_PI = 180
 _PI: Atom = (("pi", 1),)
 
 
-@dataclass(frozen=True, slots=True)
-class Angle:
+class Angle(Struct, frozen=True):
     """Σ rᵢ·atomᵢ + degrees, the atoms sorted.
 
     >>> from dynsolve.notation.tree import Symbol, Sum, Degrees
@@ -210,8 +209,7 @@ def angle_node(angle: Angle, coordinates: Sequence[str] = ()) -> Node:
 # The symbols, angles, roots and denominators that a ring needs for given formulas
 
 
-@dataclass(frozen=True, slots=True)
-class Contents:
+class Contents(Struct, frozen=True):
     """What occurs in some formulas, each once, in order of first appearance.
 
     `angles` are those whose sine or cosine occurs, `radicands` the numbers under a root,
@@ -229,11 +227,11 @@ class Contents:
 
     def __bool__(self) -> bool:
         """Whether there is anything in it."""
-        return any(getattr(self, f.name) for f in fields(self))
+        return any(getattr(self, f) for f in self.__struct_fields__)
 
     def joined(self, other: Self) -> Self:
         """The union of two contents."""
-        pairs = ((f.name, getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+        pairs = ((f, getattr(self, f), getattr(other, f)) for f in self.__struct_fields__)
         return type(self)(**{name: tuple(dict.fromkeys((*a, *b))) for name, a, b in pairs})
 
 

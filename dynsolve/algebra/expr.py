@@ -9,11 +9,11 @@ The generators of a ring: the variables of its polynomials, and the meaning of e
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq, fmpq_mpoly
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.rationals import fraction, rational
@@ -27,8 +27,7 @@ if TYPE_CHECKING:
 # The generators of a ring: the variables of its polynomials, and the meaning of each
 
 
-@dataclass(frozen=True, slots=True)
-class Generator:
+class Generator(Struct, frozen=True):
     """One variable of the polynomial ring.
 
     kind is one of `sin`, `cos` (with `angle`), `symbol` (with `name`, `dots`),
@@ -45,8 +44,7 @@ class Generator:
     node: Node | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Pair:
+class Pair(Struct, frozen=True):
     """The sine and cosine of a basic angle, by the indices of their generators."""
 
     angle: Angle

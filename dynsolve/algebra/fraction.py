@@ -6,18 +6,18 @@ exact it is carried out, so that most values become elements of the ring.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring import NoRoom, Ring
 from dynsolve.errors import AlgebraError
 
 
-@dataclass(frozen=True, slots=True)
-class RationalExpr:
+class RationalExpr(Struct, frozen=True):
     """numerator / divisor over one ring; without a divisor the numerator by itself.
 
     `denominator` is the divisor, 1 where there is none.

@@ -9,8 +9,9 @@ numbers; what is not found in this way is not said.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.rationals import fraction
@@ -22,8 +23,7 @@ MOST_PRODUCTS = 120
 """So many products of assumptions are tried."""
 
 
-@dataclass(frozen=True, slots=True)
-class Bound:
+class Bound(Struct, frozen=True):
     """`value` > 0 where it is strict, else ≥ 0."""
 
     value: Expr

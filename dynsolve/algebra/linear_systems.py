@@ -23,8 +23,9 @@ general values of what is left as a symbol.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from itertools import combinations
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled, equal, is_zero
@@ -34,8 +35,7 @@ from dynsolve.algebra.ring import Ring
 # Matrices of fractions: what comes out of a system of equations
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class FractionMatrix:
+class FractionMatrix(Struct, frozen=True, eq=False):
     """An r×c matrix of fractions over a ring; frozen.  `==` decides equality exactly."""
 
     ring: Ring
@@ -90,8 +90,7 @@ def tidy(ring: Ring, rows: Iterable[Iterable[RationalExpr]]) -> Matrix | Fractio
 # Systems of linear equations with exact coefficients
 
 
-@dataclass(frozen=True, slots=True)
-class RankParts:
+class RankParts(Struct, frozen=True):
     """Independent rows and columns of a matrix, as many as its rank."""
 
     rows: tuple[int, ...]

@@ -13,10 +13,11 @@ where such a coordinate stands by itself, and not in a sine or cosine, it stays.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
 from dynsolve.algebra.expr import Expr, Pair
@@ -32,8 +33,7 @@ if TYPE_CHECKING:
 # Matrices of exact expressions
 
 
-@dataclass(frozen=True, slots=True)
-class Matrix:
+class Matrix(Struct, frozen=True):
     """An r×c matrix over a ring; frozen."""
 
     ring: Ring

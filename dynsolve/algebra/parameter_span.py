@@ -10,8 +10,9 @@ can and by a polynomial only where it must.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.terms import Exponents
 from dynsolve.algebra.expr import Expr
@@ -23,8 +24,7 @@ Vector = dict[Exponents, Expr]
 """Polynomials in what is known, by the exponents of what is unknown; none of them is 0."""
 
 
-@dataclass(frozen=True, slots=True)
-class Generators:
+class Generators(Struct, frozen=True):
     """Which generators of a ring move, and which are unknown parameters; the others are known."""
 
     moving: frozenset[int]
@@ -155,8 +155,7 @@ def _less(vector: Vector, factor: Expr, other: Vector) -> Vector:
     return result
 
 
-@dataclass(frozen=True, slots=True)
-class _Row:
+class _Row(Struct, frozen=True):
     """What elimination leaves of a vector: values = divisor · vector - Σ factor_k · row_k, and its pivot.
 
     `factors` are (k, factor_k), those that are not 0.

@@ -12,12 +12,13 @@ pair of their own: below that degree no further relation can hold.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isqrt
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_poly
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import (
     Angle,
@@ -45,8 +46,7 @@ _FIFTEEN = Fraction(15)
 _TRIAL_BOUND = 10_000
 
 
-@dataclass(frozen=True, slots=True)
-class ConstantPlan:
+class ConstantPlan(Struct, frozen=True):
     """Which generators the constant angles and the roots of a problem need.
 
     `generator_degrees` is δ where cos δ is one; `primes` are those whose square
@@ -130,8 +130,7 @@ def minimal_polynomial(generator: fmpq_mpoly, degrees: Fraction) -> tuple[fmpq_m
     return total / fmpq(2) ** degree, degree
 
 
-@dataclass(frozen=True, slots=True)
-class ConstantAngles:
+class ConstantAngles(Struct, frozen=True):
     """Cosines, sines and roots of numbers as polynomials of one ring.
 
     `root` gives the generator √prime, `pair` (cos, sin) of a multiple of the
@@ -213,8 +212,7 @@ class ConstantAngles:
 # What a ring must hold: the symbols, angles, roots and denominators of a problem's formulas
 
 
-@dataclass(frozen=True, slots=True)
-class RingPlan:
+class RingPlan(Struct, frozen=True):
     """The plan of a ring: what becomes a generator, and how angles are made of the basic ones.
 
     `turning` are the basic angles that turn with coordinates, each as its vector of

@@ -15,12 +15,13 @@ Making a ring: the smallest one that holds given formulas.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import comb, cos, pi, radians, sin, sqrt
 from typing import Any, ClassVar, NamedTuple
 
 from flint import fmpq_mpoly
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, Atom, angle_from_tree, names_of
 from dynsolve.algebra.expr import Expr, Generator, dotted
@@ -60,8 +61,7 @@ def value_of(ring: Ring, node: Node) -> Expr:
     return Evaluator(ring).value(node).numerator
 
 
-@dataclass(slots=True)
-class ProductTerm:
+class ProductTerm(Struct):
     """A product under construction: coefficient · Π generator^exponent · Π factors."""
 
     coefficient: Fraction = Fraction(1)
@@ -371,8 +371,7 @@ def _require(g: Generator, values: Mapping[str, Any]) -> None:
             raise KeyError(name)
 
 
-@dataclass(frozen=True, slots=True)
-class _Evaluation:
+class _Evaluation(Struct, frozen=True):
     """The values of polynomials at a point; `known` are generators whose values were found before."""
 
     ring: Ring

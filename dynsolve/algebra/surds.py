@@ -15,7 +15,6 @@ floating point.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, reduce
 from math import atan2, copysign, gcd, inf, isqrt, pi, radians, sqrt
@@ -23,6 +22,8 @@ from operator import add, mul
 from typing import Any
 
 from flint import arb, ctx, fmpz
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational
@@ -64,8 +65,7 @@ class NotExact(AlgebraError):
         super().__init__("this is no short sum of square roots")
 
 
-@dataclass(frozen=True, slots=True)
-class Surd:
+class Surd(Struct, frozen=True):
     """Σ cᵢ √mᵢ, sorted by m; `==` decides equality exactly.
 
     >>> half = Surd.of(Fraction(1, 2))
@@ -224,8 +224,7 @@ _STEP = 15
 """The sines and cosines of the multiples of so many degrees are sums of roots."""
 
 
-@dataclass(frozen=True, slots=True)
-class SurdAngle:
+class SurdAngle(Struct, frozen=True):
     """The angle of the point (x, y), which is not the origin, and `rest` degrees; modulo 2π.
 
     The length of (x, y) means nothing.  `rest` is 0 or no multiple of 15, between -45 and 45.

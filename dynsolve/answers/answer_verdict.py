@@ -16,9 +16,10 @@ The verdict of what a student says of matrices: whether each can be an inertia m
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.matrix import Matrix

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.answers.verdict import (
     Diagnosis,
@@ -71,8 +72,7 @@ _MOST_SET = 8000
 """Up to so many characters it is set as a formula."""
 
 
-@dataclass(frozen=True, slots=True)
-class FeedbackView:
+class FeedbackView(Struct, frozen=True):
     """How much is shown: the level of hints, a teacher's differences, how correct answers were read."""
 
     level: int = 3

@@ -36,10 +36,11 @@ import os
 import pickle
 import signal
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, TypeVar
+
+from msgspec.structs import replace
 
 from dynsolve.answers.answer_verdict import (
     MAY_FOLLOW,

@@ -8,8 +8,9 @@ A wrong table is told by the cell that is to blame, and by what it does instead.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
+
+from msgspec.structs import replace
 
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.mechanism.matching import Mismatch

@@ -17,9 +17,11 @@ missing.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Matrix, Node
@@ -31,8 +33,7 @@ PICTURE = "a picture stands here; pictures are not read"
 """Why what may stand in a picture waits."""
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(Struct, frozen=True):
     """Where something stands in its file: line and column from 1; `excerpt` is that line.
 
     `file` is its name where several were handed in together.
@@ -48,8 +49,7 @@ class Place:
         return f"line {self.line} of {self.file}" if self.file else f"line {self.line}"
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """One value given for one quantity.
 
     `name` is the canonical name of the quantity (K, tau1, d12, Cqd, I_body1);
@@ -90,16 +90,14 @@ class Answer:
     occurrence: tuple[int, int] = (0, 0)
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """One formula of an alternative: that of a coordinate, or without a name what is 0."""
 
     coordinate: str
     node: Node
 
 
-@dataclass(frozen=True, slots=True)
-class ConfigurationAnswer:
+class ConfigurationAnswer(Struct, frozen=True):
     """A set that was given for one quantity: singular configurations, branches of the inverse kinematics.
 
     `fault` says why it could not be read, `expected` what to write.
@@ -113,8 +111,7 @@ class ConfigurationAnswer:
     expected: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class VerdictAnswer:
+class VerdictAnswer(Struct, frozen=True):
     """What was said of matrices: (name, `yes`, `no` or `if`) of each, without a name of the only one.
 
     `fault` says why it could not be read, `expected` what to write.
@@ -128,8 +125,7 @@ class VerdictAnswer:
     expected: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class NotRecognized:
+class NotRecognized(Struct, frozen=True):
     """An equation that is no answer; `why` says what kept it from being one.
 
     `answers` are what its sides name; one of names alone would answer them if what it `needs` were
@@ -145,8 +141,7 @@ class NotRecognized:
     waits: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Submission:
+class Submission(Struct, frozen=True):
     """One file that was handed in, for one problem; `student` and `problem` as the file says, or empty.
 
     What is no answer is `not_recognized`, or `left_alone`: definitions, general formulas, and what a
@@ -187,8 +182,7 @@ def worst(verdicts: list[Verdict]) -> Verdict:
     return min(verdicts, key=ORDER.index)
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnosis:
+class Diagnosis(Struct, frozen=True):
     """A named slip; `code` is one of the table's, `message` says it to the student, `hint` what to look at.
 
     `kind` is the class of slip in a few words, for a hint that does not say how.
@@ -200,8 +194,7 @@ class Diagnosis:
     look: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class EntryVerdict:
+class EntryVerdict(Struct, frozen=True):
     """What is said of one entry of a matrix, or of one row of C; `index` counts from 1.
 
     `zero` tells that the key is 0 there for every q, `empty` that it earns nothing by itself:
@@ -217,8 +210,7 @@ class EntryVerdict:
     empty: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Occurrence:
+class Occurrence(Struct, frozen=True):
     """One place where an answer was given."""
 
     place: Place
@@ -226,8 +218,7 @@ class Occurrence:
     verdict: Verdict
 
 
-@dataclass(frozen=True, slots=True)
-class JudgedAnswer:
+class JudgedAnswer(Struct, frozen=True):
     """What is said of one answer; `written` is the tree of what the student wrote.
 
     What it is worth beside its verdict (`zero`, `empty`, `loss`, `parts`) is explained in
@@ -258,8 +249,7 @@ class JudgedAnswer:
     parts: tuple[JudgedAnswer, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Report:
+class Report(Struct, frozen=True):
     """What is said of a hand-in; `answers` stand in the order of the derivation.
 
     What is no answer is in `not_recognized`, where some wait for a human, or in `set_aside` (`ledger`).

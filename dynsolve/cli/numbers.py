@@ -117,6 +117,6 @@ def say(findings: Iterable[Finding], word: str = "") -> None:
 
 def described(finding: Finding, word: str = "") -> str:
     """`file:line:column: word: message`, the source line with a caret, and the remedy."""
-    from dataclasses import replace
+    from msgspec.structs import replace
 
     return str(replace(finding, message=f"{word}: {finding.message}") if word else finding)

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, TypeVar
 
 import typer
+from msgspec import Struct
 
 from dynsolve.cli.numbers import STDIN
 from dynsolve.errors import UsageError
@@ -40,8 +40,7 @@ OutputOption = Annotated[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Output:
+class Output(Struct, frozen=True):
     """A form and a place; no place is standard output."""
 
     format: Format

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.cli.numbers import (
     AtOption,
@@ -84,8 +85,7 @@ MethodOption = Annotated[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class _View:
+class _View(Struct, frozen=True):
     """The part of a solution that is shown, and its form; a `hint` is shown instead of it."""
 
     stages: list[str] | None

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import TypeVar
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -83,8 +84,7 @@ def arm_at(robot: Robot, values: Mapping[str, float]) -> Arm:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class RobotValues:
+class RobotValues(Struct, frozen=True):
     """The values of the robot's formulas at q = 0."""
 
     robot: Robot

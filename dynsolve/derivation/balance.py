@@ -15,8 +15,9 @@ lengths of the table where they can.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import islice
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive

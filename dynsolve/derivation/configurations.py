@@ -13,11 +13,12 @@ that rank.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice, product
 from math import pi
 from operator import mul
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
@@ -48,16 +49,14 @@ REDUNDANT = "the arm has more joints than the task: infinitely many configuratio
 _STEP = 1e-5
 
 
-@dataclass(frozen=True, slots=True)
-class Inverse:
+class Inverse(Struct, frozen=True):
     """How a task is solved, and the branches that solve it."""
 
     solving: Solving
     branches: tuple[Branch, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class NoClosedForm:
+class NoClosedForm(Struct, frozen=True):
     """A task that the known forms do not solve; what reaches a target in numbers is looked for there."""
 
 
@@ -140,8 +139,7 @@ SMALL = 1e-9
 Values = Mapping[str, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(Struct, frozen=True):
     """Two formulas that are to be equal, angles modulo 2π."""
 
     sides: tuple[Node, Node]
@@ -233,8 +231,7 @@ def solution_of(
     return at
 
 
-@dataclass(frozen=True, slots=True)
-class Singular:
+class Singular(Struct, frozen=True):
     """Expressions that are 0 together, the rank there, and the directions that are lost, m×1 each."""
 
     zeros: Sequence[Node]

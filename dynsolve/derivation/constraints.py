@@ -21,10 +21,11 @@ the equations of motion the accelerations are found by elimination; they must ke
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import islice
 from typing import Any
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, quotient

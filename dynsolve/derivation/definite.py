@@ -24,9 +24,11 @@ so one coordinate after the other is taken out.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from enum import Enum
 from random import Random
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.inequality import Bound, follows, independent, opposite, simplified
@@ -42,8 +44,7 @@ MOST = 64
 """More inequalities than this are not worked with."""
 
 
-@dataclass(frozen=True, slots=True)
-class Extreme:
+class Extreme(Struct, frozen=True):
     """An inequality that must hold, and where the function has that value.
 
     `where` is (generator, value) of sines, cosines and lengths, as far as the place is known.
@@ -199,8 +200,7 @@ class Refusal(Enum):
     INDEFINITE = "it is not positive definite"
 
 
-@dataclass(frozen=True, slots=True)
-class Definiteness:
+class Definiteness(Struct, frozen=True):
     """What is found of a matrix.
 
     `minors` are its leading ones; `conditions` what the parameters must satisfy beyond what is

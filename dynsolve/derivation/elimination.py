@@ -8,9 +8,10 @@ The signs of polynomials in parameters, which count as positive, under what is a
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from math import hypot, prod
 from operator import mul
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.factors import is_positive, ratio, trig_factors
@@ -129,8 +130,7 @@ def shortest_step(values: Sequence[float], rows: Rows) -> list[float]:
 # The signs of polynomials in parameters, which count as positive, under what is assumed of them
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterSigns:
+class ParameterSigns(Struct, frozen=True):
     """What is `assumed` of the parameters beside that they are positive; the `nonzero` factors are not 0."""
 
     assumed: tuple[Bound, ...] = ()
@@ -213,8 +213,7 @@ def _factored(value: Expr) -> tuple[bool, list[tuple[Expr, int]]]:
 # Whether there are angles at which A cos θ + B sin θ + C is 0: where A² + B² ≥ C²
 
 
-@dataclass(frozen=True, slots=True)
-class Turn:
+class Turn(Struct, frozen=True):
     """A cos θ + B sin θ + C, with A, B and C free of coordinates."""
 
     pair: Pair

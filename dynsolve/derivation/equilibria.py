@@ -30,10 +30,11 @@ Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
 from itertools import combinations, product
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.inequality import Bound, independent
@@ -72,8 +73,7 @@ class Stability(StrEnum):
     UNDECIDED = "undecided"
 
 
-@dataclass(frozen=True, slots=True)
-class Point:
+class Point(Struct, frozen=True):
     """Quarter turns of angles in a case, and how stable the arm is there.
 
     `neutral` are the coordinates, from 0, along which nothing changes.  Where the stability is
@@ -90,8 +90,7 @@ class Point:
     is_open: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Curvature:
+class Curvature(Struct, frozen=True):
     """The second derivatives of the energy, n×n, and the signs of what stands in them.
 
     `may_be_held` says that forces which do no work act, too.
@@ -256,16 +255,14 @@ MOST_SHOWN_TERMS = 12
 TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 
 
-@dataclass(frozen=True, slots=True)
-class SpecialCase:
+class SpecialCase(Struct, frozen=True):
     """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0."""
 
     factor: Expr
     forces: tuple[Expr, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Equilibria:
+class Equilibria(Struct, frozen=True):
     """Where all of `rows` are 0: at any of the alternatives, with the points of each.
 
     `exist` is what the parameters must satisfy for each to be there.  All this is so where none of the

@@ -10,9 +10,10 @@ accelerations.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from math import atan2
+
+from msgspec import Struct
 
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import ENOUGH
@@ -32,8 +33,7 @@ _NEWTON_STEPS = 60
 _TINY = 1e-12
 
 
-@dataclass(frozen=True, slots=True)
-class Case:
+class Case(Struct, frozen=True):
     """Expressions that are 0 together, and the points among them whose stability is told."""
 
     zeros: tuple[Node, ...]

@@ -17,8 +17,9 @@ the Christoffel symbols, g from the potential energy.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -144,8 +145,7 @@ def torque(
 # The exact comparison of two ways to the same quantity
 
 
-@dataclass(frozen=True, slots=True)
-class Agreement:
+class Agreement(Struct, frozen=True):
     """Whether the two ways to D, C q̇ and g give the same, and whether Ḋ - 2C is skew-symmetric."""
 
     inertia: bool

@@ -23,8 +23,9 @@ Nothing is inverted or eliminated: D q̈ + C q̇ + friction + g, as it is printe
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import islice
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, nullspace, quotient
@@ -87,8 +88,7 @@ MOST_TERMS = 400
 """Equations with more terms together are not multiplied out."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reduced:
+class Reduced(Struct, frozen=True):
     """Z, n×(n-c), and (left, right) of each equation."""
 
     free: Matrix

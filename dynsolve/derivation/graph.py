@@ -8,12 +8,12 @@ evaluates the rules of any graph.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from msgspec import Struct
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+
+class Rule(Struct, frozen=True):
     """name = compute(*inputs): `inputs` names quantities, `compute` is a pure function of their values."""
 
     name: str
@@ -21,8 +21,7 @@ class Rule:
     compute: Callable[..., Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Skipped:
+class Skipped(Struct, frozen=True):
     """What stands for a value whose work goes over a bound, and why."""
 
     why: str

@@ -9,10 +9,11 @@ J q̈ + J̇ q̇ an acceleration.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.derivation.arm_values import RobotValues, arm_at, arms
 from dynsolve.derivation.newton_euler import (
@@ -67,8 +68,7 @@ def verify_kinematics(robot: Robot, results: Mapping[str, Node], states: int = 5
                 )
 
 
-@dataclass
-class _Motion:
+class _Motion(Struct, dict=True):
     """An arm that moves from a state on with constant accelerations."""
 
     robot: Robot

@@ -18,9 +18,10 @@ K = ½ m vᵀv + ½ ωᵀ I ω and P = -m gᵀ r_c.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross, hstack
@@ -150,8 +151,7 @@ def link_frame_rules(robot: Robot) -> Iterator[Rule]:
     yield Rule("D_direct", tuple(parts), partial(inertia_matrix, robot))
 
 
-@dataclass(frozen=True, slots=True)
-class LinkJacobian:
+class LinkJacobian(Struct, frozen=True):
     """J_v of the frame's origin and J_ω, 3×n each, along the frame's own axes."""
 
     linear: Matrix

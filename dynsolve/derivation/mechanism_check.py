@@ -17,8 +17,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -32,8 +33,7 @@ from dynsolve.robot.model import Body, Robot
 # Hyper-dual numbers a + b ε₁ + c ε₂ + d ε₁ε₂ with ε₁² = ε₂² = 0
 
 
-@dataclass(frozen=True, slots=True)
-class HyperDual:
+class HyperDual(Struct, frozen=True):
     """a + b ε₁ + c ε₂ + d ε₁ε₂
 
     >>> x = HyperDual(3.0, 1.0, 1.0)
@@ -137,8 +137,7 @@ BY_BODIES = "Newton's and Euler's laws of each body with virtual work"
 BY_ENERGIES = "Lagrange's equations on numbers"
 
 
-@dataclass(frozen=True, slots=True)
-class Mechanism:
+class Mechanism(Struct, frozen=True):
     """A model without a table at a state: its parameters, coordinates, rates and accelerations in numbers."""
 
     robot: Robot
@@ -261,8 +260,7 @@ class Mechanism:
         return found
 
 
-@dataclass(frozen=True, slots=True)
-class _Moving:
+class _Moving(Struct, frozen=True):
     """A body's motion in the world, and the moment that it takes about its mass centre."""
 
     p: Vector

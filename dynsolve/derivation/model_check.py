@@ -20,10 +20,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from random import Random
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring_values import evaluate
@@ -243,8 +244,7 @@ def verify_recursions(robot: Robot, results: Mapping[str, Node], states: int = 5
                 )
 
 
-@dataclass
-class _Links:
+class _Links(Struct, dict=True):
     """What the recursions give, from an arm at a state."""
 
     robot: Robot

@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 Vector = tuple[float, float, float]
 Rotation = tuple[Vector, Vector, Vector]
@@ -25,8 +26,7 @@ IDENTITY: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _AXES: dict[str, int] = {"x": 0, "z": 2}
 
 
-@dataclass(frozen=True, slots=True)
-class Motion:
+class Motion(Struct, frozen=True):
     """A turn about, or a slide along, the axis `x` or `z` of the frame it starts from.
 
     `amount` is its value at the state; `rates` how it changes with each coordinate.
@@ -38,8 +38,7 @@ class Motion:
     rates: tuple[tuple[int, float], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Mass:
+class Mass(Struct, frozen=True):
     """A body in numbers: mass, centre and tensor about it, both along the axes of its frame `link`."""
 
     mass: float
@@ -48,8 +47,7 @@ class Mass:
     inertia: Rotation
 
 
-@dataclass(frozen=True, slots=True)
-class Rotor:
+class Rotor(Struct, frozen=True):
     """A rotor in numbers: it spins with `ratio` times the rate of coordinate `turns`, counted from 0.
 
     Its axis is x, y or z (0, 1 or 2) of frame `link`, which carries it.
@@ -62,8 +60,7 @@ class Rotor:
     ratio: float
 
 
-@dataclass(frozen=True, slots=True)
-class Arm:
+class Arm(Struct, frozen=True):
     """A robot with numbers in it, at a state q, q̇, q̈; `starts` are the frames that its rows start from."""
 
     rows: tuple[tuple[Motion, ...], ...]
@@ -88,8 +85,7 @@ class Arm:
 # -- outwards: how each frame moves ----------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class MovingFrame:
+class MovingFrame(Struct, frozen=True):
     """Where a frame is and how it moves, along the axes of the world.
 
     R (3×3) and o are its orientation and origin, w and dw its angular velocity and
@@ -129,8 +125,7 @@ class MovingFrame:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class _Axis:
+class _Axis(Struct, frozen=True):
     """A joint's axis in the world: its direction and a point on it."""
 
     motion: Motion

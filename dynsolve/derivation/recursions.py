@@ -12,7 +12,8 @@ nothing.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
@@ -65,8 +66,7 @@ def lift(robot: Robot) -> Matrix:
     return -(robot.base_rotation.T @ robot.gravity)
 
 
-@dataclass(frozen=True, slots=True)
-class Motion:
+class Motion(Struct, frozen=True):
     """How a frame moves, along its own axes: ω, ω̇ and the acceleration of its origin, 3×1 each."""
 
     w: Matrix
@@ -84,8 +84,7 @@ def lever(A: Matrix) -> Matrix:
     return rotation(A).T @ origin(A)
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(Struct, frozen=True):
     """The way from frame i-1 to frame i: the joint, A_i, and the motion of frame i-1."""
 
     joint: Joint
@@ -161,8 +160,7 @@ def force(robot: Robot, carried: Sequence[tuple[Matrix, Matrix]], own: Sequence[
     return total((*(rotation(A) @ f for A, f in carried), *own), robot)
 
 
-@dataclass(frozen=True, slots=True)
-class Carried:
+class Carried(Struct, frozen=True):
     """A link that follows: A_{i+1}, and the f_{i+1} and n_{i+1} that it is held with."""
 
     A: Matrix

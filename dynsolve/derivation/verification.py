@@ -15,9 +15,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import islice
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import evaluate
@@ -46,8 +47,7 @@ _WEIGHTS = (4 / 5, -1 / 5, 4 / 105, -1 / 280)
 """Central differences of the eighth order: what is left is of the order of rounding."""
 
 
-@dataclass(frozen=True, slots=True)
-class ActingForces:
+class ActingForces(Struct, frozen=True):
     """The generalized forces of springs (a part of g) and of friction at a state, and the springs' energy."""
 
     springs: tuple[float, ...]
@@ -111,8 +111,7 @@ _NEGLIGIBLE = 1e-4
 """The part of what moves freely below which a result is rounding."""
 
 
-@dataclass(frozen=True, slots=True)
-class Verification:
+class Verification(Struct, frozen=True):
     """How far the results differ from the independent computation.
 
     `max_relative_error` is the largest over all quantities and states, relative
@@ -152,8 +151,7 @@ Errors = Callable[[Results], Iterator[tuple[str, float]]]
 """(name, relative error) of each result."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Way:
+class _Way(Struct, frozen=True):
     """An independent computation: what it is called; states, and the errors of results there."""
 
     method: str
@@ -194,8 +192,7 @@ def _of_mechanism(robot: Robot) -> Iterator[tuple[Mapping[str, float], Errors]]:
 # -- the comparison --------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class _Independent:
+class _Independent(Struct, frozen=True):
     """A robot at a state by the independent computation.
 
     `forces(q̇, q̈, has_gravity)` are the generalized forces of masses and rotors, `energies` their K and P;

@@ -13,20 +13,20 @@ To add a kind of block, add its dataclass here and its case to each renderer.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.notation.tree import Node
 
 
-@dataclass(frozen=True, slots=True)
-class Verbatim:
+class Verbatim(Struct, frozen=True):
     """What somebody typed, shown as it is: nothing in it is taken for mathematics."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Reference:
+class Reference(Struct, frozen=True):
     """The numbers of results, after words that lead to them: of (3) and (7).
 
     Nothing, words and all, where a page has no numbers.
@@ -43,8 +43,7 @@ Prose = tuple[Inline, ...]
 """A sentence or several."""
 
 
-@dataclass(frozen=True, slots=True)
-class Heading:
+class Heading(Struct, frozen=True):
     """A heading; level 1 is the document's title.
 
     From one that is `closing` to the end is one page, where all of that fits one; an `appendix` may be
@@ -57,16 +56,14 @@ class Heading:
     appendix: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Struct, frozen=True):
     """A paragraph; `source` is where the textbook has what it says."""
 
     parts: Prose
     source: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Formula:
+class Formula(Struct, frozen=True):
     """A displayed formula.
 
     `source` is where the textbook has it.  `label` names a result, so that it may be
@@ -90,8 +87,7 @@ DEFINITIONS = "names-"
 """What the label of a display begins with that defines names."""
 
 
-@dataclass(frozen=True, slots=True)
-class Equations:
+class Equations(Struct, frozen=True):
     """Short equations in one display, one under another and level at their equals signs.
 
     Many that do not follow from each other are set `in_columns` where there is room.  A `label`
@@ -104,16 +100,14 @@ class Equations:
     also: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Uses:
+class Uses(Struct, frozen=True):
     """What goes into the next formula: labels of formulas that stand before it; `parts` leads on to it."""
 
     labels: tuple[str, ...]
     parts: Prose = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Struct, frozen=True):
     """A drawing: SVG for what can show it, LaTeX's own `picture` for what sets type with LaTeX."""
 
     svg: str
@@ -121,30 +115,26 @@ class Picture:
     latex: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class List:
+class List(Struct, frozen=True):
     """Items, one under another."""
 
     items: tuple[Prose, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Note:
+class Note(Struct, frozen=True):
     """A remark beside the text: a pitfall that applies here."""
 
     parts: Prose
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Struct, frozen=True):
     """Rows of cells under a header, each cell words or a formula."""
 
     header: tuple[Inline, ...]
     rows: tuple[tuple[Inline, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Fold:
+class Fold(Struct, frozen=True):
     """Blocks that belong together under a title and may be folded away, further folds among them."""
 
     title: str
@@ -154,8 +144,7 @@ class Fold:
 Block = Heading | Text | Formula | Equations | Uses | List | Note | Table | Picture | Fold
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
+class Document(Struct, frozen=True):
     """Blocks in order."""
 
     blocks: tuple[Block, ...]

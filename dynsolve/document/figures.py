@@ -6,8 +6,9 @@ lines, `dynsolve.draw.figure` the arm.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 from dynsolve.notation.tree import Node
 
@@ -22,8 +23,7 @@ class LineKind(Enum):
     HELP = "help"
 
 
-@dataclass(frozen=True, slots=True)
-class FigureLine:
+class FigureLine(Struct, frozen=True):
     """A straight line; its name stands in the middle, that of an axis at its end."""
 
     start: Place
@@ -32,8 +32,7 @@ class FigureLine:
     name: Node | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class FigureAngle:
+class FigureAngle(Struct, frozen=True):
     """The angle at a place from one direction to another, both in radians from x to y."""
 
     at: Place
@@ -42,8 +41,7 @@ class FigureAngle:
     name: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Figure:
+class Figure(Struct, frozen=True):
     """A drawing, what it shows in words, and the places that are marked by a point."""
 
     caption: str
@@ -52,16 +50,14 @@ class Figure:
     points: tuple[Place, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class ArmArrow:
+class ArmArrow(Struct, frozen=True):
     """An arrow at the tip of the arm; `direction` are its three components in the world."""
 
     name: Node
     direction: tuple[Node, Node, Node]
 
 
-@dataclass(frozen=True, slots=True)
-class ArmFigure:
+class ArmFigure(Struct, frozen=True):
     """The arm where all `zeros` are 0, formulas in the coordinates and parameters, with arrows at its tip."""
 
     caption: str

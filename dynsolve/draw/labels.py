@@ -11,9 +11,10 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from random import Random
+
+from msgspec import Struct
 
 from dynsolve.draw.paths import LabelLine, Path, flattened
 from dynsolve.draw.vectors import Point, segment_distance
@@ -25,8 +26,7 @@ CELL = 3.0
 """The side of a cell of the grid."""
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(Struct, frozen=True):
     """An upright rectangle on paper."""
 
     left: float
@@ -200,8 +200,7 @@ _BESIDE, _ABOVE = 7.0, 2.0
 """The least room between two labels."""
 
 
-@dataclass(frozen=True, slots=True)
-class Wanted:
+class Wanted(Struct, frozen=True):
     """A label to be placed beside any of its anchors, best in the direction `toward` from it.
 
     `radius` is how far around an anchor its own symbol reaches.
@@ -216,8 +215,7 @@ class Wanted:
     radius: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+class Label(Struct, frozen=True):
     """A label in its place; `lead` is the line to what it names, where it stands far away."""
 
     node: Node
@@ -228,8 +226,7 @@ class Label:
     lead: tuple[Point, Point] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class _Place:
+class _Place(Struct, frozen=True):
     box: Box
     lead: tuple[Point, Point] | None
     cost: float

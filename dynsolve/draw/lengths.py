@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.draw import paths
@@ -73,8 +74,7 @@ _CROWDED = 0.3
 """The part of its line from which a length that can be missed is left out."""
 
 
-@dataclass(frozen=True, slots=True)
-class Length:
+class Length(Struct, frozen=True):
     """A length from one point to another; an `optional` one is left out where it has no room."""
 
     start: Vector
@@ -123,8 +123,7 @@ def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:
             reserved.append(_Reserved(None, line))
 
 
-@dataclass(frozen=True, slots=True)
-class _Reserved:
+class _Reserved(Struct, frozen=True):
     """The place of a label with the way to what it names, or with the line from afar; or a length's line."""
 
     box: Box | None

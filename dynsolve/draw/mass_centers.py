@@ -12,10 +12,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from enum import Enum
 from functools import partial
 from itertools import cycle, permutations, product
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -264,8 +266,7 @@ class Form(Enum):
     BALL = "ball"
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnBody:
+class DrawnBody(Struct, frozen=True):
     """A body on a link: its centre and its axes in space, `main` the one (0, 1 or 2) that it is round about.
 
     `halves` are half its sides along its axes, where the longest length of the table is 1, or None where

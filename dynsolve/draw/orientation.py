@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from dynsolve.draw.skeleton import DrawnFrame, RobotNumbers, Skeleton, base_frame, finite, skeleton
 from dynsolve.draw.vectors import (
@@ -23,8 +23,7 @@ _FLAT = 1e-6
 _PROBES = (0.3, 1.1, -0.7)
 
 
-@dataclass(frozen=True, slots=True)
-class Orientation:
+class Orientation(Struct, frozen=True):
     """Which way is up, and what the robot moves in.
 
     `gravity` is a unit vector, None without gravity; `ahead` a level direction of the

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
+
+from msgspec import Struct
 
 from dynsolve.draw.skeleton import Leg, Skeleton
 from dynsolve.draw.vectors import NEAR, Vector, View, along, distance, dot, length, scale, subtract, unit
@@ -42,8 +43,7 @@ _LEVEL = 0.5
 NO_SLEEVES: Mapping[int, float] = MappingProxyType({})
 
 
-@dataclass(frozen=True, slots=True)
-class JointBody:
+class JointBody(Struct, frozen=True):
     """A cylinder (revolute) or a box (prismatic) around a joint's axis."""
 
     row: int
@@ -52,8 +52,7 @@ class JointBody:
     axis: Vector
 
 
-@dataclass(frozen=True, slots=True)
-class Parts:
+class Parts(Struct, frozen=True):
     """All parts, and the links between them, the first from the ground.
 
     `ground` is where the base stands, `ground_side` the direction of an edge of its plate: that of

@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import pairwise
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.draw.vectors import Point
 from dynsolve.notation.characters import GREEK, describes, runs, split
@@ -37,8 +39,7 @@ FRAME = "#1f5fa8"
 VARIABLE = "#b3321c"
 
 
-@dataclass(frozen=True, slots=True)
-class Path:
+class Path(Struct, frozen=True):
     """A line, an area or both; a colour is `#rrggbb`, None for none."""
 
     commands: Commands
@@ -162,8 +163,7 @@ _NARROW = "fijlrtι.,:;'|()/°\u00a0"
 _WIDE = "mwMWGHKNOQDUAωφψΦΨΩΘ"
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
+class Run(Struct, frozen=True):
     """Letters of one look, in picture units.
 
     `shift` is how far below the line they stand, `gap` the space before them: programs
@@ -178,8 +178,7 @@ class Run:
     bold: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class LabelLine:
+class LabelLine(Struct, frozen=True):
     """A label as it is set: its runs, its width and its height."""
 
     runs: tuple[Run, ...]

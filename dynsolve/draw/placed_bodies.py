@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.mechanism import orientation

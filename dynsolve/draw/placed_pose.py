@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations, islice, pairwise, permutations
 from random import Random
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
@@ -62,8 +63,7 @@ class Kind(Enum):
     OTHER = "other"
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(Struct, frozen=True):
     """A straight piece from a point to another; `direction` is what stands beside its length.
 
     `length` is None where it is no monomial times a rational number.
@@ -240,8 +240,7 @@ _ENOUGH = 0.22
 """Points that are further apart than this part of the whole picture are no better for it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Turning:
+class Turning(Struct, frozen=True):
     """What an angle turns at a vertex: its unit directions from where the angle is 0 to its value.
 
     `is_axis` says that it is an axis of a body, and no piece.
@@ -253,8 +252,7 @@ class Turning:
     is_axis: bool
 
 
-@dataclass(frozen=True, slots=True)
-class PlacedPose:
+class PlacedPose(Struct, frozen=True):
     """Bodies in numbers: the value of every name, the ways to the bodies, and how they are seen."""
 
     robot: Robot

@@ -19,10 +19,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from random import Random
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.draw.mass_centers import drawn_bodies, sleeves, with_masses

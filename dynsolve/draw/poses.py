@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from itertools import combinations, pairwise
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.draw import paths
@@ -59,8 +60,7 @@ MANY = 4
 """A robot with more rows than that has more to write beside it than there is room for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(Struct, frozen=True):
     """A robot in its pose, seen from where it shows best, with the uniform bodies on its links."""
 
     skeleton: Skeleton
@@ -242,8 +242,7 @@ _AROUND = 11.0
 """Its radius around an axis that is seen end on."""
 
 
-@dataclass
-class Notes:
+class Notes(Struct, dict=True):
     """Paths and labels as they are collected; `taken` is what is drawn so far, `solid` the robot's body.
 
     `behind` are the paths that the body of the robot is drawn over, `lengths` the lines of lengths,

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Box, bounds
@@ -15,8 +17,7 @@ END_ON = 0.999
 """The cosine between an axis and the line of sight from which it is seen end on."""
 
 
-@dataclass(frozen=True, slots=True)
-class Material:
+class Material(Struct, frozen=True):
     """The colours of what is lit from above: its top, its side, its darker side."""
 
     top: str
@@ -28,8 +29,7 @@ JOINT = Material(paths.CAP, paths.SIDE, paths.DARK_SIDE)
 BODY = Material("#f8f0dc", "#ecdfc0", "#d9c9a3")
 
 
-@dataclass(frozen=True, slots=True)
-class Solid:
+class Solid(Struct, frozen=True):
     """Paths that belong together; what is nearer the viewer is drawn later.
 
     A piece of a straight tube says which tube it is of, and from where to where it

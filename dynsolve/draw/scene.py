@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.constraints import holonomic
@@ -147,8 +148,7 @@ _STAR = Style(star=True, decimal=True)
 PLAIN = Style(decimal=True)
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Struct, frozen=True):
     """Paths from back to front, labels on top of them, and the box that holds everything.
 
     `caption` stands under it in a report, `description` is for those who cannot see it.

@@ -17,7 +17,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -59,8 +60,7 @@ _RETRIES = ((1.0, 0.0), (1.3, 0.1), (0.7, 0.3), (1.1, -0.4))
 """(factor, spread) of what undetermined parameters are tried with, until every root is real."""
 
 
-@dataclass(frozen=True, slots=True)
-class TableRow:
+class TableRow(Struct, frozen=True):
     """A row of the table in numbers, without its joint variable; the longest length is 1.
 
     `offset` is the part of `theta` that is a number of degrees beside one coordinate: the 90° of θ_1 + 90°.
@@ -73,8 +73,7 @@ class TableRow:
     offset: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class RobotNumbers:
+class RobotNumbers(Struct, frozen=True):
     """A robot in numbers: its rows in picture lengths, and the value of every parameter.
 
     `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world, `moved` is where it
@@ -229,8 +228,7 @@ def drawn_length(ratio: float) -> float:
 # The geometry of a robot at one pose: its frames, and the legs d and a of its rows
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnFrame:
+class DrawnFrame(Struct, frozen=True):
     """A frame in the world."""
 
     origin: Vector
@@ -247,8 +245,7 @@ class DrawnFrame:
         return self.axes[2]
 
 
-@dataclass(frozen=True, slots=True)
-class Leg:
+class Leg(Struct, frozen=True):
     """A row of the table in space.
 
     `axis` is the direction of the joint's axis, `before` and `after` the x axes that
@@ -286,8 +283,7 @@ class Leg:
         return self.start if length(beside) < NEAR else self.end
 
 
-@dataclass(frozen=True, slots=True)
-class MassCenter:
+class MassCenter(Struct, frozen=True):
     """A mass centre.
 
     `from_` is where its one free `symbol` is measured from, if it has just one;
@@ -306,8 +302,7 @@ class MassCenter:
     chosen: tuple[tuple[str, float], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Skeleton:
+class Skeleton(Struct, frozen=True):
     """A robot at a pose: frames 0..m, legs 1..m, and the mass centres.
 
     `path` are the points of the chain from frame 0 to the last, each once.

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import groupby
+
+from msgspec.structs import replace
 
 from dynsolve.draw import paths
 from dynsolve.draw.mass_centers import DrawnBody, Form

@@ -6,7 +6,9 @@ How space is laid on paper: a parallel projection, its size and its place.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 # Vectors of three and of two numbers: as much geometry as a picture needs
 
@@ -148,8 +150,7 @@ def _side(a: Point, b: Point, p: Point) -> float:
 # How space is laid on paper: a parallel projection, its size and its place
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(Struct, frozen=True):
     """A parallel projection; y of the paper grows downwards.
 
     `right` and `up` are the directions of the paper, `toward` the one to the viewer;

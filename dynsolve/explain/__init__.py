@@ -43,8 +43,9 @@ Long models are written in names (`--abbreviate`):
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from importlib import import_module
+
+from msgspec.structs import replace
 
 from dynsolve.errors import attempted
 from dynsolve.explain.context import Context

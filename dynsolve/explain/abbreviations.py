@@ -19,11 +19,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from functools import partial
 from itertools import count
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -88,8 +89,7 @@ _Monomial = tuple[Fraction, Counter[Node]]
 """A number and factors, each with how often it stands above the line, or (negative) below."""
 
 
-@dataclass(frozen=True, slots=True)
-class Exchange:
+class Exchange(Struct, frozen=True):
     """A formula, and what stands in its place: of a sum also among more terms, of others among factors.
 
     >>> from dynsolve.notation.python import to_python
@@ -177,8 +177,7 @@ def _monomial(node: Node) -> _Monomial:
 # -- the model in names ----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class InertiaNames:
+class InertiaNames(Struct, frozen=True):
     """The definitions in order, their derivatives by the coordinates, and the formulas in these names.
 
     `by` are the coordinates, from 1, that the named sums depend on.
@@ -201,8 +200,7 @@ class InertiaNames:
         return frozenset(one.name for one in self.definitions)
 
 
-@dataclass(frozen=True, slots=True)
-class Abbreviated:
+class Abbreviated(Struct, frozen=True):
     """Definitions in the order in which they build on each other, and the forms that use them.
 
     `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.

@@ -6,7 +6,8 @@ The stages that they belong to, `energy`, `torque` and `vectorized`, put them in
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix

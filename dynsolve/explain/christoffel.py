@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.euler_lagrange import agreement

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -22,8 +23,7 @@ from dynsolve.robot.drawing.normals import Normals
 from dynsolve.robot.model import Body, Convention, JointType, Robot
 
 
-@dataclass(frozen=True, slots=True)
-class Context:
+class Context(Struct, frozen=True):
     """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree.
 
     `normals` are those of a drawing that the table was found from, `lengths` values in m as the

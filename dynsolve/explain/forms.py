@@ -9,9 +9,10 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -331,8 +332,7 @@ ChristoffelSymbols = Callable[[int, int, int], Node]
 """c_ijk of i, j, k from 0, and ZERO for one that is zero."""
 
 
-@dataclass(frozen=True, slots=True)
-class EntryFormulas:
+class EntryFormulas(Struct, frozen=True):
     """The formulas of the energies, momenta and forces for given ways to write d_ij, c_ijk, g_k and friction.
 
     Indices count from 0.  Each pair of rates is written once: q̇_i q̇_j with i ≤ j.

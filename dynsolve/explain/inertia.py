@@ -6,7 +6,8 @@ The first step of a body, its mass centre, is in `mass_centers`, how R I Rᵀ co
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import link_frame

@@ -6,9 +6,10 @@ And the columns z × (p - o) of any point, in letters and with the axes and leve
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+
+from msgspec.structs import replace
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.expr import Expr

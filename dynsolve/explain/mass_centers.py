@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
@@ -71,8 +72,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Way:
+class _Way(Struct, frozen=True):
     """A mass centre in letters and, where these are short, in values; what is given for it; its inputs.
 
     `source` is what the formula rests on: a rigid motion, unless the centre is a given point or between two.
@@ -206,8 +206,7 @@ def other_end(robot: Robot, body: Body) -> tuple[int, algebra.Matrix] | None:
 # -- how the tensor of a body along the axes of the base comes about: R I Rᵀ, or why it stays as it is
 
 
-@dataclass(frozen=True, slots=True)
-class Turning:
+class Turning(Struct, frozen=True):
     """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result.
 
     `same` is the tensor that it is equal to, where the rotation does not change it, being about its `axis`.

@@ -6,7 +6,8 @@ Only where the matrix, with it in front, fits every page: a wider one is given e
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.compact.collect import matrix_factor
 from dynsolve.explain.context import Context, style_of

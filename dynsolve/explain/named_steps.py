@@ -17,9 +17,10 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import pairwise
 from math import gcd
+
+from msgspec.structs import replace
 
 from dynsolve.document import DEFINITIONS, Inline, Prose, Reference
 from dynsolve.document.sentences import say

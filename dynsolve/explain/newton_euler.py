@@ -9,8 +9,10 @@ in the standard convention; Craig, section 6.5, in the modified.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.derivation import recursions
@@ -68,8 +70,7 @@ def steps(context: Context) -> Iterator[Step]:
 # -- the letters of a link, and the terms of each recursion in them, of one link or of link i ------
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """The letters of a link by its index and that of the frame before it, and of one of its bodies.
 
     In the `standard` convention the joint lies on the axis of the frame before.

@@ -7,7 +7,9 @@ cosines, then the letters of the textbook (`explain.textbook_letters`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.document import Block, Inline, Prose, Table
 from dynsolve.document.sentences import say
@@ -89,8 +91,7 @@ def _written_out(node: Function) -> Node:
 # -- the lines of a report -------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Notation:
+class Notation(Struct, frozen=True):
     """What is said of the signs of a report: sentences about all of them, and a line for each."""
 
     remarks: Prose

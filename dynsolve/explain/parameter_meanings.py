@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 from string import ascii_letters, digits
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
@@ -31,8 +33,7 @@ from dynsolve.robot.shapes import AXES, MASS, Shape
 from dynsolve.robot.units import ENERGY, si
 
 
-@dataclass(frozen=True, slots=True)
-class Meaning:
+class Meaning(Struct, frozen=True):
     """What a parameter is.
 
     `words` hold {link}, {body} and {before} where numbers stand, as o{link} where one is an index of 𝐨, 𝐱 or

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations_with_replacement, count
 from typing import TypeVar
 
 from flint import fmpq
+from msgspec import Struct, field
 
 from dynsolve.algebra.compact.terms import Exponents, primitive
 from dynsolve.algebra.expr import Expr
@@ -41,8 +41,7 @@ MOST_SHOWN = 24
 """With more coefficients only the parameters are shown."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Linear:
+class _Linear(Struct, frozen=True):
     """Forces that are linear in parameters: τ = Y a, and the same of a part of them."""
 
     Y: str
@@ -214,8 +213,7 @@ HIGHEST = 2
 """The degree up to which lengths multiply a base parameter; a moment of inertia is mass times length²."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Row:
+class _Row(Struct, frozen=True):
     """A product of lengths and a base parameter, without what the rows before it hold of it."""
 
     lead: Exponents
@@ -223,8 +221,7 @@ class _Row:
     made_of: Combination
 
 
-@dataclass
-class BaseParameters:
+class BaseParameters(Struct, dict=True):
     """The base parameters of a robot, and the ring in which they are symbols.
 
     `letter` begins their names.  A coefficient that is one symbol keeps it.

@@ -6,7 +6,8 @@ They stand in the place of those that start from frames; see `inertia` and `ener
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose

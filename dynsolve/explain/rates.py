@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.linear_systems import is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work

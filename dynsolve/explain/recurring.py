@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import combinations
 from math import gcd, lcm
+
+from msgspec import Struct
 
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.printing import flat_factors
@@ -48,8 +49,7 @@ ROUNDS = 8
 _Key = frozenset[Node]
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
+class Definition(Struct, frozen=True):
     """name = meaning"""
 
     name: Symbol

@@ -15,9 +15,10 @@ To give a letter another one, add it to `ALTERNATIVES`.  The choices are told in
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from functools import reduce
 from itertools import chain, combinations, product
+
+from msgspec.structs import replace
 
 from dynsolve.document import Block, Equations, Fold, Formula, List, Note, Table, Text, Uses
 from dynsolve.explain.context import shown_digits, style_of

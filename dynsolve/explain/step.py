@@ -8,9 +8,11 @@ values, and chooses which steps and lines are shown (`solution.depths`).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from enum import Flag, IntEnum, auto
 from typing import cast
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.document import Prose, Table
 from dynsolve.document.figures import ArmFigure, Figure
@@ -27,8 +29,7 @@ class Detail(IntEnum):
     FULL = 4
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """Steps that are alike or lead to one thing: in full a section of its own, else one step.
 
     `why` is said in place of what the steps say one by one, and `formula` stands in place of theirs.
@@ -66,8 +67,7 @@ STATED = Part.FORMULA | Part.RESULT
 """The formula in letters and the result."""
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """A line between the formula and the result: the operation, in words, and the formulas it gives.
 
     Words that end in a colon lead on; where what goes in is put in without more, there are none.
@@ -100,8 +100,7 @@ OF_ITS_FILE = cast(Stage, "")
 """The stage of a step that says none: `explain` gives it that of the file it comes from."""
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(Struct, frozen=True):
     """One step of a derivation.
 
     `id` is the name of what it gives (`A1`, `Jv2`, `tau1`), `also` the names of further

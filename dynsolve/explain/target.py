@@ -8,12 +8,14 @@ these numbers, configurations are looked for in numbers.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import groupby
 from math import degrees, floor, pi
 from typing import TYPE_CHECKING
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
@@ -63,8 +65,7 @@ _OTHER_PLACES = (1.0, 2.0)
 """Where a coordinate that is free is put to see that it is."""
 
 
-@dataclass(frozen=True, slots=True)
-class Configuration:
+class Configuration(Struct, frozen=True):
     """One configuration: the value of each coordinate, in numbers and as a formula.
 
     `branches` are the numbers (from 1) of the branches that it comes from.  `free` coordinates may
@@ -79,16 +80,14 @@ class Configuration:
     outside: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Unmet:
+class Unmet(Struct, frozen=True):
     """A branch with a condition that does not hold at these numbers."""
 
     branch: int
     condition: Condition
 
 
-@dataclass(frozen=True, slots=True)
-class Lost:
+class Lost(Struct, frozen=True):
     """A branch that is not real at these numbers: the coordinate would be `function` of `argument`."""
 
     branch: int
@@ -309,8 +308,7 @@ class TargetForms:
 # -- one branch of the inverse kinematics at numbers: every coordinate, exactly where it can be ----
 
 
-@dataclass(slots=True)
-class BranchValues:
+class BranchValues(Struct):
     """The coordinates of a branch as far as they are known: by number, and exactly as far as they are.
 
     `free` are angles whose formula says nothing at these numbers; they stand at a place of their own.

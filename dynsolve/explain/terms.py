@@ -13,8 +13,9 @@ By the rates, so that it is true of every robot (Spong, Hutchinson, Vidyasagar, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline, Prose, Reference, Table
@@ -78,8 +79,7 @@ _MEANINGS: dict[Kind, str] = {
 _TWICE = " The 2 of a Coriolis term comes from two equal symbols{symbols}: $c_ijk + c_jik = 2 c_ijk$."
 
 
-@dataclass(frozen=True, slots=True)
-class Term:
+class Term(Struct, frozen=True):
     """A term of force k: factor · rates, in letters and in value; `rates` are (place, dots)."""
 
     kind: Kind

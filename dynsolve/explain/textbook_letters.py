@@ -14,7 +14,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.explain.signs import CONSTANTS_OF_SOLUTIONS, MOTIONS, Kind, kind_of
 from dynsolve.explain.writing import machine, side_by_side
@@ -32,8 +34,7 @@ WIDEST = 8.0
 """Signs of one meaning that are wider together, in em, are the first, the second and the last."""
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """A line of the list: signs, their meaning and unit; the kinds of signs that it explains.
 
     Where each sign has words of its own, these are `each`, and `meaning` is what follows them.

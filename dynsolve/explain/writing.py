@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from types import MappingProxyType
+
+from msgspec import Struct
 
 from dynsolve.document import Inline, Prose
 from dynsolve.notation.build import split_sign
@@ -31,8 +32,7 @@ SIGN = "§"
 """What a section's number begins with: a bare 7.2 would read as the number of a step or an equation."""
 
 
-@dataclass(frozen=True, slots=True)
-class Book:
+class Book(Struct, frozen=True):
     """A book: what a step calls it (nothing for the course's own), the edition in full, its sections."""
 
     name: str

@@ -23,10 +23,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby
 from statistics import correlation, fmean
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.answers.judge import BY_PARTS
 from dynsolve.answers.marking.marks import Marked, deduction, maximum, points
@@ -41,8 +43,7 @@ FEWEST = 3
 """Two students always lie on a line."""
 
 
-@dataclass
-class Item:
+class Item(Struct, dict=True):
     """The marks of one answer, of those whose hand-in does not wait; `totals` are theirs for everything.
 
     Of whom another hand-in waits for a human there is no total yet: None.
@@ -101,8 +102,7 @@ OVERTAKEN = "its marks were set by hand for an earlier hand-in"
 LEFT_ASIDE = "left aside: a newer copy counts"
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """Something for a human: `what` it is, a file or an answer, why, and the answer that waits for marks."""
 
     student: str
@@ -180,8 +180,7 @@ def for_a_human(a: RecordedAnswer) -> str:
 # What the record comes to
 
 
-@dataclass(frozen=True, slots=True)
-class Standing:
+class Standing(Struct, frozen=True):
     """A student's marks by problem; a problem that was not handed in is not among them.
 
     `unjudged` are the problems that wait for a human, with the reasons: they have no marks yet.
@@ -240,24 +239,21 @@ Slip = tuple[str, str, str]
 """The problem, the answer and the code of a slip."""
 
 
-@dataclass(frozen=True, slots=True)
-class SlipExample:
+class SlipExample(Struct, frozen=True):
     """An example of a slip: the student, and the message or the text of the answer."""
 
     student: str
     text: str
 
 
-@dataclass
-class Alike:
+class Alike(Struct, dict=True):
     """Those who wrote the same wrong expression."""
 
     text: str
     students: list[str]
 
 
-@dataclass
-class Cohort:
+class Cohort(Struct, dict=True):
     """What is counted: nothing of a hand-in that waits for a human, but that it waits.
 
     `items` are the answers with marks, `names` what students are called, `pages` are the hand-ins with

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.errors import InputError
@@ -45,8 +47,7 @@ _KINDS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class File:
+class File(Struct, frozen=True):
     """A file that counts: where it lies, the name it was handed in under, and what identifies it.
 
     `others` are the parts of its text that are for other problems.
@@ -58,8 +59,7 @@ class File:
     others: tuple[Span, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class HandIn:
+class HandIn(Struct, frozen=True):
     """What one student handed in for one problem.
 
     `late` are the days that it is late, `left` the copies that do not count, `group` is the
@@ -84,8 +84,7 @@ class HandIn:
         return tuple(printable(str(file.upload.path)) for file in self.files)
 
 
-@dataclass(frozen=True, slots=True)
-class Intake:
+class Intake(Struct, frozen=True):
     """All that was handed in.
 
     `students` are the rows, with the platform's id of each, `groups` those of the students whose group
@@ -102,8 +101,7 @@ class Intake:
     late: dict[tuple[str, str], int] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
-class _Piece:
+class _Piece(Struct, frozen=True):
     """A file with its owner and the problem it is for."""
 
     owner: FileOwner
@@ -199,8 +197,7 @@ def _owners_of_refused(owners: FileOwners, path: PurePosixPath) -> list[tuple[st
     return [(owner.student, owner.id) for owner in owners.of(path)]
 
 
-@dataclass(frozen=True, slots=True)
-class _Left:
+class _Left(Struct, frozen=True):
     """A file that waits for a human, with the reason."""
 
     owner: FileOwner

@@ -12,11 +12,12 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
 from itertools import groupby
 from pathlib import Path
+
+from msgspec import Struct
 
 from dynsolve.answers.marking.marks import deduction, points, shown
 from dynsolve.errors import Finding, InputError
@@ -36,8 +37,7 @@ from dynsolve.render.prose import visible
 COLUMNS = ("student", "problem", "answer", "marks", "comment")
 
 
-@dataclass(frozen=True, slots=True)
-class ByHand:
+class ByHand(Struct, frozen=True):
     """Marks, a comment or both for one answer; `line` is where they stand."""
 
     student: str
@@ -167,8 +167,7 @@ def _whose(record: Record, names: Mapping[str, str]) -> dict[str, str]:
     return {**names, **{s: f"{group} ({', '.join(members[group])})" for s, group in groups.items()}}
 
 
-@dataclass(frozen=True, slots=True)
-class _Head:
+class _Head(Struct, frozen=True):
     """The head of a student's page: whose it is, of which set, the marks, and of each answer why."""
 
     title: str

@@ -23,9 +23,10 @@ import threading
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
+
+from msgspec import Struct
 
 import dynsolve
 from dynsolve.errors import UsageError
@@ -127,8 +128,7 @@ _OUT_OF_TIME = getattr(signal, "SIGPROF", 0)
 _KILLED = getattr(signal, "SIGKILL", 0)
 
 
-@dataclass(frozen=True, slots=True)
-class Bounds:
+class Bounds(Struct, frozen=True):
     """What one hand-in may use: seconds of the processor, and bytes of memory."""
 
     seconds: float = 20.0

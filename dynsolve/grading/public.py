@@ -9,10 +9,11 @@ import os
 import re
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from unicodedata import normalize
+
+from msgspec import Struct
 
 from dynsolve.answers.marking.marks import shown
 from dynsolve.errors import Finding, InputError, UsageError
@@ -87,8 +88,7 @@ def _words(name: str) -> list[str]:
 # `dynsolve.grade` and `dynsolve.override`: grading a course from Python
 
 
-@dataclass(frozen=True, slots=True)
-class Grades:
+class Grades(Struct, frozen=True):
     """What a run has come to.
 
     `totals` are the marks of each student, `hand_ins` how many hand-ins there are,

@@ -10,7 +10,6 @@ import base64
 import json
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from hashlib import sha256
 from html import escape
@@ -18,6 +17,8 @@ from importlib.resources import files
 from itertools import groupby
 from pathlib import Path, PurePosixPath
 from urllib.parse import quote
+
+from msgspec import Struct, field
 
 from dynsolve.answers.marking.marks import points, shown
 from dynsolve.answers.reading.files import ENDINGS, FORMATS
@@ -42,8 +43,7 @@ _LONGEST_LINE = 2000
 _LINE = re.compile(r"\bline (\d+)(?: of (.+?))?(?:$|;)")
 
 
-@dataclass(frozen=True)
-class _Course:
+class _Course(Struct, frozen=True, dict=True):
     """What an entry is written from."""
 
     folder: Path

@@ -15,12 +15,13 @@ import base64
 import json
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from msgspec import Struct
 
 from dynsolve.answers.marking.marks import Marked, Policy, deduction, mark, points
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
@@ -134,8 +135,7 @@ _COLUMNS = itemgetter(*_ANSWER)
 _CODES = _ANSWER.index("diagnosis")
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Waiting:
+class Waiting(Struct, frozen=True, order=True):
     """Something for a human to look at; `student` and `problem` as far as they are known."""
 
     student: str
@@ -173,8 +173,7 @@ class RecordedAnswer(NamedTuple):
     comment: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class RecordedHandIn:
+class RecordedHandIn(Struct, frozen=True):
     """One hand-in as it stands in the record."""
 
     student: str

@@ -13,11 +13,12 @@ import base64
 import json
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from pathlib import Path, PurePath
 from typing import Any, Protocol
+
+from msgspec import Struct
 
 from dynsolve.answers.marking.marks import to_data
 from dynsolve.errors import Finding, InputError
@@ -76,8 +77,7 @@ class Pool(Protocol):
         """End all work."""
 
 
-@dataclass(frozen=True, slots=True)
-class Done:
+class Done(Struct, frozen=True):
     """How much a run had to do: all hand-ins, those that were judged, and those only marked anew."""
 
     hand_ins: int

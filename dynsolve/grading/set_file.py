@@ -30,9 +30,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path, PurePath
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.answers.marking.marks import Policy, from_data, shown, to_data
@@ -81,8 +83,7 @@ FILE = "groups.csv"
 _KEYS = ("group", "student")
 
 
-@dataclass(frozen=True, slots=True)
-class Membership:
+class Membership(Struct, frozen=True):
     """A student of a group."""
 
     group: str
@@ -103,8 +104,7 @@ def _membership(cells: dict[str, str]) -> Membership | Fault:
 # What is graded: problems with their marks and a policy, and how the record keeps them
 
 
-@dataclass(frozen=True, slots=True)
-class Item:
+class Item(Struct, frozen=True):
     """One problem of a set, with the text it was read from; its `marks` are those that count."""
 
     problem: Problem
@@ -116,8 +116,7 @@ class Item:
         return self.problem.stem
 
 
-@dataclass(frozen=True, slots=True)
-class ProblemSet:
+class ProblemSet(Struct, frozen=True):
     """The problems of a course's assignment, in order, and how they are marked."""
 
     title: str

@@ -32,12 +32,13 @@ import stat
 import zipfile
 from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import reduce
 from hashlib import sha256
 from operator import or_
 from pathlib import Path, PurePosixPath
 from typing import IO, TypeVar
+
+from msgspec import Struct
 
 from dynsolve.errors import Finding, InputError, ProblemError
 from dynsolve.problem.kinds import did_you_mean
@@ -72,8 +73,7 @@ _MAX_WHOSE = 30_000_000
 """Gradescope's list of whose the submissions are holds the output of its programs, too."""
 
 
-@dataclass(frozen=True, slots=True)
-class Upload:
+class Upload(Struct, frozen=True):
     """A file by its path within what was handed in; `order` grows with its date.
 
     `within` is the zip that was handed in with the file in it.
@@ -85,8 +85,7 @@ class Upload:
     within: Upload | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Refused:
+class Refused(Struct, frozen=True):
     """A file that is not taken: its name as it may be shown, and why."""
 
     name: str
@@ -443,8 +442,7 @@ FILE = "extensions.csv"
 _KEYS = ("student", "days", "problem")
 
 
-@dataclass(frozen=True, slots=True)
-class Extension:
+class Extension(Struct, frozen=True):
     """So many days more for a student, for one problem or (an empty name) for all."""
 
     student: str

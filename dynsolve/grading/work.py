@@ -12,11 +12,12 @@ import base64
 import os
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache, partial
 from hashlib import sha256
 from typing import Any, TypeVar
+
+from msgspec.structs import replace
 
 from dynsolve.answers.judge import REMEDY, Checker, Judge, Stopped, limited
 from dynsolve.answers.marking.marks import Marked, from_data, mark

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
+
+from msgspec import Struct, field
 
 from dynsolve.notation.tree import (
     Function,
@@ -48,8 +49,7 @@ def lower_indices(node: Letter) -> int:
     return 1
 
 
-@dataclass(frozen=True, slots=True)
-class Style:
+class Style(Struct, frozen=True):
     """How a formula is to look.
 
     `shorthand` maps the name of a coordinate to its subscript in s_1 and c_12,

@@ -94,7 +94,7 @@ class _Token(NamedTuple):
     """Whether a space stands before it."""
 
 
-class _Value(Symbol):
+class _Value(Symbol, frozen=True):
     """The place of a value, by its name."""
 
 

@@ -11,8 +11,9 @@ A tokenizer and a recursive descent over this grammar; nothing is ever evaluated
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.errors import ReadError
 from dynsolve.notation import mistakes
@@ -37,8 +38,7 @@ _BEGINS_FACTOR = frozenset({"number", "degrees", "name", "(", "√"})
 _RAISED = str.maketrans("⁻" + SUPERSCRIPT_DIGITS, "-0123456789")
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(Struct, frozen=True):
     """A symbol's name where it stands in the text; `star`: it carries the mark of a joint variable."""
 
     name: str
@@ -47,8 +47,7 @@ class Name:
     star: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class FormulaText:
+class FormulaText(Struct, frozen=True):
     """What was read: the formula, and every occurrence of a name in it, in order (`pi` is none)."""
 
     tree: Node

@@ -7,7 +7,7 @@ them from exact values, printers turn them into Unicode, LaTeX or Python text.
 The first part is what an expression is made of; the second part (from `Letter`
 on) occurs only in the formulas that explain a step.
 
-To add a node, add its class here and a method for it to each printer that writes it.  A
+To add a node, add its class here, frozen, and a method for it to each printer that writes it.  A
 field that holds parts is annotated `Node`, `Node | None`, `tuple[Node, ...]` or
 `tuple[tuple[Node, ...], ...]`: from that `notation.walk` knows how to visit and rebuild it.
 
@@ -34,47 +34,25 @@ Number(p=6, q=1, decimal=False)
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields
 from fractions import Fraction
 from itertools import chain
 from operator import attrgetter, is_
-from typing import Any, ClassVar, TypeVar, dataclass_transform
+from typing import Any, TypeVar
+
+from msgspec import Struct
 
 # The notation tree: a formula as it is written, neither more nor less
 
 
-class Node:
+class Node(Struct, frozen=True, cache_hash=True):
     """A formula or a part of one; trees share parts, so each part is hashed once."""
-
-    __slots__ = ("_hash",)
-    __dataclass_fields__: ClassVar[dict[str, Any]]
-    _hash: int
-
-    def __hash__(self) -> int:
-        try:
-            return self._hash
-        except AttributeError:
-            found = hash((type(self), *(getattr(self, name) for name in self.__dataclass_fields__)))
-            object.__setattr__(self, "_hash", found)
-            return found
 
     def __str__(self) -> str:
         """Nothing: a formula among words stands there as itself, and a printer of the page's writes it."""
         raise TypeError(f"{type(self).__name__} has no text of its own: a printer writes it")
 
 
-_T = TypeVar("_T")
-
-
-@dataclass_transform(frozen_default=True)
-def node_class(cls: type[_T]) -> type[_T]:
-    """Make a class of nodes: a frozen dataclass that keeps the hash of `Node`."""
-    cls.__hash__ = Node.__hash__  # type: ignore[assignment]
-    return dataclass(frozen=True, slots=True)(cls)
-
-
-@node_class
-class Number(Node):
+class Number(Node, frozen=True):
     """An exact rational p/q; negative numbers are written `Negative(Number(...))`.
 
     `decimal` asks for a decimal point, whatever the style of the formula.
@@ -85,16 +63,14 @@ class Number(Node):
     decimal: bool = False
 
 
-@node_class
-class Degrees(Node):
+class Degrees(Node, frozen=True):
     """An angle in degrees, p/q°."""
 
     p: int
     q: int = 1
 
 
-@node_class
-class Symbol(Node):
+class Symbol(Node, frozen=True):
     """A named quantity; `dots` time derivatives of it; `star` marks a joint variable."""
 
     name: str
@@ -102,8 +78,7 @@ class Symbol(Node):
     star: bool = False
 
 
-@node_class
-class Reference(Node):
+class Reference(Node, frozen=True):
     """A quantity of the derivation that stands in a formula by its name, K1, or an entry of it (from 1).
 
     >>> str(Reference("K1")), str(Reference("I1", 1, 3))
@@ -118,67 +93,58 @@ class Reference(Node):
         return self.quantity if self.row is None else f"{self.quantity}[{self.row},{self.column}]"
 
 
-@node_class
-class Sum(Node):
+class Sum(Node, frozen=True):
     """t₁ + t₂ + ...; a `Negative` term is printed with a minus."""
 
     terms: tuple[Node, ...]
 
 
-@node_class
-class Product(Node):
+class Product(Node, frozen=True):
     """f₁ f₂ ..."""
 
     factors: tuple[Node, ...]
 
 
-@node_class
-class Quotient(Node):
+class Quotient(Node, frozen=True):
     """numerator / denominator"""
 
     numerator: Node
     denominator: Node
 
 
-@node_class
-class Power(Node):
+class Power(Node, frozen=True):
     """base^exponent"""
 
     base: Node
     exponent: Node
 
 
-@node_class
-class Negative(Node):
+class Negative(Node, frozen=True):
     """-argument"""
 
     argument: Node
 
 
-@node_class
-class Function(Node):
+class Function(Node, frozen=True):
     """sin, cos, tan, sqrt, sgn, acos, asin, atan of an argument; atan2 of `Arguments` (y, x)."""
 
     name: str
     argument: Node
 
 
-@node_class
-class Arguments(Node):
+class Arguments(Node, frozen=True):
     """Several arguments of a function."""
 
     parts: tuple[Node, ...]
 
 
-@node_class
-class Matrix(Node):
+class Matrix(Node, frozen=True):
     """Rows of entries, all rows of one length."""
 
     rows: tuple[tuple[Node, ...], ...]
 
 
-@node_class
-class Letter(Node):
+class Letter(Node, frozen=True):
     """A symbol of the textbook with its indices: **J**_{v_1}, H_2^0, 𝓘_1.
 
     `base` is one letter, a Greek name or a short word; `style` is `italic`,
@@ -193,45 +159,39 @@ class Letter(Node):
     dots: int = 0
 
 
-@node_class
-class Entry(Node):
+class Entry(Node, frozen=True):
     """The entry of a matrix that has indices itself: (𝓘_2)_{11}."""
 
     of: Node
     index: Node
 
 
-@node_class
-class Row(Node):
+class Row(Node, frozen=True):
     """Nodes side by side with nothing between them: a subscript `v_1 i`, a list with commas."""
 
     parts: tuple[Node, ...]
 
 
-@node_class
-class Words(Node):
+class Words(Node, frozen=True):
     """Upright words inside a formula."""
 
     text: str
 
 
-@node_class
-class Transpose(Node):
+class Transpose(Node, frozen=True):
     """argumentᵀ"""
 
     argument: Node
 
 
-@node_class
-class Cross(Node):
+class Cross(Node, frozen=True):
     """left × right"""
 
     left: Node
     right: Node
 
 
-@node_class
-class Derivative(Node):
+class Derivative(Node, frozen=True):
     """∂of/∂by, or d of/d by where `total`; `of` None gives the bare operator."""
 
     of: Node | None
@@ -239,8 +199,7 @@ class Derivative(Node):
     total: bool = False
 
 
-@node_class
-class BigSum(Node):
+class BigSum(Node, frozen=True):
     """Σ_{index=lower}^{upper} body"""
 
     body: Node
@@ -249,8 +208,7 @@ class BigSum(Node):
     upper: Node
 
 
-@node_class
-class Integral(Node):
+class Integral(Node, frozen=True):
     """∫_lower^upper body d(variable)"""
 
     body: Node
@@ -259,22 +217,19 @@ class Integral(Node):
     upper: Node
 
 
-@node_class
-class Parenthesized(Node):
+class Parenthesized(Node, frozen=True):
     """(argument), where the parentheses are wanted though no rule of precedence asks for them."""
 
     argument: Node
 
 
-@node_class
-class Slashed(Node):
+class Slashed(Node, frozen=True):
     """A `Quotient` or a `Derivative` with a stroke, a/b, as it stands in a line of words."""
 
     fraction: Node
 
 
-@node_class
-class Relation(Node):
+class Relation(Node, frozen=True):
     """part₁ sign₁ part₂ sign₂ ...: an equation or a chain of them."""
 
     parts: tuple[Node, ...]
@@ -420,6 +375,17 @@ _KINDS: dict[Any, tuple[Callable[[Any], tuple[Node, ...]], Callable[[Any, Change
 """Annotation -> (how the parts are taken from such a field, how they are changed)."""
 
 
+def _annotated(kind: type[Node]) -> Iterator[tuple[str, str]]:
+    """The fields of a class of nodes, with their annotations as they are written."""
+    written = {
+        name: type_
+        for base in reversed(kind.__mro__)
+        for name, type_ in vars(base).get("__annotations__", {}).items()
+    }
+    for name in kind.__struct_fields__:
+        yield name, written[name]
+
+
 class _Readers(dict[type[Node], Callable[[Any], tuple[Node, ...]]]):
     """For each class of nodes the function that gives a node's parts; made at the first use."""
 
@@ -428,7 +394,7 @@ class _Readers(dict[type[Node], Callable[[Any], tuple[Node, ...]]]):
         return reader
 
     def _made(self, kind: type[Node]) -> Callable[[Any], tuple[Node, ...]]:
-        named = [(f.name, f.type) for f in fields(kind) if f.type in _KINDS]
+        named = [(name, type_) for name, type_ in _annotated(kind) if type_ in _KINDS]
         if not named:
             return lambda node: ()
         if len(named) == 1:
@@ -448,7 +414,8 @@ class _Fields(dict[type[Node], tuple[_Field, ...]]):
 
     def __missing__(self, kind: type[Node]) -> tuple[_Field, ...]:
         self[kind] = found = tuple(
-            (attrgetter(f.name), _KINDS[f.type][1] if f.type in _KINDS else None) for f in fields(kind)
+            (attrgetter(name), _KINDS[type_][1] if type_ in _KINDS else None)
+            for name, type_ in _annotated(kind)
         )
         return found
 

@@ -12,10 +12,11 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from typing import Any, TypeVar
+
+from msgspec import Struct
 
 from dynsolve.notation.tree import (
     Arguments,
@@ -65,8 +66,7 @@ def plain_name(symbol: Symbol) -> str:
     return symbol.name + DOTS[symbol.dots]
 
 
-@dataclass(frozen=True, slots=True)
-class Program:
+class Program(Struct, frozen=True):
     """Trees as a list of operations on one growing list of values.
 
     `places` are the places of the results in that list: a number for a scalar,

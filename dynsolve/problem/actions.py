@@ -8,7 +8,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.problem.action_keys import DAMPER, FRICTION, MOST_ACTIONS, MOTOR, ROTOR_AXIS, SPRING
 from dynsolve.problem.base import ParsedRotation, read_rotation
@@ -27,8 +28,7 @@ KEYS = ("friction", "springs", "dampers", "motors", "passive")
 _CONSTANT = "it is a constant of the problem"
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedFriction:
+class ParsedFriction(Struct, frozen=True):
     """The friction of a coordinate; None for what is not given."""
 
     coordinate: str
@@ -36,8 +36,7 @@ class ParsedFriction:
     coulomb: Cell | None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedSpring:
+class ParsedSpring(Struct, frozen=True):
     """A spring by `stiffness`, `of` and `rest`, or by its `energy`."""
 
     span: Span
@@ -47,16 +46,14 @@ class ParsedSpring:
     energy: Cell | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedDamper:
+class ParsedDamper(Struct, frozen=True):
     """A damper; None where a part of it was reported."""
 
     damping: Cell | None
     of: Cell | None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedMotor:
+class ParsedMotor(Struct, frozen=True):
     """A motor; None where a part of it was reported."""
 
     turns: str | None
@@ -66,8 +63,7 @@ class ParsedMotor:
     axis: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedActions:
+class ParsedActions(Struct, frozen=True):
     """What acts on the robot, as the file has it."""
 
     friction: tuple[ParsedFriction, ...] = ()
@@ -260,8 +256,7 @@ def _motor(faults: Faults, entry: Fields, rows: int, coordinates: Mapping[str, s
 _HELP = PROBLEM["forces"].help
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedLoad:
+class ParsedLoad(Struct, frozen=True):
     """One entry of `forces:`; None where a part was reported or is not given.
 
     `in_link`: along the axes of the link, turned by `rotation` where that is given.
@@ -348,8 +343,7 @@ def _read_load(
 _WEIGHTS_CONSTANT = "a weight holds numbers and parameters"
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedWeights:
+class ParsedWeights(Struct, frozen=True):
     """W by rows, none where it is the inertia matrix; and where it stands."""
 
     rows: tuple[tuple[Cell, ...], ...]

@@ -6,8 +6,9 @@ Remarks of a problem's author on results: `remarks: {Kv2: "The squares add up."}
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from difflib import get_close_matches
+
+from msgspec import Struct
 
 from dynsolve.problem.kinds import describe, nearest
 from dynsolve.problem.specification import PROBLEM
@@ -93,8 +94,7 @@ def _folded(words: str) -> str:
 _HELP = PROBLEM["remarks"].help
 
 
-@dataclass(frozen=True, slots=True)
-class Remark:
+class Remark(Struct, frozen=True):
     """What an author says of a result: its name, as an answer and as the file has it, and the words."""
 
     name: str

@@ -8,7 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
 from dynsolve.algebra.rationals import rational_value
@@ -37,8 +38,7 @@ _HELP = "write a product of rotations such as Rz(90deg) Rx(30deg), or a 3×3 lis
 MAX_TURNS = 12
 
 
-@dataclass(frozen=True, slots=True)
-class AxisRotation:
+class AxisRotation(Struct, frozen=True):
     """One factor: a rotation about `axis` (x, y or z)."""
 
     axis: str
@@ -46,8 +46,7 @@ class AxisRotation:
     angle: Angle
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedRotation:
+class ParsedRotation(Struct, frozen=True):
     """A rotation as the file gives it: a product of turns, or nine entries."""
 
     span: Span
@@ -189,8 +188,7 @@ _GRAVITY_HELP = PROBLEM["gravity"].help
 _CONSTANT = "joint variables stand in the table alone"
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedBase:
+class ParsedBase(Struct, frozen=True):
     """Frame 0 in the world; None for no rotation, no displacement."""
 
     rotation: ParsedRotation | None

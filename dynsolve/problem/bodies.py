@@ -12,8 +12,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import Protocol
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix, cross
@@ -50,8 +52,7 @@ from dynsolve.robot.shapes import AXES, KINDS, Density
 # A point of a link in a problem file
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedPlace:
+class ParsedPlace(Struct, frozen=True):
     """A point of a link: `kind` is tip, origin, midpoint, along (one cell), near, drawn or at (three)."""
 
     kind: str
@@ -105,8 +106,7 @@ def _read_measured(faults: Faults, node: MappingNode, what: str, help: str) -> P
 # Points of a drawing in the frames of their links: `{drawn: [x, y, z]}`, and `axes: base`
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnFrames:
+class DrawnFrames(Struct, frozen=True):
     """The frames in the pose that is drawn, each as the trees of x, y, z and the origin, the hand's last.
 
     Of a table there are none.
@@ -183,8 +183,7 @@ _EXAMPLE = PROBLEM["masses"].help
 _CENTER_HELP, _SHAPE_HELP, _TENSOR_HELP = (BODY[key].help for key in ("center", "shape", "inertia"))
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedShape:
+class ParsedShape(Struct, frozen=True):
     """A shape with its dimensions; `axis` is empty where the file does not say."""
 
     kind: str
@@ -194,8 +193,7 @@ class ParsedShape:
     density: Cell | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedTensor:
+class ParsedTensor(Struct, frozen=True):
     """An inertia tensor: 3×3 cells, None where an entry is 0; `listed` where a full list was given."""
 
     span: Span
@@ -203,8 +201,7 @@ class ParsedTensor:
     listed: bool
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedAxes:
+class ParsedAxes(Struct, frozen=True):
     """The body-attached axes; `rotation` None for those of the link or of the base."""
 
     kind: AxesKind
@@ -213,8 +210,7 @@ class ParsedAxes:
     written: str
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedBody:
+class ParsedBody(Struct, frozen=True):
     """One entry of `masses:`; None where a part was reported or is not given.
 
     `faulty` tells the two apart: something of the entry was reported.

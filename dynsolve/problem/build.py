@@ -7,8 +7,9 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.actions import NO_ACTIONS

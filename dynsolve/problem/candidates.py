@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import pairwise
+
+from msgspec import Struct
 
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
@@ -29,8 +30,7 @@ EVERY = ""
 """The name under which stands what is assumed of all matrices."""
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedInequality:
+class ParsedInequality(Struct, frozen=True):
     """left > right, or ≥ where it is not strict."""
 
     left: Cell
@@ -38,8 +38,7 @@ class ParsedInequality:
     is_strict: bool
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedCandidates:
+class ParsedCandidates(Struct, frozen=True):
     """The matrices by name, and what is assumed of each, or under no name of all."""
 
     matrices: Mapping[str, tuple[tuple[Cell, ...], ...]]

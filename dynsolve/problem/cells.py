@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, replace
 from math import pi
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
 from dynsolve.errors import AlgebraError, ReadError
@@ -35,8 +37,7 @@ from dynsolve.robot.questions import TIP, coordinate_of
 # Expressions in a problem file: read where they stand, their errors at the very character
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(Struct, frozen=True):
     """An expression of the file: what it is called in messages, its tree, its names, its place."""
 
     what: str

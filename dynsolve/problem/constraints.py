@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.notation.tree import Node, Symbol, names_in, walk
 from dynsolve.problem.action_keys import MAX_CONSTRAINTS, RATES
@@ -15,8 +16,7 @@ from dynsolve.problem.yaml_nodes import Faults, MappingNode, YamlNode
 _LINEAR = "a constraint on rates is a sum of rates, each times a function of the coordinates"
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedConstraint:
+class ParsedConstraint(Struct, frozen=True):
     """What is 0; `in_rates` says that rates stand in it, and not a function of the coordinates alone."""
 
     cell: Cell

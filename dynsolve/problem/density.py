@@ -8,8 +8,9 @@ less M_1²/M_0.  The density is a polynomial in x, and so is all that is integra
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr

@@ -12,8 +12,10 @@ The vectors are put into a ring of their own, the textbook's procedure
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from fractions import Fraction
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.compact.compactor import Compactor
@@ -56,8 +58,7 @@ _EXAMPLE = PROBLEM["axes"].help
 _POSE = "the drawing shows one pose, in which turning joints are at 0"
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedAxis:
+class ParsedAxis(Struct, frozen=True):
     """One entry of `axes`; `through` is None for a sliding axis without a place."""
 
     span: Span
@@ -67,8 +68,7 @@ class ParsedAxis:
     through: Vector | None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedHand:
+class ParsedHand(Struct, frozen=True):
     """The hand: its place, and its axes z and x where they are given."""
 
     span: Span
@@ -77,8 +77,7 @@ class ParsedHand:
     x: Vector | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedDrawing:
+class ParsedDrawing(Struct, frozen=True):
     """What `axes`, `tip` and `zero` say; `coordinates` are (name, kind) in their order."""
 
     span: Span
@@ -216,8 +215,7 @@ _MOST_RINGS = 12
 _SPARE_INVERSES = 6
 
 
-@dataclass(frozen=True, slots=True)
-class Framed:
+class Framed(Struct, frozen=True):
     """A table, where its frame 0 is, and what both were made from where that is a drawing."""
 
     table: DHTable

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from math import radians
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
@@ -26,8 +27,7 @@ _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9²³⁻¹·*/^ .()-]{1,30}")
 _FIND_HELP = PROBLEM["find"].help
 
 
-@dataclass(frozen=True, slots=True)
-class Exercise:
+class Exercise(Struct, frozen=True):
     """The optional keys of a file."""
 
     find: tuple[str, ...]

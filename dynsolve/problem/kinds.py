@@ -13,9 +13,10 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.characters import normalize
@@ -27,23 +28,20 @@ BRACKETS = re.compile(r"\{[^{}]*(?:\{[^{}]*\})?[^{}]*\}|\[[^]]*\]")
 """An example in a sentence: [0, 0, -g], {rod: {length: l1}}."""
 
 
-@dataclass(frozen=True, slots=True)
-class Plain:
+class Plain(Struct, frozen=True):
     """A value without parts; `json` is what JSON Schema says of it."""
 
     called: str
     json: Mapping[str, Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(Struct, frozen=True):
     """One of a few words."""
 
     choices: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class ListOf:
+class ListOf(Struct, frozen=True):
     """A list of at least `least` and at most `most` values of one kind."""
 
     items: ValueKind
@@ -52,16 +50,14 @@ class ListOf:
     most: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class MapOf:
+class MapOf(Struct, frozen=True):
     """A mapping from names that the file chooses to values of one kind."""
 
     values: ValueKind
     called: str
 
 
-@dataclass(frozen=True, slots=True)
-class Keyed:
+class Keyed(Struct, frozen=True):
     """A mapping with known keys, at least `least` of them, and exactly one of those of `one_of`."""
 
     keys: tuple[Key, ...]
@@ -83,15 +79,13 @@ class Keyed:
         return tuple(key for key in self.keys if key.required)
 
 
-@dataclass(frozen=True, slots=True)
-class OneOf:
+class OneOf(Struct, frozen=True):
     """A value of one of several kinds."""
 
     kinds: tuple[ValueKind, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Shared:
+class Shared(Struct, frozen=True):
     """A kind that several keys have; the schema defines it once, under `name`."""
 
     name: str
@@ -103,8 +97,7 @@ class Shared:
 ValueKind = Plain | Word | ListOf | MapOf | Keyed | OneOf | Shared
 
 
-@dataclass(frozen=True, slots=True)
-class Key:
+class Key(Struct, frozen=True):
     """A key of a mapping.
 
     `meaning` is one sentence, `more` what else a writer should know.  `example` is a

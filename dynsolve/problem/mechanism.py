@@ -6,7 +6,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -43,8 +45,7 @@ _COORDINATES = MODEL["coordinates"].help
 _CONSTANT = "it is constant: coordinates stand in `at` and `turn`"
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedTurn:
+class ParsedTurn(Struct, frozen=True):
     """A turn of a body: its angle, the angle's rate with each coordinate that it holds, its axis."""
 
     cell: Cell
@@ -53,8 +54,7 @@ class ParsedTurn:
     axis: tuple[Cell, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedPlacedBody:
+class ParsedPlacedBody(Struct, frozen=True):
     """One entry of `bodies`; None where a part was reported or is not given."""
 
     index: int
@@ -82,8 +82,7 @@ class ParsedPlacedBody:
             yield from turn.axis
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedModel:
+class ParsedModel(Struct, frozen=True):
     """`model` as it is written; `faulty` where something of it was reported."""
 
     span: Span

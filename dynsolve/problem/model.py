@@ -8,12 +8,13 @@ What else counts as an answer DH: `also` and `strict` in a problem file.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import PurePath
 from re import compile as pattern
 from typing import TYPE_CHECKING
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.errors import Finding
@@ -47,8 +48,7 @@ _MOST_TABLES = 20
 _HELP = PROBLEM["also"].help
 
 
-@dataclass(frozen=True, slots=True)
-class AcceptedTables:
+class AcceptedTables(Struct, frozen=True):
     """Further tables that count as they stand, and whether coordinates must be counted as the key does."""
 
     also: tuple[Table, ...] = ()
@@ -96,8 +96,7 @@ FIND = ("tau", "D", "C", "g")
 """What an exercise asks for unless it says otherwise."""
 
 
-@dataclass(frozen=True, slots=True)
-class FilePlace:
+class FilePlace(Struct, frozen=True):
     """Where a part of a file stands; line and column from 1."""
 
     line: int
@@ -114,8 +113,7 @@ def _stem(file: str) -> str:
     return PurePath(file).stem
 
 
-@dataclass(frozen=True, slots=True)
-class Problem:
+class Problem(Struct, frozen=True):
     """One problem file, read and checked.
 
     `find` and the keys of `marks` are names of answers in their canonical form
@@ -171,8 +169,7 @@ class Problem:
 # A whole problem file as it was read, before anything is computed
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedFile:
+class ParsedFile(Struct, frozen=True):
     """The parts of a problem file that make a robot."""
 
     convention: Convention

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.characters import normalize
@@ -58,8 +60,7 @@ from dynsolve.problem.yaml_nodes import (
 _HELP = PROBLEM["parameters"].help
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedModelQuestions:
+class ParsedModelQuestions(Struct, frozen=True):
     """The names that are known, each with its place, and the entries of a by their names."""
 
     known: tuple[tuple[str, Span], ...] = ()
@@ -175,8 +176,7 @@ def _unknown(faults: Faults, name: str, span: Span, parameters: Collection[str])
 # `reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedReach:
+class ParsedReach(Struct, frozen=True):
     """The values of r(q), names or expressions, and where they stand."""
 
     cells: tuple[Cell, ...] = ()
@@ -241,8 +241,7 @@ def check_reach(faults: Faults, reach: ParsedReach, rows: int) -> None:
 # -- joint ranges ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedLimits:
+class ParsedLimits(Struct, frozen=True):
     """The range of one coordinate, and where it stands."""
 
     coordinate: str
@@ -290,8 +289,7 @@ def _end(faults: Faults, node: YamlNode, name: str, kinds: Mapping[str, str]) ->
 _NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedPoint:
+class ParsedPoint(Struct, frozen=True):
     """One entry of `points:`; None where a part of it was reported."""
 
     name: str
@@ -301,8 +299,7 @@ class ParsedPoint:
     axes: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedTask:
+class ParsedTask(Struct, frozen=True):
     """`task:`: its components, in which a `Reference` stands for a point's coordinate; of a pose none."""
 
     cells: tuple[Cell, ...]
@@ -311,8 +308,7 @@ class ParsedTask:
     span: Span = (0, 0)
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedRates:
+class ParsedRates(Struct, frozen=True):
     """`velocity:` or `acceleration:` of the task."""
 
     key: str
@@ -320,8 +316,7 @@ class ParsedRates:
     cells: tuple[Cell, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedQuestions:
+class ParsedQuestions(Struct, frozen=True):
     """What a file asks around the model."""
 
     points: tuple[ParsedPoint, ...] = ()

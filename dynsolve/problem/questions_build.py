@@ -9,8 +9,9 @@ which they are written, as those of `reach` are.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from operator import mul
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import angle_from_tree, names_of
 from dynsolve.algebra.matrix import Matrix, determinant

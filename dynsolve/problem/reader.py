@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.actions import KEYS as ACTING
@@ -52,8 +53,7 @@ if TYPE_CHECKING:
 _AXES = "delete it, or give the joint axes of a drawing in place of `dh`"
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(Struct, frozen=True):
     """A problem with what its file says, and with its faults, which know the text."""
 
     problem: Problem

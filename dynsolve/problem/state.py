@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.text import read
@@ -17,8 +18,7 @@ from dynsolve.problem.yaml_nodes import Faults, FaultyNode, MappingNode, ScalarN
 _HELP = PROBLEM["state"].help
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedState:
+class ParsedState(Struct, frozen=True):
     """The values by (name, number of dots); `kinds` are the types of the coordinates."""
 
     cells: Mapping[tuple[str, int], Cell]

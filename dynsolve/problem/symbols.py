@@ -8,7 +8,8 @@ is one that JSON writes for a coordinate's derivative.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.notation.text import Name
@@ -36,8 +37,7 @@ MAX_PARTS = {"denominators": 60, "roots": 60, "sines and cosines": 300}
 _SUFFIXES = (("_dot", "velocity"), ("_ddot", "acceleration"))
 
 
-@dataclass(frozen=True, slots=True)
-class Role:
+class Role(Struct, frozen=True):
     """The role of a symbol where it stands alone: a mass, a length, an angle, ..."""
 
     name: str

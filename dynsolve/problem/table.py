@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Container, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.rationals import rational_value
@@ -166,8 +167,7 @@ _KINDS = {"theta": "revolute", "d": "prismatic"}
 _EXAMPLE = PROBLEM["dh"].help
 
 
-@dataclass(frozen=True, slots=True)
-class DHRow:
+class DHRow(Struct, frozen=True):
     """A row as the file gives it; `faulty` where something of it was reported."""
 
     index: int
@@ -181,8 +181,7 @@ class DHRow:
     """The frame that it starts from, where that is not the one before."""
 
 
-@dataclass(frozen=True, slots=True)
-class DHTable:
+class DHTable(Struct, frozen=True):
     """The rows and the coordinates, (name, "revolute" | "prismatic"), in their order."""
 
     rows: tuple[DHRow, ...]
@@ -199,8 +198,7 @@ class DHTable:
         return bool(self.rows) and not any(row.faulty for row in self.rows)
 
 
-@dataclass(frozen=True, slots=True)
-class _Raw:
+class _Raw(Struct, frozen=True):
     """A row's cells as they were read; those that could not be are left out, and the row is faulty."""
 
     span: Span
@@ -212,8 +210,7 @@ class _Raw:
         return self.cells[column].names if column in self.cells else ()
 
 
-@dataclass(frozen=True, slots=True)
-class _Star:
+class _Star(Struct, frozen=True):
     """A starred name: its row, its column, its place."""
 
     row: int

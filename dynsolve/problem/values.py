@@ -8,8 +8,9 @@ The mass and the inertia tensor of a body, made exact; what is wrong with them i
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -169,8 +170,7 @@ _TIP_ROW = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class PlaceBuilder:
+class PlaceBuilder(Struct, frozen=True):
     """The exact positions of points; `links` is None where the table has errors, and geometry waits."""
 
     faults: Faults

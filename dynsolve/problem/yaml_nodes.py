@@ -18,10 +18,11 @@ from __future__ import annotations
 import re
 import unicodedata
 from bisect import bisect_right
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.errors import Finding, ProblemError
 
@@ -43,8 +44,7 @@ _UNSEEN = re.compile(
 )
 
 
-@dataclass(frozen=True)
-class ProblemText:
+class ProblemText(Struct, frozen=True, dict=True):
     """A problem file's text; `file` is the name that errors carry."""
 
     text: str
@@ -254,8 +254,7 @@ MAX_EVENTS = 50_000
 Span = tuple[int, int]
 
 
-@dataclass(frozen=True, slots=True)
-class ScalarNode:
+class ScalarNode(Struct, frozen=True):
     """A value: `text` is the source between its quotes, which begins at character `start`.
 
     `decoded` is what YAML makes of it (escapes resolved, lines folded): for titles.
@@ -267,24 +266,21 @@ class ScalarNode:
     decoded: str
 
 
-@dataclass(frozen=True, slots=True)
-class ListNode:
+class ListNode(Struct, frozen=True):
     """A list."""
 
     items: tuple[YamlNode, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class MappingNode:
+class MappingNode(Struct, frozen=True):
     """Keys with their values, in order."""
 
     entries: tuple[tuple[ScalarNode, YamlNode], ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class FaultyNode:
+class FaultyNode(Struct, frozen=True):
     """Something that was reported already; whoever meets it leaves it alone."""
 
     span: Span

@@ -14,9 +14,10 @@ Names and spellings are templates.  What stands in braces is the owner's:
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import Enum
 from typing import Literal
+
+from msgspec import Struct
 
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.stages import Stage
@@ -101,8 +102,7 @@ def _no_letter(robot: Robot, *index: int) -> Node:
     raise LookupError("this quantity is never printed by itself")
 
 
-@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Family:
+class Family(Struct, frozen=True, eq=False, kw_only=True):
     """The quantities of one kind.
 
     `name` is the template of the names that answers and results have, `rule` of those of

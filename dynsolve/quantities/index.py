@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import groupby
+
+from msgspec import Struct
 
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.families import FAMILIES
@@ -20,8 +21,7 @@ Shape = tuple[int, int] | None
 """Rows and columns of a quantity; None for a scalar."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Quantity:
+class Quantity(Struct, frozen=True, eq=False):
     """One quantity of a robot.
 
     `name` is what answers and results call it (f2, d12, Kv1), `rule` the rule of the

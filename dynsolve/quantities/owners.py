@@ -6,8 +6,9 @@ The stages of one robot: those of the course that belong to it, and those of whi
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import product
+
+from msgspec import Struct
 
 from dynsolve.quantities import action_families, kinematic_families, model_families
 from dynsolve.quantities.families import FAMILIES
@@ -112,8 +113,7 @@ _FROM_GIVEN = {
 """What is asked of the model, and what must be given for it: an equilibrium, reference rates."""
 
 
-@dataclass(frozen=True, slots=True)
-class Owners:
+class Owners(Struct, frozen=True):
     """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name, forces.
 
     `points` are the bodies without inertia, `named` the points that the exercise names.

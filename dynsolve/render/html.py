@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cache
 from html import escape
 from importlib.resources import files
 from itertools import chain
+
+from msgspec import Struct, field
 
 from dynsolve.document import (
     Document,
@@ -115,8 +116,7 @@ def stylesheet() -> str:
     return (files("dynsolve.render") / "report.css").read_text(encoding="utf-8")
 
 
-@dataclass(slots=True)
-class _Entry:
+class _Entry(Struct):
     """A line of the table of contents."""
 
     anchor: str

@@ -8,9 +8,10 @@ for a phone is put together for that width.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from html import escape
 from itertools import takewhile
+
+from msgspec.structs import replace
 
 from dynsolve.notation.extent import FLAT
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row

@@ -8,8 +8,9 @@ How large parentheses are around others: larger than those, as a reader finds pa
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain, groupby, pairwise
+
+from msgspec import Struct
 
 from dynsolve.notation.extent import FLAT
 from dynsolve.render.page import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, stay
@@ -60,8 +61,7 @@ def _indent(line: Line) -> str:
     return r"\qquad " * round(line.indent / INDENT)
 
 
-@dataclass(frozen=True, slots=True)
-class DisplayRow:
+class DisplayRow(Struct, frozen=True):
     """A formula of one line, `level` with others like it; it `stays` on the page of the next."""
 
     line: Line

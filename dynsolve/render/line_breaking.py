@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from itertools import pairwise, zip_longest
 from textwrap import shorten
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Prose, Text, Uses
 from dynsolve.notation.extent import BINARY, FLAT, PARENTHESIS, RELATION, Ruler
@@ -45,8 +47,7 @@ _FRACTION = 32.0
 """Denominators that are wider than this, in em, stand behind a slash, where they may be broken."""
 
 
-@dataclass(frozen=True, slots=True)
-class Notation:
+class Notation(Struct, frozen=True):
     """The signs of a formula in one notation.
 
     `plus`, `minus` and `relation` are signs between two parts, `lead` a minus before
@@ -68,8 +69,7 @@ class Notation:
     joined: Callable[[Sequence[str]], str]
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(Struct, frozen=True):
     """A part of a formula that is not broken; `depth` says how deep the place before it lies.
 
     `level` is how many parentheses that place is in, `sign` what a line begins with that begins there.
@@ -82,8 +82,7 @@ class Piece:
     sign: str = ""
 
 
-@dataclass(slots=True)
-class _Builder:
+class _Builder(Struct):
     joined: Callable[[Sequence[str]], str]
     texts: list[list[str]] = field(default_factory=lambda: [[]])
     widths: list[float] = field(default_factory=lambda: [0.0])

@@ -11,8 +11,10 @@ Line breaks for a terminal: sums break at their signs, prose between its words.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import zip_longest
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.document import (
     Document,
@@ -298,8 +300,7 @@ _PROSE = 88
 _INDENT = 4
 
 
-@dataclass(frozen=True, slots=True)
-class StyledLine:
+class StyledLine(Struct, frozen=True):
     """A line and what it is: `title`, `heading`, `step`, `formula`, `note`, `source` or plain text."""
 
     text: str

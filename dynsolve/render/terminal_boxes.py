@@ -6,8 +6,9 @@ Matrices in displayed formulas: where they stand, and how one that is too wide i
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import takewhile
+
+from msgspec import Struct
 
 from dynsolve.document import Formula
 from dynsolve.notation.tree import (
@@ -106,8 +107,7 @@ def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formu
 # Formulas laid out in the characters of a terminal
 
 
-@dataclass(frozen=True, slots=True)
-class TextBox:
+class TextBox(Struct, frozen=True):
     """Lines of one width; `baseline` is the line that stands level with its neighbours."""
 
     lines: tuple[str, ...]

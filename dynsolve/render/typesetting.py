@@ -13,8 +13,10 @@ are lists of equations.  One under another they would leave most of a page empty
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from math import ceil
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
@@ -36,8 +38,7 @@ _LONGEST_NAME = 6.0
 _LONGEST_LEFT = 0.3
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """`left` stands right-aligned before the place where lines are level, `right` after it.
 
     `indent` is how far `right` is moved in, `width` that of both together, `name` that of `left`, all in em.
@@ -245,16 +246,14 @@ GAP = 1.2
 _WIDEST_NAME = 4.0
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(Struct, frozen=True):
     """A line of an equation that takes `span` columns."""
 
     line: Line
     span: int
 
 
-@dataclass(frozen=True, slots=True)
-class Columns:
+class Columns(Struct, frozen=True):
     """Rows of cells in `count` columns of equal width; names stand right-aligned in `name` em.
 
     `indent` is how far the rows are moved in, as a part of the room: they stand in its middle.

@@ -18,7 +18,9 @@ the Lagrangian themselves, and no body is known.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
@@ -28,8 +30,7 @@ from dynsolve.notation.tree import Node
 # What acts on a manipulator beside gravity: friction, springs, dampers, motors
 
 
-@dataclass(frozen=True, slots=True)
-class JointFriction:
+class JointFriction(Struct, frozen=True):
     """Friction of coordinate k, counted from 0: f_v q̇_k + f_c sgn(q̇_k)."""
 
     coordinate: int
@@ -37,16 +38,14 @@ class JointFriction:
     coulomb: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Damper:
+class Damper(Struct, frozen=True):
     """A damper between what a linear form x of the coordinates says: the force b ẋ along x."""
 
     damping: Expr
     of: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Elastic:
+class Elastic(Struct, frozen=True):
     """A linear spring: ½ k (x - rest)², x a linear form of the coordinates."""
 
     stiffness: Expr
@@ -54,16 +53,14 @@ class Elastic:
     rest: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Spring:
+class Spring(Struct, frozen=True):
     """A spring by its energy, a function of the coordinates; `law` is that of a linear one."""
 
     energy: Expr
     law: Elastic | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Motor:
+class Motor(Struct, frozen=True):
     """The rotor of a motor that turns coordinate `turns`, counted from 0, through a gear.
 
     It spins with `ratio` q̇ about its axis, the axis x, y or z (`axis` 0, 1 or 2) of frame
@@ -77,8 +74,7 @@ class Motor:
     axis: int = 2
 
 
-@dataclass(frozen=True, slots=True)
-class Actions:
+class Actions(Struct, frozen=True):
     """Everything that acts; `passive` are the coordinates, from 0, that no motor drives."""
 
     friction: tuple[JointFriction, ...] = ()
@@ -135,8 +131,7 @@ def with_values(actions: Actions, changed: Callable[[Expr], Expr]) -> Actions:
 # Constraints on the motion of a manipulator: A_c(q) q̇ = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Constraint:
+class Constraint(Struct, frozen=True):
     """One equation that every motion keeps.
 
     `entry` is what is 0: h(q), holonomic, in which coordinates of points may stand as they do in a
@@ -150,8 +145,7 @@ class Constraint:
 # Matrices of which an exercise asks whether they can be inertia matrices
 
 
-@dataclass(frozen=True, slots=True)
-class Candidate:
+class Candidate(Struct, frozen=True):
     """A matrix, n×n, and what is assumed of its parameters.
 
     `is_relative` says that the coordinates are those of a chain, each counted from the link before,
@@ -167,8 +161,7 @@ class Candidate:
 # Models without a Denavit-Hartenberg table
 
 
-@dataclass(frozen=True, slots=True)
-class BodyTurn:
+class BodyTurn(Struct, frozen=True):
     """A turn of a body about an axis that the turns before it carry along.
 
     `axis` (3×1) is a unit vector in the axes so far turned.  The angle is linear in the
@@ -182,8 +175,7 @@ class BodyTurn:
     angle: Node
 
 
-@dataclass(frozen=True, slots=True)
-class GivenModel:
+class GivenModel(Struct, frozen=True):
     """What a file gives in the place of bodies: D and P, K and P, or L; what it does not give is None.
 
     D is n×n, the others are scalars.

@@ -21,8 +21,9 @@ values: the choice of basic angles may be unlucky, it cannot be wrong.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
 from math import cos, radians, sin, sqrt
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.angles import Angle, Atom, names_of
 from dynsolve.algebra.matrix import Matrix
@@ -36,8 +37,7 @@ _TOLERANCE = 1e-9
 Rotation = tuple[tuple[float, float, float], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Turn:
+class Turn(Struct, frozen=True):
     """The rotation of a row of the table: its θ and α; `revolute` where θ holds the joint variable.
 
     `start` is the frame that the row starts from, the one before where it is None.
@@ -99,8 +99,7 @@ def _runs(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -
     return runs
 
 
-@dataclass(frozen=True, slots=True)
-class _End:
+class _End(Struct, frozen=True):
     """What a row goes on from: the rotation since the last revolute axis, its run, its absolute angle."""
 
     between: Rotation | None = None

@@ -10,9 +10,10 @@ A `Robot` knows no file and no printing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -42,8 +43,7 @@ class JointType(Enum):
     PRISMATIC = "prismatic"
 
 
-@dataclass(frozen=True, slots=True)
-class Coordinate:
+class Coordinate(Struct, frozen=True):
     """A generalized coordinate q_i; `index` counts from 1."""
 
     name: str
@@ -66,8 +66,7 @@ class Coordinate:
         return f"{'tau' if self.type is JointType.REVOLUTE else 'f'}{self.index}"
 
 
-@dataclass(frozen=True, slots=True)
-class Joint:
+class Joint(Struct, frozen=True):
     """One row of the table: the step from frame i-1 to frame i; `index` i counts from 1.
 
     `branch` is the frame that it starts from, where that is not the one before: a tree.  `variable` is
@@ -124,8 +123,7 @@ AxisTurns = tuple[tuple[str, Node], ...]
 """The factors of a rotation as the problem writes them: (x, y or z, angle); none of a matrix."""
 
 
-@dataclass(frozen=True, slots=True)
-class Axes:
+class Axes(Struct, frozen=True):
     """The orientation of a body-attached frame; `rotation` is 3×3, the product of `turns`."""
 
     kind: AxesKind
@@ -134,8 +132,7 @@ class Axes:
     turns: AxisTurns = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
+class Body(Struct, frozen=True):
     """A body that has mass, rigidly fixed to frame `link`.
 
     `center` is the mass centre in frame `link` (3×1).  `inertia` is the tensor in
@@ -166,8 +163,7 @@ class Body:
         return self.inertia is None
 
 
-@dataclass(frozen=True, slots=True)
-class Robot:
+class Robot(Struct, frozen=True):
     """A manipulator.
 
     `base_rotation` (3×3, the product of `base_turns`) and `base_position` (3×1) place frame 0 in the world;

@@ -13,8 +13,9 @@ robot's ring.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
+
+from msgspec import Struct
 
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
@@ -33,8 +34,7 @@ def reference(name: str) -> str:
     return f"{name}r"
 
 
-@dataclass(frozen=True, slots=True)
-class ModelQuestions:
+class ModelQuestions(Struct, frozen=True):
     """What is asked of the model.
 
     `known` are the names of the parameters that do not count as unknown in τ = Y a.  `parameters`
@@ -77,8 +77,7 @@ class Method(StrEnum):
     NEWTON_EULER = "newton-euler"
 
 
-@dataclass(frozen=True, slots=True)
-class NamedPoint:
+class NamedPoint(Struct, frozen=True):
     """A point fixed in frame `link`: its `position` there, 3×1; `written` is how the file gave it.
 
     Its velocity and its Jacobians are written along the axes of frame `axes`, or of the world.
@@ -91,8 +90,7 @@ class NamedPoint:
     axes: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
+class Task(Struct, frozen=True):
     """What the arm is to do: r(q), m×1, or its twist, the six rates J q̇ of the last frame.
 
     `entries` are the components of r, none of a twist.  `is_default` says that the file does
@@ -146,8 +144,7 @@ def points_of(task: Task) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-@dataclass(frozen=True, slots=True)
-class Load:
+class Load(Struct, frozen=True):
     """A force and a moment that act on link `link` from outside, at a point.
 
     `position` is the point in frame `link`, `force` and `moment` (3×1) are in the world, or
@@ -164,8 +161,7 @@ class Load:
     by_robot: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(Struct, frozen=True):
     """Values of coordinates and their rates, formulas free of coordinates; others are free."""
 
     values: tuple[tuple[str, int, Node], ...] = ()
@@ -180,8 +176,7 @@ class State:
         return bool(self.values)
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(Struct, frozen=True):
     """The range of a coordinate, its ends formulas of numbers and of parameters that have one."""
 
     coordinate: str
@@ -189,8 +184,7 @@ class Limits:
     high: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+class Target(Struct, frozen=True):
     """What r(q) is to be, in numbers: `values` are formulas of numbers and of the parameters.
 
     `numbers` are the values of parameters, formulas without names.
@@ -200,8 +194,7 @@ class Target:
     numbers: tuple[tuple[str, Node], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Questions:
+class Questions(Struct, frozen=True):
     """Everything that a file asks beside the course's derivation.
 
     `asked` are the names of the answers in `find` and `marks` that no derivation has unless

@@ -15,9 +15,10 @@ every formula against these integrals.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -31,8 +32,7 @@ MASS = "m"
 """The letter of the mass in the formulas."""
 
 
-@dataclass(frozen=True, slots=True)
-class Slices:
+class Slices(Struct, frozen=True):
     """A shape cut across its own axis, along z, into slices at x from its near end; lengths as formulas.
 
     `extent` is how far x runs, nothing for a disk, `measure` what a density is multiplied by (`per` length,
@@ -47,8 +47,7 @@ class Slices:
     tilted: tuple[str, str]
 
 
-@dataclass(frozen=True, slots=True)
-class ShapeKind:
+class ShapeKind(Struct, frozen=True):
     """A kind of shape: its dimensions and its principal moments.
 
     `dimensions` are (key in the file, letter in the formulas).  `moments` are
@@ -139,8 +138,7 @@ KINDS: Mapping[str, ShapeKind] = {
 """Every shape by its name."""
 
 
-@dataclass(frozen=True, slots=True)
-class Shape:
+class Shape(Struct, frozen=True):
     """A uniform body: its kind, its dimensions (m) and the body-attached axis it is turned to.
 
     `axis` is empty where the kind has none.
@@ -220,8 +218,7 @@ def _value(node: Node, values: Mapping[str, Expr]) -> Expr:
 # -- bodies with a density -------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class SliceMoment:
+class SliceMoment(Struct, frozen=True):
     """A moment of inertia about an axis of the body's frame (`axes`: xx), as formulas.
 
     `slice` is that of a slice over its mass, about its own centre; `integral` the moment about the axis
@@ -234,8 +231,7 @@ class SliceMoment:
     value: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Density:
+class Density(Struct, frozen=True):
     """The density ρ(x) of a shape, x along its axis from its near end, and what follows from it, as formulas.
 
     `extent` is how far x runs, None for a disk; `mass` = ∫ ρ A dx and `first` = ∫ ρ A x dx are integrals over

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.notation.tree import Letter, Node, Number, Row, Words
 from dynsolve.notation.unicode import raised
@@ -42,8 +43,7 @@ def times(a: Dimension, b: Dimension, power: int | Fraction = 1) -> Dimension:
     return a[0] + b[0] * power, a[1] + b[1] * power, a[2] + b[2] * power
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(Struct, frozen=True):
     """`size` in SI units of this dimension; `degrees` marks an angle counted in degrees."""
 
     size: Fraction

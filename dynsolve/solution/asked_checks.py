@@ -6,7 +6,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import needed_roots
 from dynsolve.derivation.balance import verify_balance

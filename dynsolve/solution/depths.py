@@ -13,9 +13,11 @@ shown in full alone.  Brief has no numbers of steps, and counts the sections tha
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
 from itertools import chain, count, zip_longest
 from typing import Any
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.document import (
     DEFINITIONS,
@@ -46,8 +48,7 @@ Drawn = Callable[[Figure | ArmFigure], Picture | None]
 CHECKS = "Checks"
 
 
-@dataclass(frozen=True, slots=True)
-class Item:
+class Item(Struct, frozen=True):
     """What has a number of its own: the steps of a group, or one step."""
 
     steps: tuple[Step, ...]
@@ -79,8 +80,7 @@ def items(steps: Iterable[Step]) -> list[Item]:
     return list(chain.from_iterable(parted))
 
 
-@dataclass(slots=True)
-class Shown:
+class Shown(Struct):
     """Turns the items of a solution, in their order, into what a depth shows of them."""
 
     detail: Detail

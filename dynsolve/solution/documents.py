@@ -17,11 +17,13 @@ notation, which says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from itertools import groupby
 from operator import attrgetter
 from types import MappingProxyType
 from typing import Any
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import (
@@ -426,8 +428,7 @@ _IN_NUMBERS = (
 )
 
 
-@dataclass
-class _Parts:
+class _Parts(Struct, dict=True):
     """The parts of a document, of which one that cannot be made is left out."""
 
     solution: Dynamics

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.derivation.euler_lagrange import Agreement, agreement
 from dynsolve.derivation.graph import Derivation
@@ -89,8 +91,7 @@ Progress = Callable[[int, int], None]
 """progress(done, of)"""
 
 
-@dataclass(frozen=True)
-class Dynamics:
+class Dynamics(Struct, frozen=True, dict=True):
     """A robot's dynamics, derived and verified.
 
     `values` are exact, by the names of the answer file (`H2`, `Jv1`, `K`, `D`);

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import sympy
+from msgspec import Struct
 from numpy.typing import ArrayLike, NDArray
 
 from dynsolve.errors import UsageError
@@ -39,8 +39,7 @@ from dynsolve.quantities.index import quantities
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "sgn": np.sign}
 
 
-@dataclass(frozen=True)
-class NumericFunction:
+class NumericFunction(Struct, frozen=True, dict=True):
     """f(q, qd, qdd, **parameters), a NumPy function.
 
     `q`, `qd`, `qdd` hold n entries each, in the order of the coordinates; angles

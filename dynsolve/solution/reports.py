@@ -6,8 +6,9 @@ What a further format needs, and where, is listed in `.github/CONTRIBUTING.md` u
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from dynsolve.errors import attempted
 from dynsolve.quantities.stages import Stage

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
+
+from msgspec.structs import replace
 
 from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.explain.forms import is_numeric
@@ -76,7 +77,7 @@ def solve(
     return Solution.of(by_method(problem, Method(method)), states, progress)
 
 
-class Solution(Dynamics):
+class Solution(Dynamics, frozen=True, dict=True):
     """A robot's dynamics, derived and verified, in the forms that a user asks for.
 
     `D`, `C`, `g`, `tau` and the others are SymPy objects in real symbols, velocities

@@ -6,13 +6,13 @@ On every robot of the library and of the textbooks, over the roundings that cour
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import cycle, product
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.marking.marks import Policy, mark

@@ -5,12 +5,12 @@ from __future__ import annotations
 import csv
 import os
 from concurrent.futures import Future
-from dataclasses import replace
 from fractions import Fraction
 from math import floor
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 import dynsolve
 from dynsolve.answers.marking.marks import Policy

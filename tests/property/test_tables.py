@@ -6,10 +6,9 @@ turned round, with Rot_z(180°) x is.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from dynsolve.answers.judging.mechanism.tables import Agreement, Table, TableComparer, TableRow, key_table
 from dynsolve.notation.build import negated, total

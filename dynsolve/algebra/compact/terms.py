@@ -19,12 +19,13 @@ roots belong together where twice their product stands among the terms as well.
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import gcd, isqrt, lcm
 from typing import Any, NamedTuple, TypeVar
 
 from flint import Ordering, fmpq_mpoly_ctx
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 
@@ -78,8 +79,7 @@ def primitive(poly: Mapping[_Key, Rational]) -> tuple[frozenset[tuple[_Key, Rati
     return key, shared if denominator == 1 else exact(shared, denominator)
 
 
-@dataclass(frozen=True, slots=True)
-class TermLayout:
+class TermLayout(Struct, frozen=True):
     """Which generator each place of the exponents belongs to.
 
     `groups` are (number of the angle group, how many places it has), the next one

@@ -32,13 +32,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, product
 from math import comb
 from typing import NamedTuple
 
 from flint import fmpq, fmpq_poly, fmpz_poly
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, coordinates_in
 from dynsolve.algebra.compact.terms import Exponents, Rational, add_term, exact, primitive
@@ -395,8 +395,7 @@ class ConstantForms:
 # Angles that turn about parallel axes, together: only they combine in sums like θ₂ + θ₃
 
 
-@dataclass(frozen=True, slots=True)
-class AngleGroup:
+class AngleGroup(Struct, frozen=True):
     """Basic angles that combine, the indices of their generators, and the choice of form for them."""
 
     angles: tuple[Angle, ...]

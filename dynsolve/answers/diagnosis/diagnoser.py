@@ -12,11 +12,13 @@ An answer that is to be explained, and an explanation of it, which is told only 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import zip_longest
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, cancelled, equal, is_zero
@@ -48,8 +50,7 @@ from dynsolve.quantities import families
 # An answer that is to be explained, and an explanation of it, which is told only where it holds
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Struct, frozen=True, dict=True):
     """An answer that is wrong, as an element of the ring, and the value that it is compared with."""
 
     wrong: WrongEntry
@@ -57,8 +58,7 @@ class Case:
     expected: Expr
 
 
-@dataclass(frozen=True)
-class Explanation:
+class Explanation(Struct, frozen=True, dict=True):
     """What is told of an answer, and what mends it; `told` makes the words."""
 
     mends: tuple[Mend, ...]

@@ -21,9 +21,10 @@ the other, the lightest first.  A part without a partner is a missing term, or o
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, groupby
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.rationals import fraction
@@ -51,8 +52,7 @@ HEAVY = 4
 """The weight of a term that is missing, or one too many: anything lighter is likelier."""
 
 
-@dataclass(frozen=True, slots=True)
-class TermSlip:
+class TermSlip(Struct, frozen=True):
     """A slip in one place: `weight` tells how unlikely it is."""
 
     weight: int

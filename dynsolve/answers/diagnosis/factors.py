@@ -9,10 +9,11 @@ made free of them first, by its conjugates: (c - s)(c + s) = 2c² - 1.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, permutations
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, Generator
@@ -33,8 +34,7 @@ Found = tuple[Pair, str, Expr]
 """Two factors, what it is called when one stands for the other, and the rest of the term."""
 
 
-@dataclass(frozen=True, slots=True)
-class Divisor:
+class Divisor(Struct, frozen=True):
     """The difference of two factors, made free of sines: `norm` is it times its conjugates."""
 
     conjugates: Expr

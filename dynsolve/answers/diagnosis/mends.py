@@ -16,9 +16,10 @@ in common are told apart by this factor alone.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from math import prod
 from typing import Any, Protocol
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring import Ring
@@ -117,8 +118,7 @@ class Mend(Protocol):
         """The answer without the slip."""
 
 
-@dataclass(frozen=True, slots=True)
-class Exchange:
+class Exchange(Struct, frozen=True):
     """rest · `written` stands where rest · `wanted` belongs.
 
     A term that is missing has 0 written, one too many 0 wanted; a factor that was left out has 1
@@ -148,8 +148,7 @@ class Exchange:
         return mine - self.have + self.want
 
 
-@dataclass(frozen=True, slots=True)
-class Renaming:
+class Renaming(Struct, frozen=True):
     """In `have`, some terms of the answer, what stands for some generators is put right."""
 
     have: Expr
@@ -164,8 +163,7 @@ class Renaming:
         return mine - self.have + put_polynomials(self.have, self.images)
 
 
-@dataclass(frozen=True, slots=True)
-class Redoing:
+class Redoing(Struct, frozen=True):
     """The step gives `wrong` with the slip and `right` without it."""
 
     wrong: Expr

@@ -7,8 +7,9 @@ the step goes wrong in a way that people do.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr

@@ -11,10 +11,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt, prod
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr, Generator
@@ -201,8 +202,7 @@ def _coefficient(node: Node) -> Fraction:
 # What is diagnosed: one scalar that is wrong, and whether its terms can be added at all
 
 
-@dataclass(frozen=True, slots=True)
-class WrongEntry:
+class WrongEntry(Struct, frozen=True):
     """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
 
     The last one that is expected is the key.  `called` is what a message calls it.

@@ -14,10 +14,12 @@ process grow without end.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
 from math import prod
 from typing import Any
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, Contents
 from dynsolve.algebra.expr import Expr
@@ -45,8 +47,7 @@ FINEST = 8
 """The largest multiple of a refined angle that an angle of the problem may become."""
 
 
-@dataclass(frozen=True)
-class AnswerRingPlan:
+class AnswerRingPlan(Struct, frozen=True, dict=True):
     """The plan of the answers' ring: the problem's ring and what answers bring, put together step by step."""
 
     base: Ring
@@ -155,29 +156,26 @@ class AnswerRing:
             return tuple(self.move(item) for item in value)
         if isinstance(value, Mapping):
             return {name: self.move(item) for name, item in value.items()}
-        if is_dataclass(value) and not isinstance(value, (type, Angle, Node)):
+        if isinstance(value, Struct) and not isinstance(value, (Angle, Node)):
             return self._record(value)
         return value
 
     def _record(self, value: Any) -> Any:
-        moved = {f.name: self.move(getattr(value, f.name)) for f in fields(value)}
-        if all(moved[f.name] is getattr(value, f.name) for f in fields(value)):
+        moved = {name: self.move(getattr(value, name)) for name in value.__struct_fields__}
+        if all(moved[name] is getattr(value, name) for name in moved):
             return value
         return replace(value, **moved)
 
 
-@dataclass
 class AnswerRingBuilder:
     """Takes trees one by one; what goes over a bound is refused and leaves the others alone.
 
     `base` is the ring of the problem alone, `plan` what was admitted so far.
     """
 
-    base: AnswerRing
-    plan: AnswerRingPlan = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.plan = self.base.plan
+    def __init__(self, base: AnswerRing) -> None:
+        self.base = base
+        self.plan = base.plan
 
     def admit(self, node: Node) -> None:
         """Make room for a tree; raises AlgebraError where there is none."""

@@ -36,8 +36,9 @@ the plane, and the rotation) say all that there is to say.
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import NoReturn, TypeVar
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
@@ -175,8 +176,7 @@ _POSITIONS = (families.RC, asked.P_POINT)
 Entry = TypeVar("Entry")
 
 
-@dataclass(frozen=True, slots=True)
-class Plane:
+class Plane(Struct, frozen=True):
     """The axes across the plane of a robot; several where it slides along one line and turns nowhere."""
 
     across: tuple[int, ...]
@@ -384,8 +384,7 @@ MOST_ENTRIES = 144
 """The most entries of a matrix that is judged."""
 
 
-@dataclass(frozen=True, slots=True)
-class AnswerValue:
+class AnswerValue(Struct, frozen=True):
     """One answer with its value: rows of entries, a scalar as 1×1; `fault` where there is none.
 
     `read` are the rows where only some entries could be read, 0 for the others.

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
+
+from msgspec import Struct
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.verdict import Part
@@ -28,8 +29,7 @@ from dynsolve.robot.model import Robot
 # What is found of a set of configurations
 
 
-@dataclass(frozen=True, slots=True)
-class SetVerdict:
+class SetVerdict(Struct, frozen=True):
     """Whether a set is right, else the `code` of what is said of alternative `number`, and `where`.
 
     `notes` are what is said of one that is right.
@@ -54,8 +54,7 @@ Formulas = Mapping[str, Node]
 """A branch: the formula of each coordinate."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Place:
+class _Place(Struct, frozen=True):
     """Values of the task that are reached, by name too, with the key's branches that are right there.
 
     The others are there, but their conditions do not hold.

@@ -18,11 +18,12 @@ Equations that hold together, in numbers: of a set of configurations one alterna
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import degrees, pi, radians, remainder
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -97,8 +98,7 @@ def example_point(
 # Equations that hold together, in numbers: of a set of configurations one alternative
 
 
-@dataclass(frozen=True, slots=True)
-class HeldEquations:
+class HeldEquations(Struct, frozen=True):
     """What is 0 together; `are_angles` tells of each whether it counts modulo 2π, as q₂ - π does."""
 
     program: Program

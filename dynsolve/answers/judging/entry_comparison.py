@@ -15,10 +15,12 @@ Answers that are spaces: vectors that span the key's, however many and however l
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import cos, pi, radians, sqrt
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, equal, simplified
@@ -48,8 +50,7 @@ Monomial = tuple[int, ...]
 """The exponents of a term."""
 
 
-@dataclass(frozen=True, slots=True)
-class WrittenEntry:
+class WrittenEntry(Struct, frozen=True):
     """An answer's scalar: its value, the tree it came from, and how to evaluate a changed tree."""
 
     value: RationalExpr
@@ -57,8 +58,7 @@ class WrittenEntry:
     evaluate: Callable[[Node], RationalExpr]
 
 
-@dataclass(frozen=True, slots=True)
-class EntryComparer:
+class EntryComparer(Struct, frozen=True):
     """Compares scalars; `values` are the numbers that the problem file gives for symbols.
 
     `exact` are the decimals that stand in the problem file.

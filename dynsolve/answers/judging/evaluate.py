@@ -8,10 +8,10 @@ for another answer; and the work that one answer may cost is counted.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import ClassVar
 
 from flint.utils.flint_exceptions import FlintError
+from msgspec import Struct, field
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, is_sign
@@ -44,8 +44,7 @@ FunctionValue = RationalExpr | tuple[int, int]
 """A value, or (generator, ±1) where it is one."""
 
 
-@dataclass(slots=True)
-class KnownValues:
+class KnownValues(Struct):
     """What functions of angles and terms of sums were found to be in one ring, whoever wrote them.
 
     All hand-ins to one problem hold much the same terms.

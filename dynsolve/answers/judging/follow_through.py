@@ -11,10 +11,11 @@ everywhere else there is one value, the key's.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from itertools import islice
 from typing import Any
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -28,8 +29,7 @@ MOST_WORK = 4_000_000
 """The products of terms that the candidates of one hand-in may cost, estimated before they are formed."""
 
 
-@dataclass(frozen=True, slots=True)
-class StudentValue:
+class StudentValue(Struct, frozen=True):
     """A student's own value of a node, None where it cannot be worked with.
 
     `names` are the answers it stands in that are not correct; none where it is the key's.
@@ -44,8 +44,7 @@ class StudentValue:
         return not self.names
 
 
-@dataclass(frozen=True, slots=True)
-class PossibleValue:
+class PossibleValue(Struct, frozen=True):
     """A value that a node may have; `derived` counts derived inputs, `used` are the answers it rests on."""
 
     value: Any
@@ -53,8 +52,7 @@ class PossibleValue:
     used: frozenset[str] = frozenset()
 
 
-@dataclass
-class FollowThrough:
+class FollowThrough(Struct, dict=True):
     """The candidates of every node, given what a student handed in.
 
     `assembled` says which way the routes between τ and D, C, g are taken, see `graph`.

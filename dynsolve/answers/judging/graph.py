@@ -22,9 +22,10 @@ One way in which an answer may be come to from others.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix
@@ -49,8 +50,7 @@ Key = Callable[[str], Any]
 """The key's value of a node, by its name."""
 
 
-@dataclass(frozen=True, slots=True)
-class Route:
+class Route(Struct, frozen=True):
     """value = compute(*inputs); compute gives None where these inputs lead nowhere.
 
     `linear`: sums and derivatives alone, whose work grows with the inputs and not with their products.

@@ -26,7 +26,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
@@ -51,8 +53,7 @@ from dynsolve.robot.units import LENGTH
 Rows = tuple[tuple[RationalExpr, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Equations:
+class _Equations(Struct, frozen=True):
     """One answer without λ, and what stands beside the multipliers in the equation of each coordinate."""
 
     compared: KeyComparison

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.fraction import RationalExpr, as_expr
 from dynsolve.algebra.linear_systems import FractionMatrix
@@ -29,8 +31,7 @@ from dynsolve.quantities.model_families import REGRESSORS
 Rows = tuple[tuple[WrittenEntry, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+class Target(Struct, frozen=True):
     """What an answer is compared with: a node, and the one entry of it, from 0, that was asked for."""
 
     node: str
@@ -41,16 +42,14 @@ class Target:
         return value[self.entry] if self.entry else value
 
 
-@dataclass(frozen=True, slots=True)
-class Obstacle:
+class Obstacle(Struct, frozen=True):
     """Why an answer cannot be compared with the key: the code of a slip, and what was written instead."""
 
     code: str
     yours: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class KeyComparison:
+class KeyComparison(Struct, frozen=True):
     """An answer compared with the key: its entries as they are compared, and whether each is right.
 
     `other` says how it is right although it is not the key's.  `written` are

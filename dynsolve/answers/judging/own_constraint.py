@@ -8,10 +8,11 @@ h = 0 and A_c q̇ = 0, is right too: that is held in numbers, at states of a fix
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.fraction import RationalExpr, add, equal, multiply
 from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of

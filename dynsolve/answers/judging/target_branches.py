@@ -8,8 +8,9 @@ may be off by what all decimals of its branch do to it together.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from dynsolve.answers.judging.branches import (
     INCOMPLETE,
@@ -31,8 +32,7 @@ IN_DEGREES = "in_degrees"
 """The note of an answer whose bare numbers are right as degrees."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Given:
+class _Given(Struct, frozen=True):
     """A configuration of the student's, with what its decimals may bring the coordinates and r(q) off."""
 
     values: Mapping[str, float]
@@ -46,8 +46,7 @@ class _Given:
         return any(self.slack.values())
 
 
-@dataclass(frozen=True)
-class TargetKey:
+class TargetKey(Struct, frozen=True, dict=True):
     """What reaches the target of one problem; `exact` are the decimals that stand in its file."""
 
     target: TargetForms

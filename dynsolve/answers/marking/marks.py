@@ -18,10 +18,12 @@ that a whole which is not written is judged by.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, Protocol
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -35,8 +37,7 @@ from dynsolve.quantities.index import Quantities
 # How verdicts become marks: the shares, the caps and the rounding that a course decides on
 
 
-@dataclass(frozen=True, slots=True)
-class Policy:
+class Policy(Struct, frozen=True):
     """`follow` is the share that what follows earns, `late` the share that a late hand-in keeps.
 
     `later` are the shares of the second day and those after it, where a course takes off by the
@@ -134,8 +135,7 @@ HALF = Fraction(1, 2)
 BY_ITSELF = "earns nothing by itself"
 
 
-@dataclass(frozen=True, slots=True)
-class Marked:
+class Marked(Struct, frozen=True):
     """The marks of one answer, and why they are what they are."""
 
     name: str

@@ -24,7 +24,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.answers.reading import dh_tables, yaml_values
 from dynsolve.answers.reading.configurations import read_configurations
@@ -59,8 +60,7 @@ _FLOW_END = re.compile(r"[,}\s]*\Z")
 _DELIMITERS = (("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]"))
 
 
-@dataclass(frozen=True, slots=True)
-class KeyedText:
+class KeyedText(Struct, frozen=True):
     """A key with the stretch of text that is its value."""
 
     key: str
@@ -335,8 +335,7 @@ X_FIRST = "xy"
 """What `atan2` says where the student's takes x first, as the first edition of Spong has it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """A key, the offset that it stands at, and its value, None where it is blank.
 
     `node` is the value as YAML has it, None in a file that YAML refuses.
@@ -348,8 +347,7 @@ class Entry:
     node: YamlNode | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class AnswerFile:
+class AnswerFile(Struct, frozen=True):
     """What an answer file says: whose it is, for which problem, its names and its answers."""
 
     problem: str

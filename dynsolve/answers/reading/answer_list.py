@@ -6,7 +6,10 @@ A quantity that is given several times: what cannot be read never takes the plac
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.by_content import MotionEquation
 from dynsolve.answers.reading.displays import Display
@@ -68,8 +71,7 @@ def _is_given(name: str, given: set[str], quantities: Quantities) -> bool:
 # The answers of one hand-in as they are found
 
 
-@dataclass(frozen=True, slots=True)
-class Origin:
+class Origin(Struct, frozen=True):
     """Where values come from: a display, the label of the equation in it, and its number in the file.
 
     `names` are the answers that the sides of the equation name.
@@ -90,8 +92,7 @@ class Origin:
         return self.not_recognized(members[0][0].start, members[-1][-1].end, why)
 
 
-@dataclass(frozen=True, slots=True)
-class Member:
+class Member(Struct, frozen=True):
     """One member of a chain a = b = c that is no name: its value, or why it has none."""
 
     index: int
@@ -99,8 +100,7 @@ class Member:
     found: RightSide | ReadError
 
 
-@dataclass(frozen=True, slots=True)
-class _Undecided:
+class _Undecided(Struct, frozen=True):
     """An equation whose left side has an index that does not exist, and the answers it gives if it counts.
 
     It is taken for the one answer of its `family` that is absent; `position` is its place
@@ -113,8 +113,7 @@ class _Undecided:
     position: int
 
 
-@dataclass(slots=True)
-class AnswerList:
+class AnswerList(Struct, dict=True):
     """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
 
     `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`; `own_scalars`
@@ -139,10 +138,10 @@ class AnswerList:
     _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
     _motions: list[tuple[MotionEquation, list[Token], Origin, NotRecognized]] = field(default_factory=list)
     _accelerations: dict[int, Answer] = field(default_factory=dict)
-    _entries: VectorEntries = field(init=False)
 
-    def __post_init__(self) -> None:
-        self._entries = VectorEntries(self.vocabulary)
+    @cached_property
+    def _entries(self) -> VectorEntries:
+        return VectorEntries(self.vocabulary)
 
     def entry(self, entry: Entry, member: Member, origin: Origin, refused: NotRecognized) -> None:
         """Keep what may be one row of C q̇ until it is known what stands beside it."""

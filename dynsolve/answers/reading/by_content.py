@@ -20,7 +20,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
@@ -133,8 +134,7 @@ _SIGNS = ("+", "-")
 _OPERATORS = frozenset({"+", "-", "*", "/", "cdot", "times", "^"})
 
 
-@dataclass(frozen=True, slots=True)
-class MotionEquation:
+class MotionEquation(Struct, frozen=True):
     """The generalized forces that one equation may give, and the value that it gives to one of them.
 
     `is_zero` says that no force stands in it: `... = 0`.
@@ -145,8 +145,7 @@ class MotionEquation:
     is_zero: bool
 
 
-@dataclass(frozen=True, slots=True)
-class _Term:
+class _Term(Struct, frozen=True):
     """A term of one side with its sign; `forces` are those that it names, none of any other term."""
 
     tokens: list[Token]

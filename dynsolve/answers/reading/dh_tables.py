@@ -23,9 +23,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import count, groupby, islice, pairwise
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.sources import Piece, PlacedText, Source, placed
@@ -184,8 +185,7 @@ _AMPERSAND = re.compile(r"(?<!\\)&")
 Row = list[Cell]
 
 
-@dataclass(frozen=True, slots=True)
-class FoundTable:
+class FoundTable(Struct, frozen=True):
     """A table of a report: where it begins and ends, and its rows [θ, d, a, α] as a text."""
 
     start: int

@@ -17,8 +17,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence, Set
-from dataclasses import dataclass, field, replace
 from itertools import islice
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.configurations import (
     coordinate_named,
@@ -117,8 +119,7 @@ _MOST = 200
 """So many lines are looked at."""
 
 
-@dataclass(frozen=True, slots=True)
-class HeadedSet:
+class HeadedSet(Struct, frozen=True):
     """What stands behind the head of a set, between two offsets of the report."""
 
     name: str
@@ -251,8 +252,7 @@ _DETERMINANT = re.compile(
 )
 
 
-@dataclass
-class DisplayedSets:
+class DisplayedSets(Struct, dict=True):
     """Gathers the sets of one report; `text` is the report, `told` are those that it gives behind a head."""
 
     reader: EquationReader

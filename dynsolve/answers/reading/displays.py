@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.grids import MAX_LENGTH
 from dynsolve.answers.reading.tokens.lexer import SEPARATORS, Token
@@ -14,8 +15,7 @@ Locate = Callable[[int, int], Place]
 """(offset, length) in the text of a display -> where that is in the file."""
 
 
-@dataclass(frozen=True, slots=True)
-class Display:
+class Display(Struct, frozen=True):
     """The text of one displayed equation, or of several below one another.
 
     `plain` is one in plain text; `among_prose` one in a line that may be a sentence, which is
@@ -75,8 +75,7 @@ def _joined(first: Display, second: Display) -> Display:
     return Display(f"{first.text} {second.text}", label, locate)
 
 
-@dataclass(slots=True)
-class Equation:
+class Equation(Struct):
     """The members of one chain a = b = c."""
 
     members: list[list[Token]]

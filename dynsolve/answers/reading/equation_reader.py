@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
 from dynsolve.answers.reading.by_content import (

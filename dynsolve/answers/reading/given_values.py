@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.answer_list import Member, Origin
 from dynsolve.answers.reading.displays import Display, chain

@@ -9,7 +9,8 @@ How much is read: a hand-in over one of these bounds is `unreadable`, and says w
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.size import MAX_DEPTH, Size, TooLargeError, size
@@ -85,8 +86,7 @@ _TEXT = "name a part of it with an abbreviation"
 Rows = tuple[tuple[Node, ...], ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Grid:
+class Grid(Struct, frozen=True, eq=False):
     """A matrix of trees.
 
     `quantity` is the canonical name where it stands for an answer as a whole;
@@ -112,8 +112,7 @@ class Grid:
         return Matrix(self.rows)
 
 
-@dataclass(frozen=True, slots=True)
-class Abstract:
+class Abstract(Struct, frozen=True):
     """What stands for no value of this robot: a running index, z_0, an operator; `why` names it."""
 
     why: str

@@ -6,7 +6,8 @@ The members of an equation that are no names: each read as a value, or why it ha
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.grammar.brackets import MIRRORED, SYMMETRIC_NOTE
@@ -41,15 +42,13 @@ _WHOLE = 6
 """With so many joints J itself is square."""
 
 
-@dataclass(frozen=True, slots=True)
-class NamedAnswers:
+class NamedAnswers(Struct, frozen=True):
     """The answers that a side of an equation may name."""
 
     candidates: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class UnknownSide:
+class UnknownSide(Struct, frozen=True):
     """A side that is a name which means nothing.
 
     `is_name_alone` says that it is nothing but that name, `has_arguments` that arguments follow it.
@@ -306,8 +305,7 @@ _LONGEST_UNIT = 30
 _PENDING = frozenset("+ - * / ^ _ cdot times command".split())
 
 
-@dataclass(frozen=True, slots=True)
-class RightSide:
+class RightSide(Struct, frozen=True):
     """A member that was read, with what its value is made of.
 
     `is_definition` says that names of the derivation alone stand in it, so that it has no value of its

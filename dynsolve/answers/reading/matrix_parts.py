@@ -14,8 +14,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
 from itertools import islice
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.grammar.formula import FormulaReader
@@ -54,8 +56,7 @@ _ALL = frozenset({":", "*", "cdot"})
 _CLOSING = {"(": ")", "{": "}"}
 
 
-@dataclass(frozen=True, slots=True)
-class MatrixPart:
+class MatrixPart(Struct, frozen=True):
     """The entries of one row or column, by the names of their answers."""
 
     entries: tuple[str, ...]
@@ -125,8 +126,7 @@ _ONLY_WITH_ARGUMENTS = frozenset({"c", "C"})
 _ENERGIES = re.compile(r"K.*|L|dL.*")
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """Which row of which vector a left side names; `is_sure` where its arguments say so."""
 
     letter: str
@@ -156,8 +156,7 @@ def entry_of(vocabulary: Vocabulary, member: list[Token]) -> Entry | None:
     return Entry(found[1], row, not bare)
 
 
-@dataclass(slots=True)
-class VectorEntries:
+class VectorEntries(Struct):
     """The entries of C q̇ in one hand-in, by letter and row."""
 
     vocabulary: Vocabulary

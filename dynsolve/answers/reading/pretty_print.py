@@ -15,7 +15,8 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from dynsolve.answers.reading.grids import MAX_NESTING
 
@@ -41,8 +42,7 @@ class _NoFormulaError(Exception):
     """What was drawn is no formula of this kind."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Box:
+class _Box(Struct, frozen=True):
     """A part of what was drawn: rows from `top` to before `bottom`, columns from `left` to before `right`."""
 
     top: int
@@ -101,8 +101,7 @@ def _is_drawn(paragraph: str) -> bool:
     return has_signs or is_matrix or any(line.strip() and _BESIDE.fullmatch(line) for line in lines)
 
 
-@dataclass(slots=True)
-class _Picture:
+class _Picture(Struct):
     """Lines cut into cells, a letter with its dots being one; `read` are those that were read."""
 
     lines: list[list[str]]

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
 from operator import itemgetter
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.asides import read_aside, spoken_verdicts
 from dynsolve.answers.reading.configurations import coordinate_named
@@ -87,8 +89,7 @@ NamesAnswer = Callable[[str], bool]
 """Whether the beginning of a line is the name of an answer."""
 
 
-@dataclass(frozen=True, slots=True)
-class MacroDefinition:
+class MacroDefinition(Struct, frozen=True):
     """A macro with the offset from which it holds."""
 
     offset: int

@@ -8,8 +8,9 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
+
+from msgspec import Struct, field
 
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.verdict import Place
@@ -37,8 +38,7 @@ A soft hyphen stays, and the line waits: in what is copied from a PDF it may be 
 _OTHERS = re.compile(f"[{''.join(_SAME)}]")
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(Struct, frozen=True, dict=True):
     """A text; `origins` are (offset, line, column) of its stretches, where the file is another text."""
 
     text: str
@@ -102,8 +102,7 @@ Piece = tuple[str, int]
 """Some characters, and the offset in the file that the first of them stands at."""
 
 
-@dataclass(frozen=True, slots=True)
-class PlacedText:
+class PlacedText(Struct, frozen=True):
     """A text; `starts` are the offsets at which its pieces begin, `origins` those in the file."""
 
     text: str

@@ -16,9 +16,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.reading.grids import Grid, Value
@@ -121,8 +122,7 @@ ZERO_LEVELS = ENERGY_LEVELS | frozenset("h0 H0 z0 y0 x0 h H href Href hzero hb P
 _SHORTHAND = re.compile(r"([sScC])([0-9]+)")
 
 
-@dataclass(frozen=True, slots=True)
-class Meaning:
+class Meaning(Struct, frozen=True):
     """What a name stands for, and what the student is told about a reading that was not obvious.
 
     `has_arguments` says that it was defined as `a(q)`.
@@ -133,8 +133,7 @@ class Meaning:
     has_arguments: bool = False
 
 
-@dataclass(slots=True)
-class Vocabulary:
+class Vocabulary(Struct):
     """The names of one problem.
 
     `symbols` are those of the problem by key, `others` further spellings of them;

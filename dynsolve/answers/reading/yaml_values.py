@@ -24,9 +24,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any
+
+from msgspec import Struct, field
 
 from dynsolve.answers.reading.dh_tables import column_of, order_of
 from dynsolve.answers.reading.sources import Piece, PlacedText, placed
@@ -184,8 +185,7 @@ class NotYaml(Exception):
     """The text is refused by YAML, or goes over a bound."""
 
 
-@dataclass(slots=True)
-class YamlNode:
+class YamlNode(Struct):
     """A scalar ('' for plain, else its quote or sign), a list ("list") or a mapping ("mapping").
 
     `as_it_stands` says that it has an anchor, a tag or is an alias; `inside` are the items of a list,

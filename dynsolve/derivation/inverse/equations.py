@@ -15,12 +15,14 @@ The ring in which a task is solved for its coordinates, and which of these are s
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, permutations
 from math import lcm
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, Contents
 from dynsolve.algebra.expr import Expr
@@ -76,8 +78,7 @@ def _finest_rate(ring: Ring, name: str) -> Fraction:
     return Fraction(1, lcm(*(rate.denominator for rate in rates))) if rates else Fraction(1)
 
 
-@dataclass(frozen=True)
-class Unknowns:
+class Unknowns(Struct, frozen=True, dict=True):
     """The coordinates that are still looked for, in one ring; `values` are the names of the task's values."""
 
     ring: Ring
@@ -156,15 +157,13 @@ class Unknowns:
 # Equations between what the task gives and what the unknowns make, and how others come from them
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(Struct, frozen=True):
     """Component `index` (from 0) of the task."""
 
     index: int
 
 
-@dataclass(frozen=True, slots=True)
-class OfPoint:
+class OfPoint(Struct, frozen=True):
     """Coordinate `index` (from 0) of a point that some joints do not move.
 
     It is seen from the frame before joint `joint` (from 1); 0 is where the arm begins.
@@ -174,8 +173,7 @@ class OfPoint:
     joint: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class OfTurn:
+class OfTurn(Struct, frozen=True):
     """Entry (`row`, `column`) (from 0) of the rotation that some joints make together."""
 
     row: int
@@ -186,8 +184,7 @@ Direct = Given | OfPoint | OfTurn
 """What is read off, and not made from other equations."""
 
 
-@dataclass(frozen=True, slots=True)
-class Turned:
+class Turned(Struct, frozen=True):
     """The first (cos, sin) or second (-sin, cos) component of two equations turned by a coordinate."""
 
     first: Equation
@@ -196,8 +193,7 @@ class Turned:
     is_second: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Squared:
+class Squared(Struct, frozen=True):
     """The sum of the squares of some equations."""
 
     parts: tuple[Equation, ...]
@@ -223,8 +219,7 @@ def turns(origin: Origin) -> int:
             return max(turns(part.origin) for part in parts)
 
 
-@dataclass(frozen=True, slots=True)
-class Equation:
+class Equation(Struct, frozen=True):
     """left = right."""
 
     left: Expr

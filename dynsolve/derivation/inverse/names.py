@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -20,8 +21,7 @@ MOST_LEVELS = 3
 """So often a part is taken off the arm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """The names that may be given in one part of a solution, and in those after it.
 
     `points` are the subscripts of a point and of an origin, part after part, `turns` letters of rotations.

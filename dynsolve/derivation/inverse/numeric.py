@@ -8,12 +8,12 @@ What it finds is put into r(q); what it does not find may still be there.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import pi
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from dynsolve.algebra.ring import Ring
 from dynsolve.derivation.reached import same_configuration
@@ -36,8 +36,7 @@ _SINGULAR = 1e-7
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt}
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(Struct, frozen=True):
     """Configurations that stand alone, and others, at which the Jacobian has less than rank n.
 
     Around the others there may be infinitely many.
@@ -68,8 +67,7 @@ def search(
     return Found(tuple(isolated), tuple(others))
 
 
-@dataclass(frozen=True)
-class _System:
+class _System(Struct, frozen=True, dict=True):
     """r(q) = target; configurations are the columns of an n×k array."""
 
     ring: Ring

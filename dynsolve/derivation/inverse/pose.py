@@ -23,8 +23,10 @@ the axes of several joints that turn, which they do not move.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -49,8 +51,7 @@ from dynsolve.robot.model import Convention, Joint, JointType, Robot
 # The arm as a chain of motions about and along the joint axes, with constant steps between them
 
 
-@dataclass(frozen=True, slots=True)
-class Screw:
+class Screw(Struct, frozen=True):
     """Z_i, 4×4, with its coordinate; `slide` is d_i, `number` i from 1."""
 
     coordinate: str
@@ -60,8 +61,7 @@ class Screw:
     slide: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Chain:
+class Chain(Struct, frozen=True):
     """Z_1 ... Z_n and C_1 ... C_{n-1}: `between[k]` stands behind screw k, both counted from 0."""
 
     screws: tuple[Screw, ...]
@@ -278,8 +278,7 @@ def _of_points(block: _Block, names: Names) -> Iterator[Relation]:
                 yield Relation(meant.get(known, known), made)
 
 
-@dataclass(frozen=True, slots=True)
-class _Block:
+class _Block(Struct, frozen=True):
     """The joints that are left, and the pose H (4×4, in what is known) that they make."""
 
     chain: Chain

@@ -11,10 +11,12 @@ solution is the right one, and at values that no configuration was taken for.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, islice
 from math import pi
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -164,8 +166,7 @@ def _solvable(
 # -- sums of angles in the task --------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class _Sum:
+class _Sum(Struct, frozen=True):
     """Σ given = Σ rate·q + rest, between values of the task and angles."""
 
     given: Mapping[str, Fraction]
@@ -284,8 +285,7 @@ def with_conditions(solving: Solving, branches: Sequence[Branch]) -> tuple[Branc
     return tuple(replace(branch, when=_Conditions(solving, branch).found()) for branch in branches)
 
 
-@dataclass(frozen=True, slots=True)
-class _Conditions:
+class _Conditions(Struct, frozen=True):
     """The conditions of one branch."""
 
     solving: Solving

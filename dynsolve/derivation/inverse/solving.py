@@ -15,8 +15,9 @@ are among the equations of the search, and two equations for one angle leave one
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import chain, islice, product
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -30,16 +31,14 @@ from dynsolve.derivation.reached import angle_rows, near, same_configuration
 # How a task is solved, as data
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
+class Definition(Struct, frozen=True):
     """A name for what is known before the steps of its part: x_c = x - d6 r13."""
 
     name: str
     value: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Relation:
+class Relation(Struct, frozen=True):
     """left = right between values of the task and known coordinates; an angle is meant modulo 2π."""
 
     left: Expr
@@ -52,8 +51,7 @@ class Relation:
         return self.right - self.left
 
 
-@dataclass(frozen=True, slots=True)
-class Turn:
+class Turn(Struct, frozen=True):
     """The pose that is left for joints `first`..`last` (from 1) when the others are taken off.
 
     `names` are their coordinates, `known` (4×4) the entries of the pose as the steps have them,
@@ -70,8 +68,7 @@ class Turn:
     definitions: tuple[Definition, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class FixedPoint:
+class FixedPoint(Struct, frozen=True):
     """A point on the axes of joints `first`..`last`, which these do not move.
 
     `known` (3×1) are its coordinates as the steps have them, `made` (3×1) what the other joints
@@ -88,8 +85,7 @@ class FixedPoint:
     from_hand: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """Steps that are taken from the same equations, with what is known for them by name.
 
     `parallel` are joints (numbers from 1) with parallel axes, where the equations are those that do
@@ -107,8 +103,7 @@ class Part:
         return tuple(d for told in (self.turn, self.point) if told for d in told.definitions)
 
 
-@dataclass(frozen=True, slots=True)
-class Solving:
+class Solving(Struct, frozen=True):
     """The unknowns in the order in which they are solved for.
 
     `ring` is that of the steps; `task` is r(q) as it was given, `values` are the names of its
@@ -148,8 +143,7 @@ Choice = tuple[int, ...]
 """Of each step of a solving which of its solutions is taken, from 0."""
 
 
-@dataclass(frozen=True, slots=True)
-class Branch:
+class Branch(Struct, frozen=True):
     """One solution: `choice` says which value each step takes, `when` under which conditions it is one."""
 
     choice: Choice

@@ -17,11 +17,12 @@ An expression by what its unknowns do in it: A cos ψ + B sin ψ + C, or A d² +
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import atan2, sqrt
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_nonnegative, is_positive
@@ -34,8 +35,7 @@ from dynsolve.derivation.inverse.equations import Equation, Unknowns
 Multiples = tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Harmonic:
+class Harmonic(Struct, frozen=True):
     """A cos ψ + B sin ψ + C, where ψ = Σ multiples·q over unknown angles, each by its name."""
 
     multiples: tuple[tuple[str, int], ...]
@@ -91,8 +91,7 @@ def _expr(ring: Any, terms: Mapping[Any, Any]) -> Expr:
     return Expr(ring, ring.ctx.from_dict(dict(terms)))
 
 
-@dataclass(frozen=True, slots=True)
-class Quadratic:
+class Quadratic(Struct, frozen=True):
     """A d² + B d + C in one unknown length, with A, B, C free of unknowns."""
 
     coordinate: str
@@ -127,8 +126,7 @@ NEARLY = 1e-9
 """What rounding may make of 0, relative to the size of what was added up."""
 
 
-@dataclass(frozen=True, slots=True)
-class TwoLines:
+class TwoLines(Struct, frozen=True):
     """A c + B s = X and A' c + B' s = X': the angle of the point where two lines meet."""
 
     coordinate: str
@@ -176,8 +174,7 @@ class TwoLines:
         return (atan2((a * y - c * x) / determinant, (d * x - b * y) / determinant),)
 
 
-@dataclass(frozen=True, slots=True)
-class OneLine:
+class OneLine(Struct, frozen=True):
     """A c + B s = X: the two angles at which a circle meets a line."""
 
     coordinate: str
@@ -211,8 +208,7 @@ class OneLine:
         return middle + atan2(root, x), middle - atan2(root, x)
 
 
-@dataclass(frozen=True, slots=True)
-class Length:
+class Length(Struct, frozen=True):
     """M d = N."""
 
     coordinate: str
@@ -237,8 +233,7 @@ class Length:
         return (at(self.value) / factor,) if factor else ()
 
 
-@dataclass(frozen=True, slots=True)
-class RootLength:
+class RootLength(Struct, frozen=True):
     """A d² + B d + C = 0."""
 
     coordinate: str
@@ -264,8 +259,7 @@ class RootLength:
         return (-b + root) / (2 * a), (-b - root) / (2 * a)
 
 
-@dataclass(frozen=True, slots=True)
-class Remainder:
+class Remainder(Struct, frozen=True):
     """q = (Σ values - Σ rateₖ qₖ - rest) / rate, where the task gives sums of angles; in radians."""
 
     coordinate: str

@@ -10,9 +10,10 @@ signs, a w of these columns; it is one of J where the rank is k.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import trig_factors, trig_quotient
@@ -32,8 +33,7 @@ MOST_WORK = 2_500
 """The products of terms that a direction of such a Jacobian may take."""
 
 
-@dataclass(frozen=True, slots=True)
-class Loss:
+class Loss(Struct, frozen=True):
     """The rank where some conditions hold, and the directions that are lost; none where they are long.
 
     `jacobian` is the matrix there, up to a factor that is never 0.  With `rank_holds` the rank is that
@@ -125,8 +125,7 @@ def _direction(
     return min(found, key=lambda direction: sum(map(len, direction)), default=None)
 
 
-@dataclass(frozen=True, slots=True)
-class _Minors:
+class _Minors(Struct, frozen=True):
     """The minors of k + 1 rows and k columns that leave out one row each."""
 
     matrix: Matrix

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -37,8 +38,7 @@ class TooLong(Exception):
     """There are more cases than are looked at."""
 
 
-@dataclass
-class Special:
+class Special(Struct, dict=True):
     """Polynomials in parameters that are divided out, or multiplied by: where one is 0 nothing is said.
 
     `factors` are the irreducible ones that may be 0, by `signs`; `is_open` where there may be others.
@@ -62,8 +62,7 @@ class Special:
             self.add(factor)
 
 
-@dataclass(frozen=True, slots=True)
-class SingularSet:
+class SingularSet(Struct, frozen=True):
     """Where a matrix of greatest rank `rank` has less: at any of the `alternatives`.
 
     `minors` are the expressions that vanish there, all in one ring: those of the Jacobian, or of its
@@ -144,8 +143,7 @@ def common_zeros(values: Sequence[Expr], special: Special | None = None) -> tupl
     return tuple(_merged(found))
 
 
-@dataclass
-class _Cases:
+class _Cases(Struct, dict=True):
     """The choices of a factor of each expression, and the terms that were looked at."""
 
     special: Special | None = None

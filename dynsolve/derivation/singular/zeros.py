@@ -17,7 +17,6 @@ the matrix is 1 more than that of the rest.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import permutations
 from math import lcm
@@ -25,6 +24,7 @@ from random import Random
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
+from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.factors import is_positive, trig_quotient
@@ -170,8 +170,7 @@ def _drawn(ring: Ring) -> Iterator[tuple[int, fmpq]]:
 # An equation f(q) = 0 that is a factor of something, and what expressions become where it holds
 
 
-@dataclass(frozen=True)
-class Condition:
+class Condition(Struct, frozen=True, dict=True):
     """f = 0, with f irreducible in a ring of one angle a coordinate."""
 
     expr: Expr

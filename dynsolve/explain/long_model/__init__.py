@@ -15,8 +15,9 @@ The steps of a derivation are each changed by a function here (the energies and 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from functools import partial
+
+from msgspec.structs import replace
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Reference

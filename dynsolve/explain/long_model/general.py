@@ -9,8 +9,9 @@ tensors that are given, is shown in any case.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value

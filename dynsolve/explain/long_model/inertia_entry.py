@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import chain
+
+from msgspec import Struct
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.expr import Expr
@@ -31,8 +32,7 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Joint, JointType
 
 
-@dataclass(frozen=True)
-class InertiaEntry:
+class InertiaEntry(Struct, frozen=True, dict=True):
     """d_jk of two joints, counted from 0, by what each of the bodies adds that both move."""
 
     model: LongModel
@@ -134,8 +134,7 @@ BESIDE = 30
 """The characters that two levers may have to stand side by side."""
 
 
-@dataclass(frozen=True)
-class _Side:
+class _Side(Struct, frozen=True, dict=True):
     """A joint and, along the axes of the link of a body that it moves, Rᵀ z, Rᵀ (r_c - o), the column of J_v.
 
     `way` are the rows from the joint's axis to the body's frame, `names` J_v and J_ω in letters.
@@ -161,8 +160,7 @@ def _side(context: Context, body: Body, joint: Joint) -> _Side:
     return _Side(joint, turns, way, column_letters(context, joint, letters.rc(body)), axis, lever, column)
 
 
-@dataclass(frozen=True)
-class BodyShare:
+class BodyShare(Struct, frozen=True, dict=True):
     """m (J_v)_jᵀ (J_v)_k + (J_ω)_jᵀ I (J_ω)_k of one body and two joints that move it."""
 
     context: Context

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from itertools import groupby
 from operator import itemgetter
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -34,8 +36,7 @@ brief_step = partial(Step, detail=Detail.BRIEF, uses=())
 """A step that stands for many."""
 
 
-@dataclass(frozen=True)
-class LongModel:
+class LongModel(Struct, frozen=True, dict=True):
     """A model in names; `direct` is the step that assembles D from the Jacobians, if there is one."""
 
     context: Context

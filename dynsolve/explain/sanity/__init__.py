@@ -18,7 +18,9 @@ say, and a record of it below.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.conserved import conserved_step, dependence_step, momenta_step
@@ -29,8 +31,7 @@ from dynsolve.explain.sanity.poses import inertia_poses_step, point_masses_step
 from dynsolve.explain.step import Detail, Step
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+class Check(Struct, frozen=True):
     """A check by its step's id, the condition under which it speaks, and what makes the step."""
 
     id: str

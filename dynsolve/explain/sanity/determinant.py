@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import combinations, product
 
 from flint import fmpq_mpoly
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.terms import Monomial, Rational
@@ -146,8 +146,7 @@ OPERATIONS: tuple[str, ...] = ("the entries put in", "multiplied out", "collecte
 _PUT_IN, MULTIPLIED_OUT, _ = OPERATIONS
 
 
-@dataclass(frozen=True, slots=True)
-class Determinant:
+class Determinant(Struct, frozen=True):
     """The determinant of coupled coordinates: its members, by which operations, the identities of the last.
 
     `form` is its last member, `differences` what rows and columns leave that are subtracted first;
@@ -177,8 +176,7 @@ def said_of(determinants: Sequence[Determinant]) -> Prose:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Written:
+class _Written(Struct, frozen=True):
     """p q - r²: in letters, and with the entries put in."""
 
     in_letters: Node
@@ -302,8 +300,7 @@ _WITH_KNOWN_TANGENT = (30, 45, 60, -30, -45, -60)
 """The angles in degrees, between -90 and 90, that have a tangent without cosines of further angles."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cases:
+class Cases(Struct, frozen=True):
     """Where g = 0 of two angles: the lines that lead there, and all poses up to full turns."""
 
     lines: tuple[Line, ...]

@@ -8,10 +8,11 @@ which P surely has an extremum.  Where a joint slides up and down, the pose has 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
 from itertools import chain
 from math import lcm
+
+from msgspec import Struct
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.angles import angle_node
@@ -50,8 +51,7 @@ from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, JointType
 
 
-@dataclass(frozen=True, slots=True)
-class Zero:
+class Zero(Struct, frozen=True):
     """Row `row` of g, from 0, is `value` once the zeros before it are put in: 0 where a sine or cosine is."""
 
     row: int

@@ -8,8 +8,10 @@ brackets, which become 1 or the cosine of a difference: the same lines as those 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
@@ -62,8 +64,7 @@ WIDEST = 60
 """The characters up to which the products stand in a matrix; wider ones are given entry by entry."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Entry:
+class _Entry(Struct, frozen=True):
     """An entry of J_vᵀ J_v: as a sum of products, multiplied out, and the identities that are left."""
 
     place: tuple[int, int]

@@ -6,9 +6,11 @@ A line is spent where there is something to see: several factors vary, or an ide
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement, product
 from math import prod
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose, Reference
@@ -61,8 +63,7 @@ from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate
 
 
-@dataclass(frozen=True, slots=True)
-class _Derivative:
+class _Derivative(Struct, frozen=True):
     """A derivative as it is differentiated, multiplied out, and collected, and what leads to that."""
 
     tree: Node

@@ -6,11 +6,12 @@ Nothing is collected or simplified afterwards; that is the next line's work.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import product
 from math import prod
+
+from msgspec import Struct
 
 from dynsolve.notation.build import factors_of, negated, split_sign, times, total
 from dynsolve.notation.tree import (
@@ -45,8 +46,7 @@ def by_symbol(variable: Symbol) -> Rule:
     return lambda symbol: ONE if symbol == variable else ZERO
 
 
-@dataclass(frozen=True, slots=True)
-class Differentiated:
+class Differentiated(Struct, frozen=True):
     """A derivative, and whether the product or the chain rule was more than a look: several factors vary."""
 
     tree: Node

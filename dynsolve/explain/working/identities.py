@@ -9,12 +9,12 @@ does not equal the one before it has no identities at all: `identities` gives No
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from math import prod
 
 from flint import fmpq_mpoly
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.expr import Expr, Pair
@@ -49,8 +49,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import to_unicode
 
 
-@dataclass(frozen=True, slots=True)
-class Identity:
+class Identity(Struct, frozen=True):
     """An identity in this robot's angles: c₁ c₁₂ + s₁ s₁₂ = c₂; s² + c² = 1 has no `name`."""
 
     name: str
@@ -302,8 +301,7 @@ Tactic = tuple[str | Prose, Node]
 """What is done, in words, and the form of the value that it gives."""
 
 
-@dataclass(frozen=True, slots=True)
-class Way:
+class Way(Struct, frozen=True):
     """The lines to a result, and what is said of the last operation, with the identities it uses.
 
     With a `frame` they begin afresh from the formula, along the axes of that frame.

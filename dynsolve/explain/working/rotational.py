@@ -8,8 +8,9 @@ brought to the body's own axes instead (`own_axes`), along which the tensor is t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import combinations_with_replacement
+
+from msgspec import Struct
 
 from dynsolve.algebra.compact.collect import matrix_factor
 from dynsolve.algebra.expr import Expr
@@ -119,8 +120,7 @@ def _terms(context: Context, w: Matrix, moments: tree.Matrix | None) -> Iterator
 # where (R_0^w)ᵀ R, the body's axes seen from frame 0, is made of the matrices of the table alone.
 
 
-@dataclass(frozen=True, slots=True)
-class Turned:
+class Turned(Struct, frozen=True):
     """ω, or the columns of J_ω, along a body's own axes: the value, its name Rᵀ ω, how it comes about.
 
     `uses` names the rotation that the first line turns by.

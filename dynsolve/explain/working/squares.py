@@ -11,13 +11,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 from math import gcd, lcm
 from typing import Any, NamedTuple
 
 from flint import fmpq_mpoly
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr, Generator, Pair
@@ -329,8 +330,7 @@ def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) 
 # -- the components of a velocity ------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Turned:
+class Turned(Struct, frozen=True):
     """Two components, by their places, that are (a, b) turned by the angle of a pair."""
 
     pair: Pair
@@ -364,8 +364,7 @@ def exchanged(components: Sequence[Expr], found: Turned) -> list[Expr]:
     return [x for x in found.parts if not x.is_zero] + rest
 
 
-@dataclass(frozen=True, slots=True)
-class Shared:
+class Shared(Struct, frozen=True):
     """What all components of a velocity share: ½ l₂ and q̇₁ of l₂ s₁ q̇₁/2 and l₂ c₁ q̇₁/2; 1 for nothing."""
 
     length: Expr

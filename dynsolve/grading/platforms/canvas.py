@@ -21,9 +21,10 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path, PurePosixPath
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.grading.cohort import Standing, most, standings
@@ -45,8 +46,7 @@ _ANONYMOUS = re.compile(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class CanvasName:
+class CanvasName(Struct, frozen=True):
     """The parts of a name: whose, the number of the student, that of the file, and the file's own name.
 
     A text or an address that was entered has a `page` and no file.

@@ -9,9 +9,10 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
+
+from msgspec import Struct
 
 from dynsolve.answers.marking.marks import points
 from dynsolve.grading.cohort import Standing, standings
@@ -25,8 +26,7 @@ from dynsolve.render.files import write_changed
 # Whose file it is, as a platform's name of it says, and who there is, as its list of students says
 
 
-@dataclass(frozen=True, slots=True)
-class FileOwner:
+class FileOwner(Struct, frozen=True):
     """Whose file it is: `student` names the row, `id` is the platform's own, empty where there is none.
 
     `delivery` is what was handed in at once: its files belong together, another delivery
@@ -48,8 +48,7 @@ class FileOwner:
     called: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Person:
+class Person(Struct, frozen=True):
     """A student of a platform's list: `student` as the names of the files have it, the platform's `id`.
 
     `name` is what people call the student, `group` the group that the list puts them in; `also`
@@ -160,8 +159,7 @@ def read_metadata(content: bytes) -> Submitters:
     return {submission: tuple(submitters) for submission, submitters in found.items()}
 
 
-@dataclass(slots=True)
-class _OpenCollection:
+class _OpenCollection(Struct):
     """A collection that is being read: a mapping (m) with the key it is at, or a sequence (s)."""
 
     kind: str

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from pathlib import PurePosixPath
 from unicodedata import normalize
+
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.grading.platforms import canvas, gradescope, moodle

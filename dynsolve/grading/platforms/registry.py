@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.platforms import canvas, gradescope, moodle
@@ -15,8 +16,7 @@ from dynsolve.grading.record import Record
 from dynsolve.grading.set_file import ProblemSet
 
 
-@dataclass(frozen=True, slots=True)
-class Platform:
+class Platform(Struct, frozen=True):
     """How a platform's files are written; `check` raises for a faulty roster before anything is graded.
 
     A platform without a check needs no roster.  `late` tells the days that the

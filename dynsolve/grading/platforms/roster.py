@@ -6,9 +6,10 @@ import csv
 import io
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+
+from msgspec import Struct
 
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.cohort import Standing
@@ -21,8 +22,7 @@ MOST_NAMED = 5
 Cells = tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Roster:
+class Roster(Struct, frozen=True):
     """The rows of a CSV, the header first, and how it was written.
 
     `mark` tells whether it began with a byte order mark, `comma` whether its numbers

@@ -24,10 +24,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from itertools import pairwise
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -41,8 +42,7 @@ from dynsolve.robot.model import Convention, JointType
 # What a drawing of an arm shows: its joint axes and its hand in one pose
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """A directed line in space: a point of it and its unit direction, both 3×1 in world coordinates."""
 
     point: Matrix
@@ -53,8 +53,7 @@ class Line:
         return self.point + self.direction.scale(dot(self.direction, point - self.point))
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnAxis:
+class DrawnAxis(Struct, frozen=True):
     """A joint axis in the pose that is drawn.
 
     `coordinate` names its joint variable.  The place of a sliding axis moves nothing; where
@@ -72,8 +71,7 @@ class DrawnAxis:
         return self.type is JointType.PRISMATIC
 
 
-@dataclass(frozen=True, slots=True)
-class Hand:
+class Hand(Struct, frozen=True):
     """The hand in the pose that is drawn: where it is, and its axes z and x where they are given."""
 
     at: Matrix
@@ -81,8 +79,7 @@ class Hand:
     x: Matrix | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Drawing:
+class Drawing(Struct, frozen=True):
     """An arm as it is drawn; every vector is 3×1 over `ring`, in world coordinates.
 
     The letter of a sliding joint is its value in that pose, where the drawing has it at
@@ -157,8 +154,7 @@ class NeedsMore(Exception):
         self.missing = missing
 
 
-@dataclass(frozen=True, slots=True)
-class Normal:
+class Normal(Struct, frozen=True):
     """The normal from one axis to the next.
 
     `x` is its unit direction (3×1), `start` and `end` its ends on the two axes (3×1), `a` how
@@ -262,8 +258,7 @@ def _between(z: Matrix, other: Matrix) -> Angle:
 # The normals along an arm as it is drawn: the textbook's procedure
 
 
-@dataclass(frozen=True, slots=True)
-class Normals:
+class Normals(Struct, frozen=True):
     """The normals of an arm: `all[0]` at frame 0, `all[i]` from axis i to i + 1, `all[-1]` to the hand.
 
     `hand` is the line of the hand's z, the last axis's direction where none is given, and

@@ -17,8 +17,10 @@ through the origin of the world, those are taken with which fewest lengths of th
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from itertools import product
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -40,8 +42,7 @@ from dynsolve.robot.model import Convention
 # The rows of a Denavit-Hartenberg table from the normals of an arm
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnRow:
+class DrawnRow(Struct, frozen=True):
     """A row of the table: the joint whose variable it holds, None for a fixed frame.
 
     `theta` and `d` are constant parts: the variable is added to that of the joint's column.
@@ -61,8 +62,7 @@ class DrawnRow:
         return self.axis is None and lengths and self.theta == zero and self.alpha == zero
 
 
-@dataclass(frozen=True, slots=True)
-class _Move:
+class _Move(Struct, frozen=True):
     """θ and d: from one normal to the next along and about the axis between them."""
 
     axis: DrawnAxis | None

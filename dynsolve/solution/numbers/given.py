@@ -11,10 +11,11 @@ The unit of every result of a robot: N m, kg m², J, by its role and the type of
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fractions import Fraction
 from typing import Protocol
+
+from msgspec import Struct, field
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
@@ -39,8 +40,7 @@ Plain = int | float | Fraction | str
 """What a Python user may give as a value: a float stands for the decimal it is printed as."""
 
 
-@dataclass(frozen=True, slots=True)
-class Assignment:
+class Assignment(Struct, frozen=True):
     """`name=value` as it was written, and where: `file` with the line and the columns of both parts."""
 
     name: str
@@ -147,8 +147,7 @@ Key = tuple[str, int]
 """A name and its number of dots: ("theta1", 1) is a velocity."""
 
 
-@dataclass(frozen=True, slots=True)
-class GivenValue:
+class GivenValue(Struct, frozen=True):
     """One value: its formula in SI units, the text it was given as, its unit and whether it is a decimal."""
 
     tree: Node
@@ -157,8 +156,7 @@ class GivenValue:
     decimal: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(Struct, frozen=True):
     """Values by name; `warnings` are what deserves a look."""
 
     entries: Mapping[Key, GivenValue] = field(default_factory=dict)
@@ -278,8 +276,7 @@ def _state_key(reader: _Reader, assignment: Assignment) -> Key | None:
 # -- the reading of a value ------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class _Written:
+class _Written(Struct, frozen=True):
     """A value as it is written: `turned` says that it is an angle by its unit, degrees or `radians`."""
 
     tree: Node

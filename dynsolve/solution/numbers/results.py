@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from msgspec import Struct
+
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -182,8 +184,7 @@ def _float(expr: Expr, name: str) -> float:
     return float(plain.number)
 
 
-@dataclass(frozen=True, slots=True)
-class Numbers:
+class Numbers(Struct, frozen=True):
     """The numeric results beside the symbolic ones of a robot.
 
     `given` are the values of parameters; `valued` the results with these values, None

@@ -6,13 +6,13 @@ Exact results shown as decimals: the only place where a number is rounded.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
 from flint import arb, ctx
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.compact.compactor import Compactor

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 import dynsolve
 from dynsolve.derivation.newton_euler import Arm, Mass, Motion, energies, inverse_dynamics

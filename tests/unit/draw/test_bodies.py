@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.draw.mass_centers import DrawnBody, Form, drawn_bodies, sleeves, with_masses
 from dynsolve.draw.orientation import orientation

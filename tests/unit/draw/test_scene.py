@@ -6,11 +6,11 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.draw.figure import font_size, to_svg
 from dynsolve.draw.labels import Taken, bounds

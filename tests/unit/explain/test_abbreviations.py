@@ -156,7 +156,7 @@ def test_a_wrong_name_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     right = abbreviations.abbreviate
 
     def wrong(forms: Any) -> Abbreviated:
-        from dataclasses import replace
+        from msgspec.structs import replace
 
         names = right(forms)
         first = names.sums[0]

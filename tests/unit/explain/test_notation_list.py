@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from functools import cache
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text
 from dynsolve.explain.context import style_of

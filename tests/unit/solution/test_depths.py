@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.document import Block, Equations, Fold, Formula, Heading, List, Table, Text, Uses
 from dynsolve.explain.signs import formulas_in, kind_of

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Node, Number, Relation, walk

@@ -11,15 +11,14 @@ What a slip is, and the problems of the examples.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from msgspec import Struct, field
 
 from dynsolve.answers.verdict import Diagnosis
 
 # What a slip is, and the problems of the examples
 
 
-@dataclass(frozen=True, slots=True)
-class Example:
+class Example(Struct, frozen=True):
     """A hand-in that shows a slip: `name` of `problem` with a wrong value, other answers beside it."""
 
     problem: str
@@ -28,8 +27,7 @@ class Example:
     beside: dict[str, str | list[list[str]]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
-class Slip:
+class Slip(Struct, frozen=True):
     """A slip: `code`, its class in a few words, the message, and what to look at.
 
     `omits`: a part of the derivation was left out, which is tried before what was done otherwise.

@@ -21,10 +21,12 @@ chains can be laid on each other (`matching`), whatever frames they were made wi
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from itertools import islice
 from math import atan2, pi, remainder, sqrt
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.derivation.drawn_motion import rodrigues
 from dynsolve.derivation.newton_euler import (
@@ -49,8 +51,7 @@ Rates = tuple[tuple[int, float], ...]
 """(index of a coordinate from 0, how fast the joint moves with it)"""
 
 
-@dataclass(frozen=True, slots=True)
-class NumberRow:
+class NumberRow(Struct, frozen=True):
     """A row in numbers: the constant parts of θ and d, and a and α; angles in radians.
 
     `variable` is "theta" or "d", None for a fixed frame; `rates` belong to it.
@@ -64,8 +65,7 @@ class NumberRow:
     rates: Rates = ()
 
 
-@dataclass(frozen=True, slots=True)
-class JointLine:
+class JointLine(Struct, frozen=True):
     """A joint axis where every coordinate is 0; `row` is that of the table, from 1."""
 
     turns: bool
@@ -75,8 +75,7 @@ class JointLine:
     row: int
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(Struct, frozen=True):
     """Where a frame is: its axes as the columns of R, and its origin."""
 
     R: Rotation
@@ -91,8 +90,7 @@ class Pose:
         return Pose(self.R, plus(self.o, scaled(column(self.R, 0 if axis == "x" else 2), way)))
 
 
-@dataclass(frozen=True, slots=True)
-class Chain:
+class Chain(Struct, frozen=True):
     """The joint axes from the base to the hand, and the hand's frame, where every coordinate is 0."""
 
     joints: tuple[JointLine, ...]
@@ -122,8 +120,7 @@ _SEEN = 1e-6
 _MOST_WAYS = 64
 
 
-@dataclass(frozen=True, slots=True)
-class Match:
+class Match(Struct, frozen=True):
     """How a chain lies on the key's.
 
     `senses` are +1 where a joint's axis points as the key's does, else -1; `offsets` what the
@@ -157,8 +154,7 @@ class Match:
         return replace(self, base=base, offsets=(self.offsets[0] + turn, *self.offsets[1:]))
 
 
-@dataclass(frozen=True, slots=True)
-class Mismatch:
+class Mismatch(Struct, frozen=True):
     """The first joint (from 0, the number of joints for the hand) that cannot be laid on the key's, and why.
 
     `reason` is "direction"; "side" where the axes of a link are parallel and the next one is too far off or
@@ -174,8 +170,7 @@ class Mismatch:
         return self.reason == "place", self.joint, self.reason == "side"
 
 
-@dataclass(frozen=True, slots=True)
-class _Turned:
+class _Turned(Struct, frozen=True):
     """A chain turned so far.
 
     `R` takes the student's axes to the key's world; `free` is the direction about which it may still

@@ -12,8 +12,10 @@ the student's coordinates.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import islice
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.mechanism.own_places import (
@@ -39,8 +41,7 @@ MOST_SENSES = 6
 """In so many senses a hand-in is judged that is right in none."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sense:
+class Sense(Struct, frozen=True):
     """How an exercise is meant by who has other frames.
 
     `keeps_world`: positions are still seen from the exercise's world, not from the student's frame 0;

@@ -11,11 +11,12 @@ A state is the other way round: where q has a value, q' has ± that value plus c
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
 from math import degrees, pi, remainder
+
+from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
 from dynsolve.algebra.compact.compactor import Compactor
@@ -45,8 +46,7 @@ from dynsolve.robot.questions import Questions, State
 # Formulas of an exercise in a student's coordinates
 
 
-@dataclass(frozen=True, slots=True)
-class Count:
+class Count(Struct, frozen=True):
     """How a student counts a coordinate: q' = sense·q + shift."""
 
     sense: int
@@ -114,8 +114,7 @@ class NotExact(Exception):
     """How the student's frames lie is no number of degrees, or no sum of lengths of the tables."""
 
 
-@dataclass(frozen=True, slots=True)
-class Displacement:
+class Displacement(Struct, frozen=True):
     """A rigid motion: p -> R p + o."""
 
     R: Matrix

@@ -11,9 +11,10 @@ What is said of a table: how its coordinates are counted, and what a wrong cell 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import islice
 from math import degrees
+
+from msgspec import Struct
 
 from dynsolve.answers.judging.mechanism.matching import Mismatch
 from dynsolve.answers.judging.mechanism.tables import (
@@ -36,8 +37,7 @@ _MOST_TRIED = 400
 _MOST_STEPS = 120
 
 
-@dataclass(frozen=True, slots=True)
-class Repair:
+class Repair(Struct, frozen=True):
     """The constant part that a cell needs; row from 0, column from 0."""
 
     row: int
@@ -51,8 +51,7 @@ class Repair:
         return ((self.row, self.column),)
 
 
-@dataclass(frozen=True, slots=True)
-class Exchange:
+class Exchange(Struct, frozen=True):
     """Two cells of a row that have to change places."""
 
     row: int

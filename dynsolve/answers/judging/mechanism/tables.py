@@ -12,10 +12,12 @@ several such points to nine digits holds.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice
 from math import degrees, pi, remainder
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.sampling import numbered
@@ -64,8 +66,7 @@ class TableError(Exception):
         self.message, self.row, self.column = message, row, column
 
 
-@dataclass(frozen=True, slots=True)
-class TableRow:
+class TableRow(Struct, frozen=True):
     """A row of a table: the constant parts of θ, d, a, α as trees.
 
     `variable` is the place of the column that holds the joint variable (0 for θ, 1 for d), None for a
@@ -192,8 +193,7 @@ _DRAWS = 3
 _TRIES = 200
 
 
-@dataclass(frozen=True, slots=True)
-class OwnCoordinate:
+class OwnCoordinate(Struct, frozen=True):
     """A student's coordinate in the key's: q' = sense·q + offset, the same at every draw or None.
 
     The offset is in degrees for an angle, a number for a length; `shifts` are those at each draw of
@@ -212,8 +212,7 @@ class OwnCoordinate:
         return self.sense == 1 and self.offset == 0
 
 
-@dataclass(frozen=True, slots=True)
-class Agreement:
+class Agreement(Struct, frozen=True):
     """A table that is the key's mechanism: how it counts the coordinates, how it lies on the key's.
 
     `others` are further ways in which it does: frame 0 turned by 90° and joint 1 counted from 90° on

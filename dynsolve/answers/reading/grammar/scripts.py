@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
+
+from msgspec import Struct, field
 
 from dynsolve.answers.reading.grammar.differentiation import bounded, constant, raised_number
 from dynsolve.answers.reading.grids import MAX_NESTING, Value
@@ -114,8 +115,7 @@ PSEUDO_INVERSE = "pinv"
 """What the name of a pseudo-inverse ends in: J^# is a name of its own."""
 
 
-@dataclass(slots=True)
-class Scripts:
+class Scripts(Struct):
     """What stands behind a factor: the mark of a joint variable, powers, T, primes."""
 
     powers: list[Fraction] = field(default_factory=list)
@@ -129,8 +129,7 @@ class Scripts:
         return bool(self.powers or self.mark or self.transposed or self.primes)
 
 
-@dataclass(slots=True)
-class Form:
+class Form(Struct):
     r"""A name before it is looked up.
 
     `base` with `index` is the name; `script` says that it is set in calligraphic type;

@@ -14,8 +14,9 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.grids import MAX_IDENTIFIER, MAX_LENGTH, MAX_TOKENS
 from dynsolve.errors import ReadError
@@ -455,8 +456,7 @@ def accent(accent: Token, out: list[Token]) -> None:
 # The student's own commands, written out
 
 
-@dataclass(frozen=True, slots=True)
-class Macro:
+class Macro(Struct, frozen=True):
     """What a student's own command stands for; `#1` is its argument where `takes` is 1."""
 
     body: tuple[Token, ...]

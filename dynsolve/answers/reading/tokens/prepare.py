@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.grids import MAX_NESTING
 from dynsolve.answers.reading.tokens.lexer import (
@@ -39,8 +40,7 @@ _GROUPS_FRACTIONS = ("frac", "binom")
 _SIGNS = frozenset({"+", "-", "="})
 
 
-@dataclass(slots=True)
-class Group:
+class Group(Struct):
     """A `{` that is open: where it stands among the tokens so far, what its end becomes, how deep it is."""
 
     start: int

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.marking.marks import Policy, mark

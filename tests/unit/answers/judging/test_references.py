@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.answers.verdict import JudgedAnswer
 from dynsolve.notation import tree

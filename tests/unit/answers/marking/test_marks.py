@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from dynsolve.answers.marking.marks import Policy, deduction, mark, maximum, rounded, shown
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict

@@ -22,7 +22,7 @@ def record(tmp_path: Path) -> Iterator[Record]:
 
 @pytest.fixture
 def problems() -> ProblemSet:
-    from dataclasses import replace
+    from msgspec.structs import replace
 
     problem = replace(read_problem(TEXT, "in3140-rp.yaml"), marks=MARKS)
     return ProblemSet("Assignment 2", (Item(problem, TEXT),))
