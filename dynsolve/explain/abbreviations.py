@@ -32,7 +32,6 @@ from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.euler_lagrange import christoffel_symbols
 from dynsolve.explain.context import is_short
 from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric, pairs
-from dynsolve.explain.parameters import BaseParameters
 from dynsolve.explain.recurring import Definition, exchanged, expanded, name_recurring, rewritten
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
 from dynsolve.notation import tree
@@ -270,6 +269,8 @@ def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
     `constants` says whether the inertial constants get names; where it is not given,
     they do in a long model.
     """
+    from dynsolve.explain.parameters import BaseParameters
+
     values = forms.values
     if not (is_long(forms) if constants is None else constants):
         symbols = {key: forms.christoffel(*key) for key in values["christoffel"]}

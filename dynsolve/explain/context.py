@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
@@ -19,8 +20,10 @@ from dynsolve.notation.characters import split
 from dynsolve.notation.printing import Style, decimal_text
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
-from dynsolve.robot.drawing.normals import Normals
 from dynsolve.robot.model import Body, Convention, JointType, Robot
+
+if TYPE_CHECKING:
+    from dynsolve.robot.drawing.normals import Normals
 
 
 class Context(Struct, frozen=True):

@@ -23,7 +23,6 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.graph import Derivation, Skipped
-from dynsolve.derivation.inverse.equations import search_ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
@@ -310,6 +309,8 @@ class ProductForms:
 
     def _product(self, expr: Expr) -> tuple[Fraction, list[Factor]] | None:
         """An expression taken apart; None where its factors have no form in this ring."""
+        from dynsolve.derivation.inverse.equations import search_ring
+
         relative = search_ring(self.ring, (), {})
         there, back = Transfer(self.ring, relative), Transfer(relative, self.ring)
         try:

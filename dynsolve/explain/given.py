@@ -7,6 +7,7 @@ alone: the table or the bodies, what acts on them, what is asked, and what the s
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
@@ -18,13 +19,10 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inertia import has_link_axes, is_moved, stays_with_base
-from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.kinematics import turned
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles
-from dynsolve.explain.placed_bodies import turned as turning
-from dynsolve.explain.task import with_letters
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
 from dynsolve.notation.tree import (
@@ -44,10 +42,12 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.robot import units
 from dynsolve.robot.actions import JointFriction, Motor
-from dynsolve.robot.drawing.normals import Normals
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
 from dynsolve.robot.questions import TIP, Load
 from dynsolve.robot.shapes import AXES, KINDS, Shape
+
+if TYPE_CHECKING:
+    from dynsolve.robot.drawing.normals import Normals
 
 MOST_BODIES = 4
 """Up to this number of bodies each is named."""
@@ -222,6 +222,8 @@ def _model(forms: Forms) -> Iterator[Prose]:
 
 def _position(forms: Forms, body: Body) -> Prose:
     """Body 2, a point of mass m, is at (x + l sin θ, l cos θ, 0)."""
+    from dynsolve.explain.placed_bodies import turned as turning
+
     point = "a point " if body.is_point else ""
     told: Prose = (f"{name_of(body).capitalize()}, {point}of mass ", measured(forms.of(body.mass), "kg"))
     told += (", is at ", _flat(map(forms.of, body.center.entries)), ".")
@@ -483,15 +485,21 @@ def _motor(forms: Forms, motor: Motor) -> Prose:
 # -- what is asked, and in which state; numbers ----------------------------------------------------
 
 
+def _in_letters(entry: Node) -> Node:
+    """What a file writes as tip.x or P.y, in the letters of the points."""
+    from dynsolve.explain.task import with_letters
+
+    return mapped(entry, with_letters)
+
+
 def _questions(forms: Forms) -> Iterator[Prose]:
     """Constraints, task, target, state, forces from outside, limits and assumptions."""
     questions = forms.robot.questions
     for constraint in questions.constraints:
-        yield ("Every motion keeps ", equation(mapped(constraint.entry, with_letters), ZERO), ".")
+        yield ("Every motion keeps ", equation(_in_letters(constraint.entry), ZERO), ".")
     task = questions.task
     if task is not None and task.entries and not task.is_default:
-        entries = (mapped(entry, with_letters) for entry in task.entries)
-        yield ("The task is ", equation(letters.TASK, _flat(entries)), ".")
+        yield ("The task is ", equation(letters.TASK, _flat(map(_in_letters, task.entries))), ".")
     if questions.target is not None:
         yield ("To be reached: ", equation(letters.TASK, _flat(questions.target.values)), ".")
     for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
@@ -510,6 +518,8 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     candidates = [bound for one in questions.candidates for bound in one.assumed]
     assumed = list(dict.fromkeys((*questions.model.assumed, *candidates)))
     if assumed:
+        from dynsolve.explain.inverse_formulas import ConfigurationForms
+
         written = ConfigurationForms(forms.robot, forms.values)
         yield ("Assumed: ", *listed([written.inequality(bound) for bound in assumed]), ".")
 

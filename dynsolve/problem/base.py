@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
@@ -29,6 +30,10 @@ from dynsolve.problem.kinds import Fields, describe
 from dynsolve.problem.specification import BASE, NO_VALUE, PROBLEM
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.model import AxisTurns
+
+if TYPE_CHECKING:
+    from dynsolve.problem.table import DHTable
+    from dynsolve.robot.drawing.normals import Normals
 
 # Rotations in a problem file: `Rz(90deg) Rx(30deg)`, taken left to right, or a 3×3 list
 
@@ -198,6 +203,14 @@ class ParsedBase(Struct, frozen=True):
     def cells(self) -> tuple[Cell, ...]:
         """Every expression in it."""
         return (self.rotation.cells if self.rotation else ()) + (self.move or ())
+
+
+class Framed(Struct, frozen=True):
+    """A table, where its frame 0 is, and what both were made from where that is a drawing."""
+
+    table: DHTable
+    base: ParsedBase
+    normals: Normals | None = None
 
 
 NO_BASE = ParsedBase(None, None)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -45,9 +45,11 @@ from dynsolve.problem.specification import (
     dimensions,
 )
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
-from dynsolve.robot.drawing.normals import Normals, frames
 from dynsolve.robot.model import AxesKind, Convention, JointType
 from dynsolve.robot.shapes import AXES, KINDS, Density
+
+if TYPE_CHECKING:
+    from dynsolve.robot.drawing.normals import Normals
 
 # A point of a link in a problem file
 
@@ -121,6 +123,8 @@ class DrawnFrames(Struct, frozen=True):
         """Those of a drawing; `names` are (coordinate, kind)."""
         if normals is None:
             return DrawnFrames()
+        from dynsolve.robot.drawing.normals import frames
+
         drawing = normals.drawing
         form = Compactor(drawing.ring).form
 

@@ -27,7 +27,7 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import total
 from dynsolve.notation.text import Name
 from dynsolve.notation.tree import Function, Node, Symbol, walk
-from dynsolve.problem.base import ParsedBase, ParsedRotation
+from dynsolve.problem.base import Framed, ParsedBase, ParsedRotation
 from dynsolve.problem.cells import Cell, forbid, read_vector
 from dynsolve.problem.kinds import Fields, describe, items, word
 from dynsolve.problem.specification import DRAWN_AXIS, HAND, MAX_ROWS, PROBLEM, ZERO
@@ -213,14 +213,6 @@ def _check_letters(faults: Faults, drawing: ParsedDrawing) -> None:
 
 _MOST_RINGS = 12
 _SPARE_INVERSES = 6
-
-
-class Framed(Struct, frozen=True):
-    """A table, where its frame 0 is, and what both were made from where that is a drawing."""
-
-    table: DHTable
-    base: ParsedBase
-    normals: Normals | None = None
 
 
 _NOTHING = Framed(DHTable((), ()), ParsedBase(None, None))

@@ -31,12 +31,12 @@ from dynsolve.problem.table import COLUMNS, DHTable, read_listed_row
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, YamlNode
 from dynsolve.quantities.owners import Owners
 from dynsolve.quantities.stages import ASKED_FOR
-from dynsolve.robot.drawing.normals import Normals
 from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType, Robot
 
 if TYPE_CHECKING:
     from dynsolve.problem.candidates import ParsedCandidates
     from dynsolve.problem.mechanism import ParsedModel
+    from dynsolve.robot.drawing.normals import Normals
 
 
 # What else counts as an answer DH: `also` and `strict` in a problem file

@@ -20,11 +20,10 @@ from msgspec import Struct
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.actions import KEYS as ACTING
 from dynsolve.problem.actions import NO_ACTIONS, check_bodies, read_actions
-from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
+from dynsolve.problem.base import NO_BASE, NO_GRAVITY, Framed, read_base, read_gravity
 from dynsolve.problem.bodies import DrawnFrames, read_bodies
 from dynsolve.problem.build import build_robot
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.drawing import Framed, from_drawing, read_drawing
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.kinds import Fields, describe, free_text, word
 from dynsolve.problem.model import FilePlace, ParsedFile, Problem, read_accepted_tables
@@ -250,6 +249,8 @@ def _framed(faults: Faults, fields: Fields, convention: Convention, model: Parse
     if "candidates" in fields:
         return Framed(DHTable((), tuple(_of_matrices(faults, fields).items())), NO_BASE)
     if "axes" in fields:
+        from dynsolve.problem.drawing import from_drawing, read_drawing
+
         return from_drawing(faults, read_drawing(faults, fields), convention)
     for key in DRAWING:
         if key in fields:

@@ -44,7 +44,6 @@ from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
 from dynsolve.explain.given import CALLED, statement
-from dynsolve.explain.named_steps import labels_of_names
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
@@ -291,6 +290,8 @@ def _model(
 
 def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
     """What the names in C, or in all of the matrices, stand for."""
+    from dynsolve.explain.named_steps import labels_of_names
+
     where = "the matrices" if short.inertias and short.inertias.definitions else letters.C
     below: Prose = ("In ", where, " and in the rows below")
     defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")

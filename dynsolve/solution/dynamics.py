@@ -197,13 +197,16 @@ class Dynamics(Struct, frozen=True, dict=True):
     ) -> Iterator[Step]:
         """The steps of some stages, in the order of the course; with `short`, in its names."""
         from dynsolve.explain import explain
-        from dynsolve.explain.named_steps import in_names
 
         if stages is None:
             steps = self.steps
         else:
             steps = self._remarked(explain(self._context, stages), whole=False)
-        return iter(steps) if short is None else in_names(steps, self._context, short)
+        if short is None:
+            return iter(steps)
+        from dynsolve.explain.named_steps import in_names
+
+        return in_names(steps, self._context, short)
 
     @property
     def is_short(self) -> bool:

@@ -25,7 +25,6 @@ from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.explain.sanity.poses import Pose, at, degrees, written_pose
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.differentiation import product_of
@@ -414,6 +413,8 @@ def decoupled_step(context: Context) -> Step | None:
     factor = _of_parameters(coupling) if coupling else None
     if factor is None:
         return None
+    from dynsolve.explain.inverse_formulas import ConfigurationForms
+
     sides = ConfigurationForms(context.robot, context.values).inequality(Bound(factor)).parts
     ring = context.robot.ring
     is_constant = not any(ring.depends_on_coordinates(D[i, i]) for i in range(n))
