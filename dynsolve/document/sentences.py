@@ -29,6 +29,15 @@ def say(text: str, /, **values: Value) -> Prose:
     return tuple(_joined(_pieces(text, values)))
 
 
+def opened(text: str) -> str:
+    """Words that begin a sentence: their first letter a capital, every other letter as it is.
+
+    >>> opened("body b of link A")
+    'Body b of link A'
+    """
+    return text[:1].upper() + text[1:]
+
+
 def _pieces(text: str, values: Mapping[str, Value]) -> Iterator[Inline]:
     for piece, kind in _split(text):
         if kind == "formula":

@@ -14,7 +14,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import actions
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Inline, Prose
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, WORKED, Detail, Part, Step
 from dynsolve.explain.writing import (
@@ -302,7 +302,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
     normal = step.normal if tells or body.mass.is_zero else WORKED
     step = replace(step, further=further, normal=normal)
     if body.mass.is_zero:
-        why = f"{name_of(body).capitalize()} has inertia but no mass, so gravity does not act on it."
+        why = f"{opened(name_of(body))} has inertia but no mass, so gravity does not act on it."
         return replace(step, why=(why,))
     gravity = _of_gravity(context) if tells else ()
     along = _along(context)

@@ -28,7 +28,6 @@ from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small, mls, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Negative, Node, Number, Parenthesized, Power, Sum, column, equation, mapped
 from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 
 _KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 0")
 """What the constraints ask of the accelerations."""
@@ -191,7 +190,7 @@ def forward_steps(context: Context) -> Iterator[Step]:
         return
     value = context.values["qdd_forward"]
     if isinstance(value, Skipped):
-        yield not_derived("qdd_forward", Stage.FORWARD_DYNAMICS, value.why)
+        yield not_derived("qdd_forward", value.why)
         return
     D = context.values["D"]
     inverse = context.forms.of(quotient(adjugate(D), determinant(D)))
@@ -222,7 +221,7 @@ def task_inertia_steps(context: Context) -> Iterator[Step]:
         return
     value = context.values["Lambda"]
     if isinstance(value, Skipped):
-        yield not_derived("Lambda", Stage.TASK_INERTIA, value.why)
+        yield not_derived("Lambda", value.why)
         return
     rows, columns = context.values["Jr"].shape
     size = context.show(determinant(context.values["D"]))

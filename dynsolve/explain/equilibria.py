@@ -15,7 +15,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
-from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
+from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, is_small, listed, side_by_side, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
@@ -58,7 +58,7 @@ _GIVEN = "Of the parameters it is given that {these}. "
 def _equilibria(context: Context) -> Iterator[Step]:
     robot, found = context.robot, context.values["equilibria"]
     if isinstance(found, Skipped):
-        yield _skipped("equilibria", found)
+        yield not_derived("equilibria", found.why)
         return
     shown = ConfigurationForms(robot, context.values)
     cases = shown.equilibria
@@ -207,7 +207,7 @@ _VERDICTS: dict[Stability, Prose] = {
 def _balance(context: Context) -> Step:
     found, wanted = context.values["balance"], context.robot.questions.model.balanced
     if isinstance(found, Skipped):
-        return _skipped("balance", found)
+        return not_derived("balance", found.why)
     shown = ConfigurationForms(context.robot, context.values).balance
     goal: Node = Number(0) if wanted is None else context.show(wanted)
     g = equation(letters.G, context.form("g"))
@@ -233,16 +233,10 @@ def _balance(context: Context) -> Step:
 # -- near one of them ------------------------------------------------------------------------------
 
 
-def _skipped(name: str, value: Skipped) -> Step:
-    return Step(
-        name, title="Not derived", why=(f"{value.why[0].upper()}{value.why[1:]}.",), detail=Detail.BRIEF
-    )
-
-
 def _state_matrix(context: Context) -> Step:
     robot, value = context.robot, context.values["linear_A"]
     if isinstance(value, Skipped):
-        return _skipped("linear_A", value)
+        return not_derived("linear_A", value.why)
     has_friction = "friction" in robot.actions.kinds
     passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
     by = "gravity and springs do" if robot.actions.springs else "gravity does"
@@ -287,7 +281,7 @@ def _state_matrix(context: Context) -> Step:
 def _input_matrix(context: Context) -> Step:
     robot, value = context.robot, context.values["linear_B"]
     if isinstance(value, Skipped):
-        return _skipped("linear_B", value)
+        return not_derived("linear_B", value.why)
     inputs: list[Node] = [letters.force(robot.coordinates[k]) for k in linearization.driven(robot)]
     column = "A column for each input" if len(inputs) > 1 else "One column, of the only input"
     ones = "has a 1 in the row of each, a column each" if len(inputs) > 1 else "has a 1 in its row"

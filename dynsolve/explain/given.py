@@ -15,7 +15,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Block, Inline, List, Prose, Text
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inertia import has_link_axes, is_moved, stays_with_base
@@ -225,7 +225,7 @@ def _position(forms: Forms, body: Body) -> Prose:
     from dynsolve.explain.placed_bodies import turned as turning
 
     point = "a point " if body.is_point else ""
-    told: Prose = (f"{name_of(body).capitalize()}, {point}of mass ", measured(forms.of(body.mass), "kg"))
+    told: Prose = (f"{opened(name_of(body))}, {point}of mass ", measured(forms.of(body.mass), "kg"))
     told += (", is at ", _flat(map(forms.of, body.center.entries)), ".")
     if body.inertia is None:
         return told

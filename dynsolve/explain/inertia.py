@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import link_frame
 from dynsolve.document import Prose, Reference
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.kinematics import product_of_axes, why_axes
@@ -242,7 +242,7 @@ def _shape(context: Context, body: Body) -> _Told | None:
         axis = say(", its own axis along {along}", along=along)
     why = say(
         "{body} is a uniform {shape}{axis}. Its principal moments about the mass centre:",
-        body=name_of(body).capitalize(),
+        body=opened(name_of(body)),
         shape=SHAPES[shape.kind],
         axis=axis,
     )

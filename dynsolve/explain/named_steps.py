@@ -23,7 +23,7 @@ from math import gcd
 from msgspec.structs import replace
 
 from dynsolve.document import DEFINITIONS, Inline, Prose, Reference
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.christoffel import compared_rows, with_slopes
 from dynsolve.explain.context import Context
@@ -202,7 +202,7 @@ class _Names:
         """The step that introduces names: its plain result stands before them, if it was collected."""
         abbreviations = "abbreviations" if len(met) > 1 else "abbreviation"
         meanings = tuple(equation(one.name, one.meaning) for one in met)
-        lines = [Line((f"{abbreviations.capitalize()}:",), meanings, label=f"{DEFINITIONS}{plain.id}")]
+        lines = [Line((f"{opened(abbreviations)}:",), meanings, label=f"{DEFINITIONS}{plain.id}")]
         names = {one.name for one in met}
         slopes = tuple(slope for slope in self.sums.slopes if not names.isdisjoint(walk(slope)))
         if slopes:

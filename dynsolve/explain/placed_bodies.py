@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
@@ -70,7 +70,7 @@ def orientation_step(context: Context, body: Body) -> Step:
 
 def turned(body: Body) -> Prose:
     """By which angles a body turns, about which axes."""
-    name = name_of(body).capitalize()
+    name = opened(name_of(body))
     if not body.turns:
         return (f"{name} does not turn.",)
     turns: Prose = ()

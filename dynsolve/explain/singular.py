@@ -12,7 +12,7 @@ from dynsolve.document.figures import ArmArrow, ArmFigure
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import ConfigurationForms, vanishing
-from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step
+from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
 from dynsolve.explain.task import determinant_way
 from dynsolve.explain.working.identities import SILENT
 from dynsolve.explain.writing import agreeing, listed, spong
@@ -35,16 +35,8 @@ def steps(context: Context) -> Iterator[Step]:
     forms = ConfigurationForms(context.robot, context.values)
     found = forms.singular_set
     if found is None:
-        yield Step(
-            id="singular",
-            title="Not derived",
-            why=(
-                "The Jacobian and its minors are too long to be taken apart into factors. "
-                "At given values of q its rank shows whether the arm is singular.",
-            ),
-            detail=Detail.BRIEF,
-            uses=(),
-        )
+        why = "The Jacobian and its minors are too long to be taken apart into factors. "
+        yield not_derived("singular", why + "At given values of q its rank shows whether the arm is singular")
         return
     yield replace(_rank(context, forms, found), group=_SETS)
     yield replace(_alternatives(forms, found), group=_SETS, normal=NOTED)

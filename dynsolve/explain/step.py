@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from dynsolve.document import Prose, Table
 from dynsolve.document.figures import ArmFigure, Figure
+from dynsolve.document.sentences import opened
 from dynsolve.notation.tree import Node, Relation
 from dynsolve.quantities.stages import Stage
 
@@ -158,6 +159,6 @@ class Step(Struct, frozen=True):
     is_task: bool = True
 
 
-def not_derived(id: str, stage: Stage, why: str, group: Group | None = None) -> Step:
+def not_derived(id: str, why: str, group: Group | None = None) -> Step:
     """What a step says of a result whose work goes over a bound."""
-    return Step(id, stage, "Not derived", (f"{why.capitalize()}.",), detail=Detail.BRIEF, group=group)
+    return Step(id, title="Not derived", why=(f"{opened(why)}.",), detail=Detail.BRIEF, group=group, uses=())

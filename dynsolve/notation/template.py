@@ -29,6 +29,7 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple
+from unicodedata import normalize
 
 from dynsolve.notation.characters import GREEK, bold_letter, bold_script_letter, describes, script_letter
 from dynsolve.notation.tree import (
@@ -103,6 +104,8 @@ def formula(text: str, /, **values: Value) -> Node:
 
     >>> formula("K = ½ m_{i} v²", i=2).parts[1].factors[1]
     Letter(base='m', sub=Number(p=2, q=1, decimal=False), sup=None, style='italic', dots=0)
+    >>> formula("\N{LATIN SMALL LETTER D WITH DOT ABOVE}")
+    Symbol(name='d', dots=1, star=False)
     """
     tree, has_values = _read(text)
     return _filled(tree, values) if has_values else tree
@@ -134,7 +137,8 @@ def _as_node(value: Value) -> Node:
 
 def _tokens(text: str) -> Iterator[_Token]:
     spaced = False
-    for match in _TOKEN.finditer(text.replace("−", "-")):
+    apart = "".join(normalize("NFD", sign) if sign.isalpha() else sign for sign in text)  # ḋ is d and its dot
+    for match in _TOKEN.finditer(apart.replace("−", "-")):
         kind = match.lastgroup or ""
         if kind == "space":
             spaced = True

@@ -17,7 +17,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.document import Prose
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import gravity_row
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
@@ -273,7 +273,7 @@ def last_frame(model: LongModel, step: Step) -> Step:
         working=(),
         lines=(
             Line(
-                ("With ", *said(used), f", {told}") if used else (told.capitalize(),),
+                ("With ", *said(used), f", {told}") if used else (opened(told),),
                 (
                     equation(names[0], _rows_of_frame(context, inner), context.show(first)),
                     equation(names[1], _rows_of_frame(context, outer), context.show(second)),
