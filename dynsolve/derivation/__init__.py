@@ -36,8 +36,8 @@ What hangs together how:
 
     graph           a `Rule` computes one quantity from others, a `Derivation` evaluates rules
     rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
-    model_rules     those of what a file asks of the equations of motion
-    mechanism_rules those of bodies by their positions and of given energies
+    model_rules     those of what a file asks of the equations of motion; those of bodies by their positions
+                    and of given energies
     recursion_rules those of the recursions; by their method also of τ
 
 And the independent check, which shares no formula with any of these:

@@ -19,6 +19,7 @@ from dynsolve.explain.jacobian import (
     how_read_off,
     parallel,
     read_off,
+    told_read_off,
 )
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
@@ -50,7 +51,7 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, Joint
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -185,13 +186,22 @@ def _jacobians(context: Context, body: Body) -> Step:
 
 
 def _read_off(context: Context, body: Body) -> Prose:
-    """How the columns of which no product is shown are read off."""
-    if not (context.is_short and context.robot.has_table) or _is_at_the_end(context, body):
+    """How the columns of which no product is shown are read off; nothing where that was told before."""
+    joint = _joint_read_off(context, body)
+    told = told_read_off(context)
+    earlier = context.robot.bodies[: context.robot.bodies.index(body)]
+    if joint is None or (told and told[1] == joint):
         return ()
-    joint = read_off(context, body.link, context.values[f"rc{body.name}"])
-    if joint is None:
+    if any(_joint_read_off(context, other) == joint for other in earlier):
         return ()
     return say(" {how}.", how=how_read_off(context, joint))
+
+
+def _joint_read_off(context: Context, body: Body) -> Joint | None:
+    """The joint whose column in the Jacobian of a body is a look; none where no such column is told."""
+    if not (context.is_short and context.robot.has_table) or _is_at_the_end(context, body):
+        return None
+    return read_off(context, body.link, context.values[f"rc{body.name}"])
 
 
 def _is_at_the_end(context: Context, body: Body) -> bool:

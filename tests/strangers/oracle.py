@@ -23,7 +23,8 @@ CONDITIONAL = (
     "conserved", "simple poses", "gravity is balanced", "positive definite",  # checks, at poses of their own
     "Checks", "Given", "equilibri", "configurations:", "conditions for balance:", "inverse kinematics:",
     "Frames from the drawing", "has solutions where", "stable", "do not decide",
-    "Singular", "Inverse", "Rates and", "Forces from outside", "Equilib",
+    "depend on the configuration", "Summary > At",
+    "Singular", "Inverse", "Rates ", "Forces from outside", "Equilib", "Balance", "Linearization",
     "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
 )  # fmt: skip
 """In the titles of steps whose equations are conditions (q₂ = 0) or hold under some: they are passed over."""

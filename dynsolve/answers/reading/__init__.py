@@ -3,7 +3,8 @@
 The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 
 1. `files` knows the format by the file's ending; `reports`, `answer_file` or `web` (pages and notebooks)
-   finds the displayed equations, each a `displays.Display` (`given_values`, `pretty_print` and `dh_tables`
+   finds the displayed equations, each a `displays.Display` (`report_text` leaves comments away;
+   `given_values`, `pretty_print` and `dh_tables`
    find equations that are no displays; pandoc reads Word and its like).  `sources` keeps where every
    character stands in the file, and says how much is read.
 2. `tokens` cuts the text of a display into letters, numbers, commands and signs, and
