@@ -153,11 +153,15 @@ def spoken_of(vocabulary: Vocabulary, member: list[Token], side: LeftSide) -> tu
         return side.candidates
     if isinstance(side, UnknownSide) and side.family:
         return side.family
+    whole = member
     if [token.kind for token in member[:3]] == ["(", "number", ")"]:
         member = member[3:]
     elif member[:1] and member[0].kind == "number":
         member = member[1:]
-    for end in (at for at, token in enumerate([*member, None]) if at and (not token or token.kind in _AFTER)):
+    ends = [at for at, token in enumerate(member) if at and token.kind in _AFTER]
+    if member and (member is not whole or side is None):  # else `side` is what the whole was read as
+        ends.append(len(member))
+    for end in ends:
         named = read_left_side(vocabulary, member[:end]) if end < _LONGEST_NAME else None
         if isinstance(named, NamedAnswers):
             return named.candidates

@@ -15,7 +15,7 @@ the index that the term with the minus is derived by.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -274,8 +274,8 @@ class Vocabulary(Struct):
 
     def similar(self, name: str) -> Meaning | None:
         """A parameter that is written in another way: I_{zz1} for I_{1,zz}, l_1 for L_1."""
-        for form in (_sorted_key, lambda text: text.lower(), lambda text: _sorted_key(text.lower())):
-            same = [symbol for other, symbol in self.symbols.items() if form(other) == form(name)]
+        for form, written in zip(_FORMS, _by_form(tuple(self.symbols.items())), strict=True):
+            same = written.get(form(name), [])
             if len(same) == 1 and sorted(key(same[0].name).lower()) == sorted(name.lower()):
                 return Meaning(same[0], f"{name} is read as {same[0].name}")
         return None
@@ -397,6 +397,24 @@ def is_running(index: str) -> bool:
 def _sorted_key(name: str) -> str:
     base, groups = split(name)
     return base + ",".join(sorted("".join(groups)))
+
+
+def _sorted_and_low(text: str) -> str:
+    return _sorted_key(text.lower())
+
+
+_FORMS: tuple[Callable[[str], str], ...] = (_sorted_key, str.lower, _sorted_and_low)
+"""What two spellings of one parameter share, the nearest first."""
+
+
+@lru_cache(maxsize=64)
+def _by_form(symbols: tuple[tuple[str, Symbol], ...]) -> tuple[dict[str, list[Symbol]], ...]:
+    """For each of these forms the symbols that have it."""
+    found: tuple[dict[str, list[Symbol]], ...] = tuple({} for _ in _FORMS)
+    for form, written in zip(_FORMS, found, strict=True):
+        for name, symbol in symbols:
+            written.setdefault(form(name), []).append(symbol)
+    return found
 
 
 def vocabulary(problem: Problem) -> Vocabulary:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from difflib import get_close_matches
+from functools import lru_cache
 
 from dynsolve.answers.reading.grammar.differentiation import by_time, derivative
 from dynsolve.answers.reading.grammar.reader import Reader, rate
@@ -419,6 +420,12 @@ def skip_time(reader: Reader) -> None:
             return
 
 
+@lru_cache(maxsize=4096)
+def _closest(name: str, known: tuple[str, ...]) -> str:
+    """The known name that was most likely meant; a hand-in has a name of its own many times."""
+    return next(iter(get_close_matches(name, known, 1, 0.6)), "")
+
+
 def unknown(reader: Reader, form: Form, name: str) -> UnknownName:
     """The error about a name, which says what names there are."""
     vocabulary = reader.vocabulary
@@ -429,8 +436,8 @@ def unknown(reader: Reader, form: Form, name: str) -> UnknownName:
     reason = vocabulary.broken.get(name)
     if reason:
         help = f"its definition could not be read: {reason}"
-    elif close := get_close_matches(name, known, 1, 0.6):
-        help = f"did you mean {close[0]}? The problem's symbols are {', '.join(known[:30])}"
+    elif close := _closest(name, tuple(known)):
+        help = f"did you mean {close}? The problem's symbols are {', '.join(known[:30])}"
     else:
         help = f"the problem's symbols are {', '.join(known[:30])}"
     return UnknownName(form, help, family)
