@@ -37,6 +37,7 @@ _PICTURES = {"equation_image": ("data-equation-content", "alt"), "texrender": ("
 """The classes of pictures that Canvas and Moodle make of formulas, and where their LaTeX stands."""
 
 _LONGEST_TAG_STACK = 5_000
+_MOST_OPEN = 1_000
 _HIDDEN = re.compile(r"[^\n]")
 
 
@@ -63,9 +64,13 @@ def _without_comments(text: str) -> str:
 
 
 def _closed(text: str) -> str:
-    """The text with blanks for what opens tags that never close: a parser would look for their ends."""
+    """The text with blanks for what opens tags that never close: a parser would look for their ends.
+
+    Where more are open than anybody writes, what follows is no text.
+    """
     last = text.rfind(">") + 1
-    return text[:last] + text[last:].replace("<", " ")
+    rest = text[last:]
+    return text[:last] + ("" if rest.count("<") > _MOST_OPEN else rest.replace("<", " "))
 
 
 class _WebPage(HTMLParser):
