@@ -96,9 +96,6 @@ def sine_cosine_pairs(generators: Sequence[Generator]) -> tuple[Pair, ...]:
     return tuple(Pair(s.angle, s.index, c.index) for s, c in zip(sines, cosines, strict=True))
 
 
-# The elements of a ring
-
-
 class Expr:
     """An element of a ring, in normal form.  Immutable; `==` decides equality exactly."""
 

@@ -236,8 +236,6 @@ def _rational(value: int, prime: int) -> fmpq | None:
     return fmpq(r[1], s[1]) if abs(s[1]) <= bound else None
 
 
-# Factors of a polynomial in sines and cosines: s₂ (L₂c₂ + L₃c₂₃) from its normal form
-
 MOST_TERMS = 20_000
 """A polynomial that may have more terms in half angles is not taken apart."""
 

@@ -30,9 +30,6 @@ if TYPE_CHECKING:
     from dynsolve.algebra.surds import SurdAngle
 
 
-# Matrices of exact expressions
-
-
 class Matrix(Struct, frozen=True):
     """An r×c matrix over a ring; frozen."""
 

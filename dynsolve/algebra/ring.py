@@ -14,8 +14,8 @@ The basic angles are chosen once for a robot, so that every angle that occurs is
 an integer combination of them: the absolute angles of parallel joints, θ₁, θ₁ + θ₂,
 and halves where half an angle occurs.
 
-`ring_plan` says what a ring must hold for some formulas, `build` makes the ring,
-`ring_values` gives the value of a formula in it, `floats` that of an element in numbers.
+`ring_plan` says what a ring must hold for some formulas, `ring_values` makes the ring,
+and gives the value of a formula in it, and that of an element in numbers.
 
 The relations of a ring, and the normal form modulo them.
 
@@ -141,8 +141,6 @@ class Relations:
                 return conjugate, self.reduce(poly * conjugate)
         return None
 
-
-# The ring: polynomials in sines, cosines and symbols, with a normal form
 
 MOST_TURNS = 64
 """The largest multiple of a basic angle that is expanded."""

@@ -221,9 +221,6 @@ def coriolis_entries(
             )
 
 
-# The verdicts of a hand-in: compared, explained, diagnosed, reported
-
-
 class Checker:
     """Judges hand-ins to one problem; what they all share is made once.
 

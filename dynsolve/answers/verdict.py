@@ -145,8 +145,8 @@ class Submission(Struct, frozen=True):
     """One file that was handed in, for one problem; `student` and `problem` as the file says, or empty.
 
     What is no answer is `not_recognized`, or `left_alone`: definitions, general formulas, and what a
-    sentence says.  So every equation of the file is in one of the three; see `ledger`.
-    `general` has the formulas of names alone once more, as what they would answer (`general_formulas`).
+    sentence says.  So every equation of the file is in one of the three; see `Ledger`.
+    `general` has the formulas of names alone once more, as what they would answer (`answers.judge`).
     """
 
     problem: str
@@ -159,9 +159,6 @@ class Submission(Struct, frozen=True):
     general: tuple[Answer, ...] = ()
     configurations: tuple[ConfigurationAnswer, ...] = ()
     verdicts: tuple[VerdictAnswer, ...] = ()
-
-
-# What is said of an answer: data, made in `judge`, shown in `report`
 
 
 class Verdict(StrEnum):
@@ -222,7 +219,7 @@ class JudgedAnswer(Struct, frozen=True):
     """What is said of one answer; `written` is the tree of what the student wrote.
 
     What it is worth beside its verdict (`zero`, `empty`, `loss`, `parts`) is explained in
-    `marking.substance`.
+    `marking.marks`.
     """
 
     name: str
@@ -252,7 +249,7 @@ class JudgedAnswer(Struct, frozen=True):
 class Report(Struct, frozen=True):
     """What is said of a hand-in; `answers` stand in the order of the derivation.
 
-    What is no answer is in `not_recognized`, where some wait for a human, or in `set_aside` (`ledger`).
+    What is no answer is in `not_recognized`, where some wait for a human, or in `set_aside` (`Ledger`).
     """
 
     problem: str

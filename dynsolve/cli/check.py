@@ -39,9 +39,6 @@ if TYPE_CHECKING:
     from dynsolve.problem import Problem
 
 
-# `dynsolve check`: verdicts on what a student handed in, the first slip first
-
-
 def check(
     problem: Annotated[
         str, typer.Argument(metavar="PROBLEM", help="A problem file, or the stem of a bundled one.")

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from dynsolve.problem import Problem
     from dynsolve.solution.solution import Solution
 
-
-# The options of `solve` that put numbers in: --set, --at, --digits
-
 SET, AT = "--set", "--at"
 
 SetOption = Annotated[

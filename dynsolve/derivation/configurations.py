@@ -40,9 +40,6 @@ if TYPE_CHECKING:
     from dynsolve.derivation.inverse.solving import Branch, Solving
     from dynsolve.derivation.singular.sets import SingularSet
 
-
-# Where the arm is singular, and which configurations reach a point
-
 NO_CLOSED_FORM = "no closed form was found"
 REDUNDANT = "the arm has more joints than the task: infinitely many configurations reach it"
 

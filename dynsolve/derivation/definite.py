@@ -172,8 +172,6 @@ def _without_length(d: int, extreme: Extreme) -> list[Extreme] | None:
     return [replace(extreme, bound=Bound(C)), replace(extreme, bound=Bound(A * C * 4 - B * B))]
 
 
-# Whether a matrix can be an inertia matrix
-
 MOST_WORK = 20_000
 """The products of terms that a determinant may come to."""
 

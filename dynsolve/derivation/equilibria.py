@@ -8,7 +8,7 @@ angle would have to be more than 1 for all parameters is none.
 What is divided out or multiplied by on the way may be 0 for special parameters, as m₁ l₁ - m₂ l₂
 is: these are told, with the remainders of the forces on division by it, which are the forces there.
 
-Where rates are held constant, g is the sum of forces in that motion (`steady`).
+Where rates are held constant, g is the sum of forces in that motion (`linearization`).
 
 Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
 
@@ -21,7 +21,7 @@ any principal minor is negative.  Parameters count as positive; a leading minor 
 open is a condition for stability: where it is negative the equilibrium is unstable, and only where
 it is 0 the second derivatives do not decide.
 
-Where rates are held constant the energy is that of `steady`, and forces across the motion, which
+Where rates are held constant the energy is that of steady motion, and forces across the motion, which
 do no work, may hold what would fall: then nothing is called unstable.
 
 Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
@@ -241,8 +241,6 @@ def _composed(value: Expr, numbers: Mapping[int, int]) -> Expr:
     return Expr(ring, ring.reduce(value.poly.compose(*images, ctx=ring.ctx)))
 
 
-# Equilibria: the configurations at which gravity and springs move nothing, g(q) = 0
-
 MOST_TERMS = 200
 """Forces with more terms are not taken apart."""
 
@@ -291,7 +289,7 @@ def wanted_rows(robot: Robot) -> list[int]:
 def equilibria(robot: Robot, forces: Matrix, may_be_held: bool = False) -> Equilibria | Skipped:
     """The configurations where the forces (n×1) are 0 in every row that no motor holds.
 
-    The forces are derivatives of an energy: g(q), or those of `steady`; `may_be_held` is that of
+    The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
     `stability.Curvature`.
     """
     wanted = [forces[k, 0] for k in wanted_rows(robot)]

@@ -131,9 +131,6 @@ def base_inertia(R: Matrix, inertia: Matrix) -> Matrix:
     return R @ inertia @ R.T
 
 
-# K_v, K_ω and D from Jacobians expressed in each link's own frame: the fast way
-
-
 def link_frame_rules(robot: Robot) -> Iterator[Rule]:
     """K_v and K_ω of each body from its part of D, and D as the sum of these parts (`D_direct`)."""
     if not robot.bodies:

@@ -127,9 +127,6 @@ FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
 }
 """The functions of formulas, on hyper-dual numbers."""
 
-
-# Models without a table at random states, sharing no formula with the derivation
-
 Values = Mapping[str, float | HyperDual]
 Rows = list[list[HyperDual]]
 

@@ -1,7 +1,7 @@
 """What exercises ask of the equations of motion as rules: parameters, linearization, q̈, inertia of the task.
 
 A robot has the rules of those stages of which something is asked; the formulas are in
-`regressor`, `linearization`, `forward_dynamics` and `task_inertia`.
+`regressor`, `linearization` and `forward_dynamics`.
 
 The rules of models without a table: of bodies by their positions, and of given D, K, P or L.
 
@@ -27,9 +27,6 @@ from dynsolve.robot.model import Body, Robot
 
 if TYPE_CHECKING:
     from dynsolve.derivation.equilibria import Equilibria
-
-
-# What exercises ask of the equations of motion as rules
 
 
 def model_rules(robot: Robot) -> Iterator[Rule]:

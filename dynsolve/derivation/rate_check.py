@@ -102,8 +102,6 @@ def _static_check_gap(mine: Any, theirs: Sequence[float]) -> float:
     return max((gap if gap == gap else float("inf") for gap in gaps), default=0.0)
 
 
-# Determinants, joint rates and accelerations, compared with elimination on numbers
-
 TOLERANCE = 1e-7
 """The largest relative error: near a singular state rounding is divided by a small number."""
 

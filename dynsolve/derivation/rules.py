@@ -3,7 +3,7 @@
 Each function yields the rules of a stage.  Quantities go by their names in an answer
 file, a body's index is its name and a coordinate's its place: `H2`, `Jv1`, `Kv1`, `K`,
 `dLdqd1`, `tau`, `D`.  The formulas are in the file of their section of the textbook
-(`kinematics`, `jacobian`, `inertia`, `energy`, `euler_lagrange`, `vectorized`); a rule
+(`kinematics`, `link_frame`, `euler_lagrange`); a rule
 says from which quantities they are computed.
 """
 

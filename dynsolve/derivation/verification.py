@@ -97,8 +97,6 @@ def _slope(robot: Robot, spring: Spring, values: Mapping[str, float], k: int) ->
     return total / _STEP
 
 
-# The results compared with an independent computation
-
 TOLERANCE = 1e-9
 """The largest relative error of a result that counts as rounding."""
 

@@ -219,8 +219,6 @@ def _label(label: Label, scene: Scene) -> str:
     )
 
 
-# Drawings beside a step: a triangle, a projection; their lines, arcs and names on paper
-
 UNIT = 54.0
 """Picture units for 1 of a figure."""
 

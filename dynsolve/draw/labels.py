@@ -165,8 +165,6 @@ def _cell(point: Point) -> tuple[int, int]:
     return math.floor(point[0] / CELL), math.floor(point[1] / CELL)
 
 
-# Where labels stand: near what they name, on nothing else, and never on one another
-
 _ROUNDS = 4
 _ORDERS = 24
 _SEED = 1955

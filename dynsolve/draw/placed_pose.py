@@ -219,8 +219,6 @@ def swept(ring: Ring, angle: str, *values: Expr) -> bool:
     )
 
 
-# A pose of bodies that are given by their positions, and the view of it, in which nothing falls together
-
 _TRIES = 160
 _ROUNDS = 30
 _SEED = 1955

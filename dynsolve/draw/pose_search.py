@@ -180,8 +180,6 @@ def _stays(probes: list[tuple[DrawnFrame, ...]], end: int, link: int) -> bool:
     return all(distance(first, other) < NEAR for other in others)
 
 
-# The pose and the view in which a robot shows best
-
 WIDTH, HEIGHT = 500.0, 390.0
 """The room that the chain of joints may take, in picture units."""
 

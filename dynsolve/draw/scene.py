@@ -122,8 +122,6 @@ def _arrows(p: Point, q: Point, name: Node, notes: Notes) -> None:
     notes.label(name, ends, (0.0, 0.0), paths.BLACK, "length")
 
 
-# A robot's picture, whole: its body, what is written around it, and the room it takes
-
 MARGIN = 14.0
 _FINEST = 10**6
 """The denominator up to which a number of the file is found from its value."""

@@ -225,9 +225,6 @@ def drawn_length(ratio: float) -> float:
     return math.copysign(SHORTEST + (1.0 - SHORTEST) * abs(ratio), ratio)
 
 
-# The geometry of a robot at one pose: its frames, and the legs d and a of its rows
-
-
 class DrawnFrame(Struct, frozen=True):
     """A frame in the world."""
 

@@ -190,8 +190,6 @@ def _merged(a: Solid, b: Solid) -> Solid:
     return replace(a, paths=_drawn(*ends), last=b.last, ends=ends)
 
 
-# Cylinders, boxes, links and the ground, each as paths with a depth to sort by
-
 _GROUND, _PLATE = 30.0, 40.0
 """Half the length of the ground in a plane, and half the side of its plate, on which an angle may stand."""
 

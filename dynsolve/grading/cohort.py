@@ -177,9 +177,6 @@ def for_a_human(a: RecordedAnswer) -> str:
     return ""
 
 
-# What the record comes to
-
-
 class Standing(Struct, frozen=True):
     """A student's marks by problem; a problem that was not handed in is not among them.
 

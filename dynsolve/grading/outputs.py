@@ -73,8 +73,6 @@ def _plain(cell: str) -> str:
     return cell[1:] if cell[:1] == "'" and safe(cell[1:]) == cell else cell
 
 
-# The files of OUT, written from the record alone: the same record gives the same bytes
-
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
 
 

@@ -109,9 +109,6 @@ def _bound_time(seconds: float) -> None:
 if __name__ == "__main__":
     main(float(sys.argv[1]), int(sys.argv[2]))
 
-
-# Workers on this machine, each with bounds on time and memory, behind the interface of futures
-
 Data = dict[str, Any]
 
 SERVES = 4000

@@ -85,9 +85,6 @@ def _words(name: str) -> list[str]:
     return sorted(re.findall(r"[^\W_]+", normalize("NFC", name).casefold()))
 
 
-# `dynsolve.grade` and `dynsolve.override`: grading a course from Python
-
-
 class Grades(Struct, frozen=True):
     """What a run has come to.
 

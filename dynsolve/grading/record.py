@@ -93,8 +93,6 @@ def _restored(kept: Kept, of: Fraction) -> JudgedAnswer:
     )
 
 
-# The record of a run: SQLite in OUT, written a hand-in at a time
-
 Key = tuple[str, str]
 """A hand-in: the student and the problem."""
 

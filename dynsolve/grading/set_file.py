@@ -258,8 +258,6 @@ def set_schema() -> Schema:
     return schema_of_file(SET, "dynsolve problem set", description)
 
 
-# Reading what is graded: a problem, or a folder of problems with a `set.yaml`
-
 SET_FILE = "set.yaml"
 
 

@@ -69,8 +69,6 @@ def _bar(place: int, count: int, height: float, label: str) -> str:
     )
 
 
-# The teacher's page: the cohort at a glance, in one file that fetches nothing
-
 MOST_SLIPS = 40
 MOST_ALIKE = 100
 MOST_WAITING = 5000

@@ -1,7 +1,7 @@
 """What a file says of itself: whose it is, and which problem of the set it is for.
 
 Its front matter or its keys say it, else its name, else its heading; a report on several problems is
-told apart by its headings (`sections`).
+told apart by its headings.
 
 One report on several problems: which part of it is for which, told by its headings.
 
@@ -105,8 +105,6 @@ def without(text: str, spans: Sequence[Span]) -> str:
         done = end
     return "".join([*pieces, text[done:]])
 
-
-# What a file says of itself: whose it is, and which problem of the set it is for
 
 _HEAD = 20_000
 CONVERTED = (".ipynb", *FORMATS)

@@ -77,8 +77,6 @@ def _entry(node: Node, entry: tuple[int, ...]) -> Node:
     return node.rows[row][column]
 
 
-# The work on one hand-in: its verdicts, its marks and the student's page
-
 Data = dict[str, Any]
 
 Placed = TypeVar("Placed", Answer, NotRecognized, ConfigurationAnswer, VerdictAnswer)

@@ -12,6 +12,6 @@ Printed: `printing` is what all printers share, `formulas` what those of whole f
 how wide a formula is when it is set.  `tree_values` puts numbers into trees.
 
 To add a notation, derive a printer from `FormulaPrinter` (`formulas` says how).  To add a
-kind of node, write its class in `tree` and its case in each printer; `walk` knows its parts from its
+kind of node, write its class in `tree` and its case in each printer; `tree.walk` knows its parts from its
 fields.
 """

@@ -3,10 +3,8 @@
 A text of fifteen characters, (a+b+c+d)^20^20, can ask for more work than a machine has, and
 ten lines of `a = b b` name a tree of a thousand leaves.  So a tree is measured before it is
 evaluated; parts that stand in several places are measured once.  How much is too much, and
-what is said about it, is up to the reader: `notation.limits` for the formulas of problem
-files, `answers.reading.limits` for those of hand-ins.
-
-How large a formula of a problem file may be.
+what is said about it, is up to the reader: what stands at the end of this file for the formulas
+of problem files, `answers.reading.grids` and `answers.reading.sources` for those of hand-ins.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ on) occurs only in the formulas that explain a step.
 
 To add a node, add its class here, frozen, and a method for it to each printer that writes it.  A
 field that holds parts is annotated `Node`, `Node | None`, `tuple[Node, ...]` or
-`tuple[tuple[Node, ...], ...]`: from that `notation.walk` knows how to visit and rebuild it.
+`tuple[tuple[Node, ...], ...]`: from that `walk` knows how to visit and rebuild it.
 
 Visiting and rebuilding formula trees, for every other module that works on trees.
 

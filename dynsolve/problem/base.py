@@ -187,8 +187,6 @@ def _check_linear(
             faults.error(cell.span, f"{what}: an angle is not linear in the coordinate {moving[0]}", help)
 
 
-# Gravity and the base frame in a problem file
-
 _GRAVITY_HELP = PROBLEM["gravity"].help
 _CONSTANT = "joint variables stand in the table alone"
 

@@ -179,9 +179,6 @@ def _dot(a: Sequence[Node], b: Sequence[Node]) -> Node:
 NOT_DRAWN = DrawnFrames()
 """The frames of a file with a table."""
 
-
-# The bodies of a problem file
-
 _NAME = re.compile(r"[A-Za-uxyzXYZ]?[0-9]*")
 _EXAMPLE = PROBLEM["masses"].help
 _CENTER_HELP, _SHAPE_HELP, _TENSOR_HELP = (BODY[key].help for key in ("center", "shape", "inertia"))

@@ -129,8 +129,6 @@ def _turning(robot: Robot, body: Body) -> Matrix:
     return turning if body.turns else links.axes_in_link(body.axes, body.link).T @ turning
 
 
-# Warnings about a problem file that has no errors but deserves a second look
-
 _YAML_WORDS = ("null", "true", "false", "yes", "no", "on", "off")
 _SHORTHAND = re.compile(r"[sc]_?([0-9_]+)")
 

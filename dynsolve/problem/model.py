@@ -84,8 +84,6 @@ def _read_row(faults: Faults, node: YamlNode, index: int) -> tuple[Node, ...] | 
     return tuple(cell.tree for cell in cells.values()) if len(cells) == len(COLUMNS) else None
 
 
-# A problem: a robot, its exercise, and the place of each part in the file
-
 Path = tuple[str | int, ...]
 """The way to a part of a file: ("masses", 0, "axes"), list items from 0."""
 

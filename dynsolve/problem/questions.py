@@ -284,8 +284,6 @@ def _end(faults: Faults, node: YamlNode, name: str, kinds: Mapping[str, str]) ->
     return cell
 
 
-# What a problem file asks around the model, as it is written
-
 _NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
 
 

@@ -183,9 +183,6 @@ def _targets_is_angle(node: Node) -> bool:
     return bool(angle.degrees) and angle.is_constant
 
 
-# What a file asks around the model -> the robot's `Questions`, with exact values
-
-
 def named_point(places: PlaceBuilder, parsed: ParsedPoint) -> NamedPoint | None:
     """The point of an entry of `points:`; None where a fault of it was reported."""
     if parsed.place is None:

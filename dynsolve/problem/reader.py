@@ -46,9 +46,6 @@ if TYPE_CHECKING:
     from dynsolve.problem.candidates import ParsedCandidates
     from dynsolve.problem.mechanism import ParsedModel
 
-
-# Problem files: bytes -> Problem, with all errors of a file at once
-
 _AXES = "delete it, or give the joint axes of a drawing in place of `dh`"
 
 

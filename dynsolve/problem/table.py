@@ -158,8 +158,6 @@ def motor_coordinates(fields: Fields, known: Collection[str]) -> dict[str, str]:
     return found
 
 
-# The Denavit-Hartenberg table of a problem file: its rows, its stars, its coordinates
-
 START = "from"
 """The key of a row that says which frame it starts from."""
 COLUMNS = tuple(name for name in ROW.names if name != START)

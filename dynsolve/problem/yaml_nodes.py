@@ -244,8 +244,6 @@ def _bracket(text: str, at: int, opened: int) -> tuple[int, str, str]:
     return opened, f"this `{bracket}` is never closed", f"add the `{closing}` that it belongs to"
 
 
-# YAML text -> nodes that know their place, and nothing else that YAML can do
-
 MAX_DEPTH = 12
 """A problem file needs five levels."""
 

@@ -95,8 +95,6 @@ def _belongs(stage: Stage, robot: Robot) -> bool:
     return bool(robot.bodies) if stage.needs_bodies else robot.has_dynamics
 
 
-# What a robot's quantities belong to, and which families of them it has
-
 MOST_INDEXED = 9
 """Entries have names up to this index: d_111 could be two of them."""
 

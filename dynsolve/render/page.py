@@ -3,7 +3,7 @@
 To add a format, write a file with a `render` function and a page that derives from `Page`,
 or from `TypesetPage` where lines are broken here and not by whoever shows them; its methods
 are one for each kind of block and one for each kind of thing in a sentence.  A solution has
-it once it stands in `render.formats` and `solution.reports`.
+it once it stands in `render.files` and `solution.reports`.
 
 Where a page may end, in what is set on pages: not at a few lines of a display, or of a document.
 
@@ -222,8 +222,6 @@ def _is_stacked(node: Node) -> bool:
     """Whether a part of a fraction is one itself."""
     return isinstance(node, Quotient | Derivative) or (isinstance(node, Number) and node.q != 1)
 
-
-# The base of every format
 
 _Piece = TypeVar("_Piece")
 

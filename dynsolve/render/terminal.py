@@ -289,8 +289,6 @@ def _entry_by_entry(
     return lines
 
 
-# Documents -> lines of a terminal
-
 WIDTH = 100
 """The width where none is known, in a pipe."""
 

@@ -104,9 +104,6 @@ def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formu
     return Entry(left, index)
 
 
-# Formulas laid out in the characters of a terminal
-
-
 class TextBox(Struct, frozen=True):
     """Lines of one width; `baseline` is the line that stands level with its neighbours."""
 

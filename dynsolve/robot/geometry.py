@@ -167,9 +167,6 @@ def _times(left: Rotation, right: Rotation) -> Rotation:
     return tuple((row[0], row[1], row[2]) for row in rows)
 
 
-# Rotations about axes, and the positions of a link's ends in its own frame
-
-
 def elementary(ring: Ring, axis: str, angle: Angle) -> Matrix:
     """The rotation about one axis, 3×3.
 

@@ -1,6 +1,6 @@
 """The model of a manipulator: joints in a Denavit-Hartenberg table, and bodies that have mass.
 
-A mechanism by positions has bodies and no joints, a given model neither; see `mechanism`.
+A mechanism by positions has bodies and no joints, a given model neither; see `actions`.
 
 Everything here is exact, frozen and whole.  Lengths, masses and inertias are
 elements of one ring (`robot.ring`); angles are linear forms in the coordinates.

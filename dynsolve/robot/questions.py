@@ -63,9 +63,6 @@ class ModelQuestions(Struct, frozen=True):
 NO_MODEL_QUESTIONS = ModelQuestions()
 """Of an exercise that asks nothing of the model."""
 
-
-# What an exercise asks of a manipulator around its model
-
 TIP = "tip"
 """The origin of the last frame, as a task names it."""
 

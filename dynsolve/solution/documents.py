@@ -382,9 +382,6 @@ def _lines(step: Step) -> Iterator[Block]:
         yield Equations(line.formulas)
 
 
-# Solutions as documents: the choice and the order of the steps that are shown
-
-
 def solution_document(
     solution: Dynamics,
     detail: Detail = Detail.NORMAL,

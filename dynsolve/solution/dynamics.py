@@ -82,8 +82,6 @@ def _with_method(robot: Robot, method: Method) -> Robot:
     return replace(robot, questions=replace(robot.questions, method=method))
 
 
-# A robot's dynamics, derived and verified: the source of documents, JSON and numbers
-
 CHECKED = ("J", "D", "C", "g", "friction", "tau", "K", "P")
 """The results that are compared with the independent computation, besides the last H."""
 

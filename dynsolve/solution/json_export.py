@@ -182,8 +182,6 @@ def plain_inequality(relation: Relation, printer: PythonPrinter) -> str:
     return f"{printer.text(left)} {sign} {printer.text(right)}"
 
 
-# A solution as JSON, `dynsolve-solution/1`
-
 FORMAT = "dynsolve-solution/1"
 
 NUMBER_DIGITS = 15

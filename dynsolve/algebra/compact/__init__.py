@@ -16,7 +16,7 @@ it keeps the shorter result.
    and `trig_forms` takes the cheapest, preferring sines and cosines that other coefficients
    are written with already.  This is where c₂c₂₃ + s₂s₂₃ becomes c₃: with the basic
    angles α₁ = θ₂ and α₂ = θ₂ + θ₃ it is cos α₁ cos α₂ + sin α₁ sin α₂, and its Fourier
-   form (`algebra.fourier`) has the one term cos(α₂ - α₁).  An angle that
+   form (`algebra.ring`) has the one term cos(α₂ - α₁).  An angle that
    does not move is a group by itself, and is added to another where a sum asks for that,
    sin(θ + β) (`atoms`).  `trig_forms` does the same for
    polynomials in the cosine of a constant angle (4 cos³10° - 3 cos 10° = √3/2).

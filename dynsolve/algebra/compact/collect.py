@@ -2,7 +2,7 @@
 
     m₁ l_c1² + m₂ l₁² + m₂ l_c2²  ->  m₁ l_c1² + m₂ (l₁² + l_c2²)
 
-A polynomial is a dictionary {monomial in atoms: factor} (see `atoms` and `monomials`).
+A polynomial is a dictionary {monomial in atoms: factor} (see `atoms` and `terms`).
 Of the ways of drawing an atom out of the terms that share it, the one that leaves the
 fewest operations is taken; a sum that recurs as a whole, a₃ + x₃, becomes an atom of its
 own, so that squares are completed: (a₃ + x₃)².

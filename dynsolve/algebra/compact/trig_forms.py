@@ -7,9 +7,9 @@ linear angles, with rational factors.  `trig_forms` gives those worth considerin
 - powers of s and c, an angle at a time with s² eliminated, with c² eliminated, or
   with neither (every term of the same degree, by factors s² + c² = 1);
 - the same over the other choices of two basic angles: θ₂ and θ₃ in place of θ₂ and θ₂ + θ₃;
-- the Fourier form (`algebra.fourier`): sines and cosines of integer combinations of angles.
+- the Fourier form (`algebra.ring`): sines and cosines of integer combinations of angles.
 
-`choice` picks one of them.  A polynomial is a dictionary {exponents: factor}, the
+`Choice` picks one of them.  A polynomial is a dictionary {exponents: factor}, the
 exponents those of (s₁, c₁, s₂, c₂, …) in the basic angles.
 
 Choosing the form of each of many small trigonometric polynomials.

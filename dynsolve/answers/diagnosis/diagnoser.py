@@ -82,8 +82,6 @@ def likeness(a: Expr, b: Expr) -> Fraction:
     return Fraction(same, max(len(a) + len(b) - same, 1))
 
 
-# Naming the slip in an answer that is wrong
-
 MOST_NAMED = 4
 """More slips than this in one answer are told as the terms that differ."""
 

@@ -105,9 +105,6 @@ def stands_in(term: Expr, whole: Expr) -> bool:
     )
 
 
-# What mends an answer
-
-
 class Mend(Protocol):
     """How a slip is undone."""
 

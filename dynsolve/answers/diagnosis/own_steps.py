@@ -141,9 +141,6 @@ class DerivationSlips:
                     yield head, ChangedDerivation(graph, dict(changed)), told_as[code]
 
 
-# What the steps of a derivation give from the student's own answers
-
-
 class OwnSteps:
     """What steps give from the student's own answers; `earlier` are the slips of the steps before them."""
 

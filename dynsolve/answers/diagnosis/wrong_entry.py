@@ -199,9 +199,6 @@ def _coefficient(node: Node) -> Fraction:
     return Fraction(1)
 
 
-# What is diagnosed: one scalar that is wrong, and whether its terms can be added at all
-
-
 class WrongEntry(Struct, frozen=True):
     """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
 

@@ -2,7 +2,7 @@
 
 Every answer is admitted to the ring by itself: one that cannot be held is
 unreadable and leaves the others as they are.  Names that occur inside a value stand
-for the student's own answers (`own_names`); one that is given nowhere makes it a definition.
+for the student's own answers (`OwnNames`); one that is given nowhere makes it a definition.
 
 Answers in the student's own coordinates, as they read in the problem's.
 
@@ -377,8 +377,6 @@ def _entry(rows: Rows, row: int | None, column: int | None) -> RationalExpr | No
         return rows[0][row - 1]
     return None
 
-
-# The answers of a hand-in with their values, in one answer_ring
 
 MOST_ENTRIES = 144
 """The most entries of a matrix that is judged."""

@@ -47,9 +47,6 @@ RIGHT = SetVerdict(True)
 INCOMPLETE = "incomplete"
 """The note of an answer that has some of the branches, all right."""
 
-
-# Verdicts on the branches of the inverse kinematics, whose values of the task are names
-
 Formulas = Mapping[str, Node]
 """A branch: the formula of each coordinate."""
 

@@ -216,8 +216,6 @@ class EquilibriumKey:
         return all(abs(a - b) < CLOSE for a, b in pairs)
 
 
-# Verdicts on sets of configurations
-
 SETS = ("singular", "equilibria", "balance", "reduced")
 """The sets of equations."""
 

@@ -1,7 +1,7 @@
 """Which value that a student's own answers lead to explains an answer that differs from the key.
 
 An answer *follows* where it is not the key's and equals what the student's own earlier
-answers lead to (see `follow_through`), in one direction between τ and D, C, g (`direction`).
+answers lead to (see `follow_through`), in one direction between τ and D, C, g (`content`).
 One such value should explain the whole of a matrix; where none does, each entry is compared by
 itself.  Between two answers that keep nothing of the key (`content`) nothing follows: agreement
 is no work where neither holds any of this robot.

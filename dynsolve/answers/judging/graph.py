@@ -166,8 +166,6 @@ def _task_wrench(task: Task, load: Load, rule: str, key: Key) -> Matrix | None:
     return None
 
 
-# The derivation as a grader sees it: which answers lead to which
-
 _STATED = (families.H0, families.A, families.I_BODY, action_families.PS, action_families.FRICTION)
 """What the problem says, so that nothing of the student's leads to it."""
 

@@ -5,7 +5,7 @@
 A quantity may be given in several equations, and an equation may be a chain
 `K = a = b = c`: the last member of the last equation counts.  Where a notation leaves
 open which quantity is meant (I_1), it is the one that the value equals.  The zero of
-height is the student's own, see `zero_height`.
+height is the student's own.
 
 The zero of height, which is the student's to choose.
 
@@ -208,8 +208,6 @@ def _quotient(expr: Expr, divisor: Expr) -> Expr | None:
 def _used(expr: Expr) -> list[int]:
     return [i for i, degree in enumerate(expr.poly.degrees()) if degree > 0] if expr.poly else []
 
-
-# One hand-in compared with the key
 
 IN_NUMBERS = "it repeats the answer with numbers, which the problem does not give"
 

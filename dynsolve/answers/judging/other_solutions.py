@@ -148,9 +148,6 @@ def _chosen(robot: Robot, forces: Matrix, Y: Matrix | None, a: Matrix | None) ->
     return parameters_for(robot, forces, Y) if Y is not None and len(Y.rows) == len(forces.rows) else None
 
 
-# What is right without being the key's
-
-
 class Other(StrEnum):
     """How an answer differs from the key, as it is told."""
 

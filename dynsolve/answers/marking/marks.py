@@ -128,8 +128,6 @@ def from_data(data: Mapping[str, Any]) -> Policy:
     )
 
 
-# Verdicts -> marks, each with the one line that explains it
-
 HALF = Fraction(1, 2)
 
 BY_ITSELF = "earns nothing by itself"

@@ -1,8 +1,8 @@
 r"""The answer file: YAML as libraries and people write it.
 
 A file that is valid YAML, or JSON, means what YAML says (`yaml_values`), its scalars taken as they
-stand between their quotes (`yaml_scalars`).  Only a file that YAML refuses is cut key by key
-(`answer_lines`), and each value then tried as YAML by itself, so that one bad line makes one
+stand between their quotes (`yaml_values`).  Only a file that YAML refuses is cut key by key
+(`entries`), and each value then tried as YAML by itself, so that one bad line makes one
 answer unreadable and never the file.  Nothing is expanded, converted or constructed.
 
 Answer files that YAML refuses, key by key and line by line.
@@ -325,8 +325,6 @@ def _meaning(word: str) -> str:
         raise ReadError(f"`{word[:40]}` is neither yes nor no", 0, 1, _EXPECTED)
     return _MEANINGS[plain]
 
-
-# The answer file: YAML as libraries and people write it
 
 KEYS = ("problem", "student", "symbols", "let", "atan2", "answers")
 """The keys of an answer file."""

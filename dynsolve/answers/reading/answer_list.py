@@ -68,9 +68,6 @@ def _is_given(name: str, given: set[str], quantities: Quantities) -> bool:
     return bool(parts) and parts <= given
 
 
-# The answers of one hand-in as they are found
-
-
 class Origin(Struct, frozen=True):
     """Where values come from: a display, the label of the equation in it, and its number in the file.
 

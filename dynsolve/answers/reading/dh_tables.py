@@ -150,8 +150,6 @@ def order_of(heads: Sequence[str]) -> tuple[int, ...] | None:
     return tuple(found[column] for column in range(4)) if len(found) == 4 else None
 
 
-# Tables of Denavit-Hartenberg parameters as people draw them
-
 NAME = "DH"
 """The answer that such a table is."""
 

@@ -202,8 +202,6 @@ def without(text: str, found: Iterable[HeadedSet]) -> str:
     return text
 
 
-# Sets in the displays of a report, where no name stands before them
-
 _BEFORE = 600
 """So far before a display its words are looked for."""
 

@@ -1,7 +1,7 @@
 r"""The equations of one file, read in order: what each is an answer to, and what it defines.
 
 Of a chain a = b = c the names are found first (`left_side`); then every other member is
-read as a value (`right_side`) and is one answer to each of the names (`answer_list`).  A
+read as a value (`left_side`) and is one answer to each of the names (`answer_list`).  A
 member of names alone, like K = K_1 + K_2, is a definition and no answer.  A chain whose left
 side is a name of the student's own defines that name for what follows.
 
@@ -109,8 +109,6 @@ def _block(tokens: Sequence[Token]) -> list[Token]:
             return list(tokens[:position])
     return []
 
-
-# The equations of one file, read in order: what each is an answer to, and what it defines
 
 _CONTROL = re.compile(
     r"unknown symbol `(?:[Kk]_?\{?[pPdDiI]\}?|[^`]*tilde\}?"

@@ -221,9 +221,6 @@ _INLINES = frozenset(
     "Cite Link Span Emph Strong Underline SmallCaps".split()
 )
 
-
-# A file that was handed in -> a `Submission`, by its ending
-
 ENDINGS = (".yaml", ".yml", ".json", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm", *FORMATS)
 """The endings of files that are read."""
 

@@ -79,8 +79,6 @@ def check_size(node: Node) -> None:
         raise ReadError(_SAID[error.measure], help="write it shorter, or as a sum of its terms") from None
 
 
-# Matrices of trees, put together as they are written: products, transposes, stacks
-
 _TEXT = "name a part of it with an abbreviation"
 
 Rows = tuple[tuple[Node, ...], ...]

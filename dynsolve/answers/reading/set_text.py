@@ -128,9 +128,6 @@ INTEGER = _any(
 )
 STABLE = r"(?:un)?stable|(?:in)?stabil\w*|ustabil\w*"
 
-
-# The text of an alternative as people write it
-
 Together = tuple[str, ...]
 """The texts of equations that hold together."""
 

@@ -106,8 +106,6 @@ def _is_below(member: list[Token], position: int) -> bool:
     return before == ["}", "{"] or before[-1:] == ["/"]
 
 
-# Which names an answer to a problem may hold, and what each of them is
-
 _VECTORS = ("q", "theta", "Theta")
 _RUNNING = re.compile(r"(?:[vwcml]|omega|lin|rot)?[ijkn]{1,3}(?:-?1)?")
 DRIVING = re.compile(r"(?:u|U|F|f|T|M|Q|tau)(?:[a-z]{0,3}|[1-9])")
@@ -144,7 +142,7 @@ class Vocabulary(Struct):
     `used` are the names of the student's own that were used,
     `own_entries` are the entries of matrices that an equation of their own gives, `missed_entries` those that
     were named before that was known;
-    `orders` says for letters of Christoffel symbols which index counts the row (`index_order`).
+    `orders` says for letters of Christoffel symbols which index counts the row.
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;

@@ -162,8 +162,6 @@ def _joined(found: re.Match[str]) -> str:
     return found[0].replace("\n", " ") if found[0].count("\n") == 1 else found[0]
 
 
-# YAML text -> the keys of an answer file with their values, as text that knows its place
-
 MAX_EVENTS = 30_000
 MAX_DEPTH = 12
 

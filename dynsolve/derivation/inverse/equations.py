@@ -154,9 +154,6 @@ class Unknowns(Struct, frozen=True, dict=True):
         return Expr(ring, ring.ctx.from_dict(known)), Expr(ring, ring.ctx.from_dict(unknown))
 
 
-# Equations between what the task gives and what the unknowns make, and how others come from them
-
-
 class Given(Struct, frozen=True):
     """Component `index` (from 0) of the task."""
 

@@ -211,8 +211,6 @@ def _on_axis(height: Expr) -> Matrix:
     return Matrix.column(ring, (ring.zero, ring.zero, height, ring.one))
 
 
-# Inverse kinematics of a full pose, position and rotation, part by part (Spong, 3.3.2-3.3.4
-
 MOST_JOINTS = 6
 """With more, a pose leaves coordinates free."""
 

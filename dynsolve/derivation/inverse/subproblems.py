@@ -117,8 +117,6 @@ def quadratic(expr: Expr, unknowns: Unknowns) -> Quadratic | None:
     return Quadratic(name, square, linear, constant)
 
 
-# The forms in which an unknown is solved for, each with its solutions and when there are any
-
 Numbers = Callable[[Expr], float]
 """The value of an expression where everything known has a number."""
 

@@ -166,8 +166,6 @@ def _content(place: Path, ending: str) -> bytes:
     return zipped([(f"{place.name}.html", html)]) if ending == ".zip" else markdown
 
 
-# Canvas
-
 _PAGES = {"text": "text.html", "link": "link.url"}
 """A text that was entered is read as a page; what is behind an address is not fetched."""
 

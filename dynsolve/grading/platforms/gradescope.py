@@ -71,8 +71,6 @@ class Person(Struct, frozen=True):
         return bool(said) and said in (self.student, self.id, self.name, *self.also)
 
 
-# Gradescope: whose each submission is, and its `results.json`, as an autograder writes it
-
 METADATA = "submission_metadata.yml"
 
 Submitters = dict[str, tuple[dict[str, str], ...]]

@@ -1,4 +1,4 @@
-"""Moodle: the names of its files, and the offline grading worksheet; `moodle_feedback` has the pages.
+"""Moodle: the names of its files, and the offline grading worksheet; the pages of feedback.
 
 Moodle finds a column by its header in the site's language, so the worksheet is given
 back as it came, with Grade and Feedback comments filled in.  Headers are known in some

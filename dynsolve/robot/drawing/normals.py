@@ -57,7 +57,7 @@ class DrawnAxis(Struct, frozen=True):
     """A joint axis in the pose that is drawn.
 
     `coordinate` names its joint variable.  The place of a sliding axis moves nothing; where
-    the drawing leaves it open, `is_placed` is False and the line any of them (`places`).
+    the drawing leaves it open, `is_placed` is False and the line any of them (`rows`).
     """
 
     coordinate: str
@@ -109,8 +109,6 @@ def dot(a: Matrix, b: Matrix) -> Expr:
     """a · b of two 3×1 columns."""
     return a.ring.dot(a.entries, b.entries)
 
-
-# The common normal of two lines: where x_i, a_i and α_i come from
 
 _HALF_TURN = Angle((), Fraction(180))
 

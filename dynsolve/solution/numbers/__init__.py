@@ -10,6 +10,6 @@ only where a result is shown.
     results         the results with values (`Valued`), at a state (`State`), and both (`Numbers`)
     blocks          which results are shown in numbers, and all of it as a part of a document
 
-To show one more result in numbers, add it to its stage in `selection`; what it is measured
+To show one more result in numbers, add it to its stage in `blocks`; what it is measured
 in stands in its record in `dynsolve.quantities.families`.
 """

@@ -80,8 +80,6 @@ def _by_stage(robot: Robot, shown: Iterator[Quantity]) -> dict[Stage, list[Shown
     return {stage: found[stage] for stage in Stage if stage in found}
 
 
-# Numbers as a part of a solution's document
-
 _WIDEST = 50
 """A matrix that is wider, in characters, has its unit by itself."""
 

@@ -141,8 +141,6 @@ def _unit(family: Family, found: Dimension | None) -> str:
     return family.unit if family.unit and found == family.dimension else units.si(found)
 
 
-# Values that a user gives for parameters and states, read and checked, each fault at its place
-
 Key = tuple[str, int]
 """A name and its number of dots: ("theta1", 1) is a velocity."""
 

@@ -57,9 +57,6 @@ find: [qd, Q, tau_static]
 """
 """An arm at rest, on which a force and a moment act."""
 
-
-# Slips on the way from the energies to D, C and g
-
 _PENDULUM = """
 dh: [{theta: q1*, a: l1}]
 gravity: [0, -g, 0]

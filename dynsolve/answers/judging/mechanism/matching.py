@@ -113,8 +113,6 @@ def chain_of(rows: Iterable[NumberRow], modified: bool) -> Chain:
     return Chain(tuple(joints), pose)
 
 
-# Whether two chains of joint axes are one mechanism, for some choice of frames
-
 _DEPENDENT = 1e-9
 _SEEN = 1e-6
 _MOST_WAYS = 64

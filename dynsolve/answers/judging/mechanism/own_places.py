@@ -101,8 +101,6 @@ def speaks_of_coordinates(questions: Questions, counts: Counts) -> bool:
     )
 
 
-# Where the frames of a student's table are, seen from the key's
-
 _Step = tuple[Angle, Expr, Expr, Angle]
 """θ, d, a, α of a row whose coordinates are at some place."""
 

@@ -103,8 +103,6 @@ def constant(node: Node) -> Fraction | None:
     return None
 
 
-# Derivatives that a student leaves to be taken
-
 Rule = Callable[[Symbol], Node | None]
 """The derivative of a symbol, None where it has none."""
 

@@ -6,7 +6,7 @@ r"""The descent: prepared tokens -> a value in the symbols of the problem.
     atom     = (number | name | function | fraction | matrix | "(" sum ")" | derivative) scripts
 
 Each rule is a method of `FormulaReader`, or a function of the module that is named after
-what it reads: `brackets`, `functions`, `derivatives`, `calls`, `names`, `numbers`.  Values are only put
+what it reads: `brackets`, `references`, `derivatives`, `calls`, `names`.  Values are only put
 together: nothing is computed.
 
 Numbers as they are written: decimals, and degrees as `90°`, `90 deg` or `90^\circ`.
@@ -72,8 +72,6 @@ def _written(value: Fraction, text: str) -> Number:
     scale = 10 ** len(decimals) if point and decimals.isdigit() and value else value.denominator
     return Number(int(value * scale), scale, scale != 1)
 
-
-# The descent: prepared tokens -> a value in the symbols of the problem
 
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _SMALL_POWERS = frozenset("23456789")

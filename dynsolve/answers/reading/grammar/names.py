@@ -202,9 +202,6 @@ _READINGS = (
 )
 """What a letter may be, in the order in which it is tried."""
 
-
-# What a name means
-
 _BEFORE_TERM = frozenset({"+", "-", "(", "[", "begin", "&", "\\\\", ",", ";"})
 _BEHIND_ENTRY = frozenset({"&", "\\\\", "close", ",", ";", "]"})
 _OWNER_BODY = re.compile(r"[0-9]+$")

@@ -91,15 +91,12 @@ def _is_constant(node: Node, vocabulary: Vocabulary) -> bool:
     return False
 
 
-# What every part of the grammar works on
-
-
 class Reader(ScriptCursor):
     """One list of prepared tokens that is being read, and what its value is made of.
 
     How it is read: `naming` makes names of answers win over symbols, as on a left-hand side;
     `owner` is the answer that the value is given for; `options` are the bolder guesses that
-    are allowed (see `right_side`); `rows_by_line` says that line ends separate rows, `by_blanks` that
+    are allowed (see `left_side`); `rows_by_line` says that line ends separate rows, `by_blanks` that
     blanks separate entries, `bars_separate` that `|` does.
 
     What was found: `references` are the names of answers in the value, `symbols` its symbols,

@@ -189,8 +189,6 @@ def is_angle(tokens: list[Token]) -> bool:
     return any(t.kind in ("name", "letter", "+", "-", "command") for t in tokens)
 
 
-# Names as they are written, and the scripts behind them
-
 ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
 
 BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin", "|"})

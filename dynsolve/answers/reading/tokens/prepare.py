@@ -241,8 +241,6 @@ def _skip_arguments(tokens: list[Token], position: int, environment: str) -> int
     return position
 
 
-# A text made ready for the grammar: its tokens, with macros written out and fonts left out
-
 _FONTS = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
     "overrightarrow operatorname ensuremath boxed fbox framebox mathop mathord mathrel mathbin smash bold "
