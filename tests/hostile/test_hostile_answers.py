@@ -36,7 +36,7 @@ def hand_in(content: str | bytes, file: str = "answer.yaml") -> Submission:
         started = time.process_time()
         found = read_submission(problem(), content, file)
         spent = time.process_time() - started
-        if spent < AT_ONCE or spent < LIMIT * max(counting(), counting()):
+        if spent < AT_ONCE or spent < LIMIT * counting():
             return found
     raise AssertionError(f"it took {spent:.2f} s of the processor to read this")
 

@@ -145,6 +145,7 @@ _SPOKEN = re.compile(
 )
 """The name of an answer in words, before a formula: `Kinetic energy = ...`, `Potensiell energi: ...`."""
 
+_SIGN = re.compile("[=:]")
 _SIGN_BELOW = re.compile(r"\n[ \t]*=(?!=)")
 """The next line begins with the sign of the equation: `K1` stands alone on this one."""
 
@@ -208,7 +209,8 @@ def plain_lines(
             position = drawn.end()
             continue
         begins = not text[position:stop].strip()
-        first = _begins(text, position, stop, names_answer)
+        has_sign = _SIGN.search(text, position, stop) or _SIGN_BELOW.match(text, stop)
+        first = _begins(text, position, stop, names_answer) if has_sign else -1
         if first >= 0:
             head, stop = stop, _whole(text, first, stop, end)
             if bottom := _column_end(text, first, head, stop, end):
