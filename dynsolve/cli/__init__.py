@@ -4,13 +4,12 @@
     check, grade          judge one hand-in, a course's hand-ins; change marks; the zip that makes
                           Gradescope run
                           dynsolve
-    lint, draw            a second look at a problem file; its robot drawn
-    library               a first draft of a file, its JSON Schema, the library of problems, the formats of
-                          files
-                          and exit codes
+    draw                  the robot of a problem file drawn
+    library               a first draft of a file, a second look at one, its JSON Schema, the library of
+                          problems, the formats of files and exit codes
 
 `main` puts them together, and makes every error a message and an exit code.  To add a
-command, write its function, register it in `main.app`, and add its row to the README.  What
+command, write its function, name it in `main.COMMANDS`, and add its row to the README.  What
 several commands share:
 
     numbers     reading a problem from wherever it is, showing findings; --set, --at, --digits

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Protocol
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import Node, Number
@@ -123,6 +122,7 @@ class DrawnFrames(Struct, frozen=True):
         """Those of a drawing; `names` are (coordinate, kind)."""
         if normals is None:
             return DrawnFrames()
+        from dynsolve.algebra.compact.compactor import Compactor
         from dynsolve.robot.drawing.normals import frames
 
         drawing = normals.drawing

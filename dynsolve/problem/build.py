@@ -47,7 +47,7 @@ def build_robot(
     known = [joint for joint in joints if joint]
     whole = len(known) == len(joints) and bool(joints) and parsed.table.sound
     model = parsed.model
-    links = Links(ring, parsed.convention, known, parsed.table.names) if whole else None
+    links = Links(ring, parsed.convention, known) if whole else None
     rotation = values.rotation(parsed.base.rotation, "the axes of the base") if parsed.base.rotation else None
     move = values.column(parsed.base.move) if parsed.base.move else None
     gravity = values.column(parsed.gravity) if parsed.gravity else None

@@ -107,7 +107,7 @@ def drawn_angles(reading: Reading) -> Iterator[Finding]:
 
 
 def _links(robot: Robot) -> Links:
-    return Links(robot.ring, robot.convention, robot.joints, [q.name for q in robot.coordinates])
+    return Links(robot.ring, robot.convention, robot.joints)
 
 
 def _turning(robot: Robot, body: Body) -> Matrix:
@@ -147,7 +147,11 @@ def lint_text(content: str | bytes, file: str = "") -> tuple[Finding, ...]:
     >>> [finding.code for finding in lint_text("dh: [{theta: q1*, a: l1}]\nvalues: {l2: 1}")]
     ['unused-value']
     """
-    reading = read_whole(content, file)
+    return remarks(read_whole(content, file))
+
+
+def remarks(reading: Reading) -> tuple[Finding, ...]:
+    """The findings about a file that was read."""
     found = [*reading.problem.warnings, *(finding for check in CHECKS for finding in check(reading))]
     return tuple(sorted(found, key=lambda finding: (finding.line, finding.column)))
 

@@ -20,7 +20,7 @@ values: the choice of basic angles may be unlucky, it cannot be wrong.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from math import cos, radians, sin, sqrt
 
 from msgspec import Struct, field
@@ -201,6 +201,15 @@ def is_rotation(matrix: Matrix) -> tuple[bool, bool]:
     return orthogonal, determinant == ring.one
 
 
+def rotation_along(ring: Ring, joints: Iterable[Joint], *, modified: bool) -> Matrix:
+    """The axes of the frame behind some rows of a table seen from the frame before them, 3×3."""
+    rotation = Matrix.identity(ring, 3)
+    for joint in joints:
+        about_z, about_x = elementary(ring, "z", joint.theta), elementary(ring, "x", joint.alpha)
+        rotation = rotation @ (about_x @ about_z if modified else about_z @ about_x)
+    return rotation
+
+
 def last_origin(robot: Robot) -> Matrix:
     """The origin of the last frame in the world, 3×1, by the elementary motions of the table."""
     ring, rotation, origin = robot.ring, robot.base_rotation, robot.base_position
@@ -223,11 +232,8 @@ def last_origin(robot: Robot) -> Matrix:
 class Links:
     """The links of a table."""
 
-    def __init__(
-        self, ring: Ring, convention: Convention, joints: Sequence[Joint], coordinates: Collection[str]
-    ) -> None:
+    def __init__(self, ring: Ring, convention: Convention, joints: Sequence[Joint]) -> None:
         self.ring, self.convention, self.joints = ring, convention, joints
-        self.coordinates = coordinates
 
     @property
     def modified(self) -> bool:
@@ -268,13 +274,8 @@ class Links:
 
     def rotation_at_rest(self, link: int) -> Matrix:
         """The axes of frame i seen from frame 0 at q = 0, 3×3."""
-        rotation = Matrix.identity(self.ring, 3)
-        for joint in path_to(self.joints, link):
-            theta: Angle = joint.theta - moving_part(joint.theta, self.coordinates)
-            about_z = elementary(self.ring, "z", theta)
-            about_x = elementary(self.ring, "x", joint.alpha)
-            rotation = rotation @ (about_x @ about_z if self.modified else about_z @ about_x)
-        return rotation
+        path = path_to(self.joints, link)
+        return rotation_along(self.ring, path, modified=self.modified).map(self.ring.at_rest)
 
     def axes_in_link(self, axes: Axes, link: int) -> Matrix:
         """The body-attached axes seen from the link's frame at q = 0, 3×3."""

@@ -14,7 +14,6 @@ from fractions import Fraction
 from msgspec import Struct
 
 from dynsolve.notation.tree import Letter, Node, Number, Row, Words
-from dynsolve.notation.unicode import raised
 
 Dimension = tuple[Fraction, Fraction, Fraction]
 """Exponents of mass, length and time."""
@@ -167,6 +166,8 @@ def describe(dim: Dimension) -> str:
     """
     if dim in _WORDS:
         return _WORDS[dim]
+    from dynsolve.notation.unicode import raised
+
     units = [(u, e) for u, e in zip(("kg", "m", "s"), dim, strict=True) if e]
     return " ".join(u if e == 1 else u + raised(str(e)) for u, e in units)
 

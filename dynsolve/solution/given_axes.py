@@ -6,12 +6,15 @@ turns with its link; one that does not is accepted where the kinetic energy is t
 
 from __future__ import annotations
 
-from dynsolve.derivation.euler_lagrange import given_axes_agree
-from dynsolve.derivation.graph import Derivation
-from dynsolve.derivation.link_frame import turns_with_link
-from dynsolve.derivation.rules import derive
+from typing import TYPE_CHECKING
+
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem import Problem
+from dynsolve.robot.geometry import rotation_along
+from dynsolve.robot.model import AxesKind, Body, Convention, Robot
+
+if TYPE_CHECKING:
+    from dynsolve.derivation.graph import Derivation
 
 
 def check_axes(problem: Problem, values: Derivation | None = None) -> tuple[Finding, ...]:
@@ -21,14 +24,13 @@ def check_axes(problem: Problem, values: Derivation | None = None) -> tuple[Find
     kinetic energy would come out wrong.
     """
     robot = problem.robot
-    values = derive(robot) if values is None else values
     warnings, faults = [], []
     for place, body in enumerate(robot.bodies):
-        if turns_with_link(robot, body, values[f"H{body.link}"]):
+        if body.axes.kind is not AxesKind.BASE or _turns_with_link(robot, body):
             continue
         path = ("masses", place, "axes")
         what = f"the given rotation of body {body.name} does not turn with link {body.link}"
-        if given_axes_agree(robot, body, values):
+        if _agree(robot, body, values):
             message = f"{what}; it is used as given, since the kinetic energy comes out the same"
             help = "write `axes: base` for a frame that turns"
             warnings.append(problem.finding(path, message, help, "axes-fixed"))
@@ -41,3 +43,17 @@ def check_axes(problem: Problem, values: Derivation | None = None) -> tuple[Find
     if faults:
         raise ProblemError(faults)
     return tuple(warnings)
+
+
+def _turns_with_link(robot: Robot, body: Body) -> bool:
+    modified = robot.convention is Convention.MODIFIED
+    turned = rotation_along(robot.ring, robot.path(body.link), modified=modified)
+    return not any(map(robot.ring.depends_on_coordinates, (turned.T @ body.axes.rotation).entries))
+
+
+def _agree(robot: Robot, body: Body, values: Derivation | None) -> bool:
+    """Whether the kinetic energy is the same all the same; only what asks it imports the derivation."""
+    from dynsolve.derivation.euler_lagrange import given_axes_agree
+    from dynsolve.derivation.rules import derive
+
+    return given_axes_agree(robot, body, derive(robot) if values is None else values)
