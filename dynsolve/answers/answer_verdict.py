@@ -44,10 +44,10 @@ from dynsolve.answers.verdict import (
     VerdictAnswer,
     worst,
 )
-from dynsolve.derivation.definite import Definiteness
 from dynsolve.derivation.graph import Derivation
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.letters import key
+from dynsolve.questions.definite.derive import Definiteness
 from dynsolve.robot.model import Robot
 
 # The verdict of one answer that was given

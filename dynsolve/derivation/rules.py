@@ -17,7 +17,7 @@ from dynsolve.derivation import euler_lagrange, kinematics, link_frame
 from dynsolve.derivation.graph import Derivation, Rule
 from dynsolve.derivation.link_frame import link_frame_rules
 from dynsolve.quantities.owners import asked_stages
-from dynsolve.quantities.stages import OF_THE_MODEL, Stage
+from dynsolve.quantities.stages import ASKED_FOR
 from dynsolve.robot.model import Body, Robot
 
 
@@ -39,7 +39,6 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     yield from _kinematics(robot)
     if robot.has_table:
         yield from _end_jacobian(robot)
-    yield from _asked_of_kinematics(robot)
     if robot.has_dynamics:
         for body in robot.bodies:
             yield from _body(robot, body)
@@ -48,38 +47,15 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
         yield from _energies(robot)
         yield from _euler_lagrange(robot)
         yield from _vectorized(robot)
+    yield from _asked(robot)
+
+
+def _asked(robot: Robot) -> Iterator[Rule]:
+    """The rules of what an exercise asks beyond the course's derivation, each from its own folder."""
     asked = asked_stages(robot.questions)
-    if Stage.NEWTON_EULER in asked:
-        from dynsolve.derivation.recursion_rules import recursion_rules
-
-        yield from recursion_rules(robot)
-    if asked & OF_THE_MODEL and robot.has_dynamics:
-        from dynsolve.derivation.model_rules import model_rules
-
-        yield from model_rules(robot)
-    if Stage.CONSTRAINTS in asked:
-        from dynsolve.derivation.constraints import constraint_rules
-
-        yield from constraint_rules(robot)
-    if robot.questions.candidates:
-        from dynsolve.derivation.definite import definite_rules
-
-        yield from definite_rules(robot)
-    if Stage.STATICS in asked:
-        from dynsolve.derivation.statics import static_rules
-
-        yield from static_rules(robot)
-
-
-def _asked_of_kinematics(robot: Robot) -> Iterator[Rule]:
-    """What only some exercises ask; it is imported for these alone."""
-    if asked_stages(robot.questions):
-        from dynsolve.derivation.configurations import configuration_rules
-        from dynsolve.derivation.task import kinematic_rules, rate_rules
-
-        yield from kinematic_rules(robot)
-        yield from configuration_rules(robot)
-        yield from rate_rules(robot)
+    for stage in ASKED_FOR:
+        if stage in asked and (question := stage.part("derive")) is not None:
+            yield from question.rules(robot)
 
 
 def _acting_energies(robot: Robot) -> Iterator[Rule]:

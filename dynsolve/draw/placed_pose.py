@@ -21,7 +21,6 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_sqrt
 from dynsolve.algebra.ring import Ring
-from dynsolve.derivation.constraints import constraint_functions, holonomic
 from dynsolve.derivation.mechanism import angular_jacobian, orientation, position_jacobian
 from dynsolve.draw.skeleton import drawn_length, finite
 from dynsolve.draw.vectors import (
@@ -41,6 +40,7 @@ from dynsolve.draw.vectors import (
 )
 from dynsolve.notation.tree import names_in
 from dynsolve.problem.model import Problem
+from dynsolve.questions.constraints.derive import constraint_functions, holonomic
 from dynsolve.robot.model import Body, JointType, Robot
 
 # How a body that is given by its position is reached from the world's origin

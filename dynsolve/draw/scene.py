@@ -15,7 +15,6 @@ from fractions import Fraction
 from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
@@ -34,6 +33,7 @@ from dynsolve.notation.characters import SUBSCRIPT_DIGITS
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
+from dynsolve.questions.constraints.derive import holonomic
 from dynsolve.robot.model import JointType, Robot
 
 # How thick the uniform bodies are

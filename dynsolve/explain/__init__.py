@@ -1,11 +1,9 @@
 """Quantities -> steps: why, the formula with its source, the formula of this robot, the result.
 
-A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
-`jacobian`, `inertia` (with `mass_centers`), `energy`, `torque` (with the Lagrangian), `vectorized` (with
-`christoffel`); `frames` of a drawing; `task` (with points), `singular`, `inverse`, `rates` (with statics),
-`newton_euler`, `parameters`, `equilibria`, `definite` and `constraints` (with forward dynamics and the
-inertia of the task) where something of them is asked.  To explain a further quantity, yield a `Step`
-in the file of its stage:
+A stage of the course is a file of its name with a function `steps`, which yields its steps in order:
+`kinematics`, `jacobian`, `inertia` (with `mass_centers`), `energy`, `torque` (with the Lagrangian),
+`vectorized` (with `christoffel`); that of a question is the file `explain` of its folder in
+`dynsolve.questions`.  To explain a further quantity, yield a `Step` in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
@@ -27,8 +25,7 @@ Everything a step is made from is in its `Context`: the robot, its exact values 
     given, placed_bodies, mass_centers, actions, matrix_factors, body_parts, terms
                          what several steps of the stages are made of
     working, sanity      the lines between a formula and its result; checks that a person can do on a model
-    inverse_formulas, inverse_figures, target
-                         the solutions of inverse kinematics as formulas, and in numbers for a target
+    set_forms            sets of configurations, inequalities: what several questions write
     notation_list, signs, textbook_letters, parameter_meanings
                          what the signs of a report mean
     hint                 hints (`--hint`), made of the same steps: what to do, without its results
@@ -66,9 +63,6 @@ _OF_BODIES = (Stage.INERTIA, Stage.ENERGY)
 
 _BESIDE = {
     Stage.LAGRANGIAN: ("torque", "lagrangian_steps"),
-    Stage.FORWARD_DYNAMICS: ("constraints", "forward_steps"),
-    Stage.TASK_INERTIA: ("constraints", "task_inertia_steps"),
-    Stage.STATICS: ("rates", "statics_steps"),
 }
 """The stages that stand in the file of another, and their functions there."""
 
@@ -113,7 +107,8 @@ def bare_steps(stage: Stage, context: Context) -> Iterator[Step]:
 
 
 def _steps(stage: Stage) -> Callable[[Context], Iterator[Step]]:
-    """The function `steps` of the stage's file, imported when it is asked for."""
+    """The function `steps` of the stage's file, or of its question's, imported when it is asked for."""
     file, name = _BESIDE.get(stage, (stage, "steps"))
-    steps: Callable[[Context], Iterator[Step]] = getattr(import_module(f"{__name__}.{file}"), name)
+    chapter = stage.part("explain") or import_module(f"{__name__}.{file}")
+    steps: Callable[[Context], Iterator[Step]] = getattr(chapter, name)
     return steps

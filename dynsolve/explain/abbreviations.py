@@ -5,7 +5,7 @@ theirs (The explicit dynamic model and inertial parameters of the PUMA 560 arm, 
 1986): inertial constants are defined once, and every entry is a short sum of products
 of sines, cosines and these.
 
-1. The inertial constants are the base parameters (`explain.parameters`), named
+1. The inertial constants are the base parameters (`questions.parameters.explain`), named
    κ₁, κ₂, ...: J, I and K, letters that books use for them, mean the Jacobian, a tensor
    and the energy here.
 2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`).
@@ -55,6 +55,7 @@ from dynsolve.notation.tree import (
     with_children,
 )
 from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]
 
@@ -269,7 +270,7 @@ def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
     `constants` says whether the inertial constants get names; where it is not given,
     they do in a long model.
     """
-    from dynsolve.explain.parameters import BaseParameters
+    BaseParameters = Stage.PARAMETERS.part("explain").BaseParameters
 
     values = forms.values
     if not (is_long(forms) if constants is None else constants):

@@ -30,7 +30,7 @@ from dynsolve.notation.tree import ZERO, Node, Product, Symbol
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
-from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import Turn, parallel_groups
 from dynsolve.robot.model import Convention, JointType, Robot
 
@@ -119,13 +119,14 @@ class Forms:
         if name == "det":
             return self._products.form(value)
         entries = value.entries if isinstance(value, Matrix) else (value,)
-        if name in (*PARAMETERS, REFERENCE) and sum(map(len, entries)) > LONG_REGRESSOR:
+        quantity = quantities(self.robot).of_rule(name)
+        is_regressor = quantity is not None and quantity.family.stage is Stage.PARAMETERS
+        if is_regressor and len(entries) > len(value.rows) and sum(map(len, entries)) > LONG_REGRESSOR:
             return self._quick.matrix(value)
         if max(map(len, entries), default=0) > LONG:
             made = self._from_parts(name)
             if made is not None:
                 return made
-        quantity = quantities(self.robot).of_rule(name)
         if quantity is not None and is_numeric(self.robot):
             if quantity.family is families.DLDQD:
                 return self._momentum_in_decimals(value)
@@ -309,7 +310,7 @@ class ProductForms:
 
     def _product(self, expr: Expr) -> tuple[Fraction, list[Factor]] | None:
         """An expression taken apart; None where its factors have no form in this ring."""
-        from dynsolve.derivation.inverse.equations import search_ring
+        from dynsolve.derivation.search_ring import search_ring
 
         relative = search_ring(self.ring, (), {})
         there, back = Transfer(self.ring, relative), Transfer(relative, self.ring)

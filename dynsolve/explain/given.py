@@ -40,6 +40,7 @@ from dynsolve.notation.tree import (
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.actions import JointFriction, Motor
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
@@ -487,7 +488,7 @@ def _motor(forms: Forms, motor: Motor) -> Prose:
 
 def _in_letters(entry: Node) -> Node:
     """What a file writes as tip.x or P.y, in the letters of the points."""
-    from dynsolve.explain.task import with_letters
+    with_letters = Stage.TASK.part("explain").with_letters
 
     return mapped(entry, with_letters)
 
@@ -518,9 +519,9 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     candidates = [bound for one in questions.candidates for bound in one.assumed]
     assumed = list(dict.fromkeys((*questions.model.assumed, *candidates)))
     if assumed:
-        from dynsolve.explain.inverse_formulas import ConfigurationForms
+        from dynsolve.explain.set_forms import SetForms
 
-        written = ConfigurationForms(forms.robot, forms.values)
+        written = SetForms(forms.robot, forms.values)
         yield ("Assumed: ", *listed([written.inequality(bound) for bound in assumed]), ".")
 
 

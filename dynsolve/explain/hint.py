@@ -20,7 +20,7 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.writing import and_joined, by_itself, is_small, listed
 from dynsolve.notation.tree import Node, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.quantities import kinematic_families, letters
+from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
@@ -126,8 +126,8 @@ def _inputs(context: Context, stage: Stage) -> Iterable[tuple[Node, str]]:
         case Stage.INVERSE:
             return frames[-1:] if asked.task is not None and asked.task.is_pose else [(letters.TASK, "r")]
         case Stage.RATES:
-            given = (kinematic_families.JR, kinematic_families.JR_DOT)
-            found = (one for one in quantities(robot).values() if one.family in given and one.name in wanted)
+            given = (one for one in quantities(robot).values() if one.name in ("Jr", "Jr_dot"))
+            found = (one for one in given if one.name in wanted)
             return [(quantity.letter(robot), quantity.name) for quantity in found]
         case Stage.ENERGY:
             return _of_bodies(robot)

@@ -292,9 +292,9 @@ def _asked(robot: Robot) -> dict[str, Value]:
         "F_RATES": letters.bold("F") if is_linear else None,
     }
     if asked.task is not None and asked.task.is_pose:
-        from dynsolve.derivation.inverse.names import Names
-
-        names = Names.beside({*robot.ring.names, *robot.ring.parameters, *asked.reached})
+        names = Stage.INVERSE.part("names").Names.beside(
+            {*robot.ring.names, *robot.ring.parameters, *asked.reached}
+        )
         found |= {"of_points": _names(names.of_points), "of_turns": _names(names.of_turns)}
         found["U"] = letters.bold("U")
     return found

@@ -224,13 +224,13 @@ class ParsedFile(Struct, frozen=True):
             points=frozenset(body.name for body in bodies if body.is_point),
             named=self.questions.names,
             stages=frozenset(ASKED_FOR),
-            is_twist=self.questions.task is not None and self.questions.task.is_twist,
             constraints=len(self.questions.constraints),
-            rates=self.questions.rates,
-            given=frozenset(
+            given=self.questions.rates
+            | frozenset(
                 name
                 for name, there in (
                     ("mass", self.bodies or self.model),
+                    ("function", self.questions.task is None or not self.questions.task.is_twist),
                     ("linearize", self.questions.model.linearize),
                     ("references", True),
                 )

@@ -121,6 +121,8 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     write where it means nothing else; a family without `is_answer` is none of the answers.
     `aliases` are the further names that `find` and `marks` take.
 
+    `needs` is what a file must give for there to be any: `velocity`, `linearize`, ... (`owners.Owners.of`);
+    `holds_forces` says that a result holds the generalized forces by their names.
     `brought_by` is what must act beside gravity for there to be any: friction, springs, motors.
     `part_of` is the whole it is added up to, or an entry of.  `needs_rotation` marks what a point
     mass has in name only; `is_symmetric_entry` an entry that equals the one across the diagonal.
@@ -143,6 +145,8 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     spellings: tuple[str, ...] = ()
     fallback_spellings: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
+    needs: str = ""
+    holds_forces: bool = False
     brought_by: str = ""
     part_of: str = ""
     needs_rotation: bool = False

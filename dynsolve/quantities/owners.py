@@ -10,7 +10,6 @@ from itertools import product
 
 from msgspec import Struct
 
-from dynsolve.quantities import action_families, kinematic_families, model_families
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Owner, Size
 from dynsolve.quantities.stages import OF_THE_MODEL, Stage
@@ -99,28 +98,16 @@ MOST_INDEXED = 9
 """Entries have names up to this index: d_111 could be two of them."""
 
 
-_FROM_RATES = {kinematic_families.QD: "velocity", kinematic_families.QDD: "acceleration"}
-"""What is asked of the joints, and the rate of the task that it belongs to."""
-
-_FROM_GIVEN = {
-    model_families.LINEAR_A: "linearize",
-    model_families.LINEAR_B: "linearize",
-    model_families.Y_REFERENCE: "references",
-    action_families.REDUCED: "mass",
-}
-"""What is asked of the model, and what must be given for it: an equilibrium, reference rates."""
-
-
 class Owners(Struct, frozen=True):
     """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name, forces.
 
     `points` are the bodies without inertia, `named` the points that the exercise names.
     `stages` are those of which something is asked, `task_rows` the components of the task, and
     `task_names` what else each of them is called where the task is a function r(q), which a twist is
-    not.  `rates` says whether its velocity, and its acceleration, is given; `given` whether there is
-    `mass`, and what of `_FROM_GIVEN` there is; `actions` what acts beside gravity: friction, springs,
-    motors.  `has_matrices` says that there are matrices to be judged, and without `has_robot` there is
-    nothing else.
+    not.  `given` is what families may need (`Family.needs`): `mass`, a task that is a `function` r(q), its
+    `velocity` or `acceleration`, an equilibrium to `linearize` at, `references`; `actions` what acts beside
+    gravity: friction, springs, motors.  `has_matrices` says that there are matrices to be judged, and
+    without `has_robot` there is nothing else.
     """
 
     rows: int
@@ -132,9 +119,7 @@ class Owners(Struct, frozen=True):
     loads: int = 0
     task_rows: int = 0
     task_names: tuple[tuple[str, ...], ...] = ()
-    is_twist: bool = False
     constraints: int = 0
-    rates: frozenset[str] = frozenset()
     given: frozenset[str] = frozenset()
     actions: frozenset[str] = frozenset()
     has_matrices: bool = False
@@ -156,12 +141,12 @@ class Owners(Struct, frozen=True):
             loads=len(asked.loads),
             task_rows=asked.task.rows if asked.task else 0,
             task_names=component_names(asked.task) if asked.task else (),
-            is_twist=asked.task is not None and asked.task.is_twist,
             constraints=len(asked.constraints),
-            rates=given_rates(asked),
-            given=frozenset(
+            given=given_rates(asked)
+            | frozenset(
                 name
                 for name, there in (
+                    ("function", asked.task is None or not asked.task.is_twist),
                     ("mass", robot.has_dynamics),
                     ("linearize", asked.model.linearize),
                     ("references", robot.ring.plan.references),
@@ -177,15 +162,11 @@ class Owners(Struct, frozen=True):
         """Whether there are quantities of a family: those of the course, and of what is asked."""
         if family.stage is Stage.CONSTRAINTS and not self.constraints:
             return False
-        if self.is_twist and family in (kinematic_families.R, kinematic_families.R_ENTRY):
-            return False
         if family.brought_by and family.brought_by not in self.actions:
-            return False
-        if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
             return False
         if family.stage in OF_THE_MODEL and "mass" not in self.given:
             return False
-        if family in _FROM_GIVEN and _FROM_GIVEN[family] not in self.given:
+        if family.needs and family.needs not in self.given:
             return False
         if not self.rows and family.stage.needs_table:
             return False

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
 
 
 class Stage(StrEnum):
@@ -49,6 +52,20 @@ class Stage(StrEnum):
         stage.heading = heading
         stage.asked_for = asked_for
         return stage
+
+    def part(self, file: str) -> Any:
+        """A file of the folder `questions/<value>`, imported when it is asked for; None where it has none.
+
+        This is how rooms below and beside the questions reach them: by path, so that a question that
+        nobody asks costs nothing, and nobody has a list of them.
+
+        >>> Stage.SINGULAR.part("derive").__name__
+        'dynsolve.questions.singular.derive'
+        """
+        name = f"dynsolve.questions.{self}"
+        if not self.asked_for or find_spec(f"{name}.{file}") is None:
+            return None
+        return import_module(f"{name}.{file}")
 
     @property
     def needs_masses(self) -> bool:

@@ -11,11 +11,12 @@ from typing import Any
 from dynsolve.algebra.matrix import AtState, Matrix
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
-from dynsolve.derivation import kinematics, statics
-from dynsolve.derivation.statics import jacobians
-from dynsolve.quantities import action_families, families
-from dynsolve.quantities import kinematic_families as asked
+from dynsolve.derivation import kinematics
+from dynsolve.quantities import families
 from dynsolve.quantities.family import Family
+from dynsolve.questions import rates, statics
+from dynsolve.questions import task as of_task
+from dynsolve.questions.statics.derive import jacobians, total, wrench
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Load, NamedPoint
 
@@ -89,13 +90,13 @@ def _weight(robot: Robot, value: InputValue) -> Matrix:
 
 def _without_moments(robot: Robot, value: InputValue) -> Matrix:
     """Σ J_vᵀ F."""
-    return statics.total(robot, tuple(_of_force(robot, load, value) for load in robot.questions.loads))
+    return total(robot, tuple(_of_force(robot, load, value) for load in robot.questions.loads))
 
 
 def _of_force(robot: Robot, load: Load, value: InputValue) -> Matrix:
     frames = tuple(value(name) for name in kinematics.frame_names(load.link))
     linear, _ = jacobians(robot, load, frames)
-    force, _ = statics.wrench(load, frames[load.link])
+    force, _ = wrench(load, frames[load.link])
     return linear.T @ force
 
 
@@ -105,13 +106,13 @@ def _at(robot: Robot) -> AtState:
 
 OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
     families.JV: _in_last_frame("Jv"),
-    asked.QD: _joint_rates,
-    action_families.Q: _forces,
-    action_families.TAU_STATIC: _holding,
+    rates.QD: _joint_rates,
+    statics.Q: _forces,
+    statics.TAU_STATIC: _holding,
 }
 
 OF_POINT: dict[Family, Callable[[Robot, NamedPoint, InputValue], Iterator[Variant]]] = {
-    asked.JV_POINT: _along_other_axes("Jv"),
-    asked.JW_POINT: _along_other_axes("Jw"),
-    asked.V_POINT: _along_other_axes("v"),
+    of_task.JV_POINT: _along_other_axes("Jv"),
+    of_task.JW_POINT: _along_other_axes("Jw"),
+    of_task.V_POINT: _along_other_axes("v"),
 }

@@ -52,11 +52,11 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.notation.tree import Negative, Node, Number, Reference, Symbol, with_children
-from dynsolve.quantities import action_families, families, model_families
-from dynsolve.quantities import kinematic_families as asked
-from dynsolve.quantities.action_families import MULTIPLIERS
+from dynsolve.quantities import families
 from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities, Quantity, quantities
+from dynsolve.questions import forward_dynamics, rates, statics, task
+from dynsolve.questions.constraints import MULTIPLIERS
 from dynsolve.robot.model import Robot
 
 # Names of generalized forces in what is solved for: the inputs of the motors
@@ -103,12 +103,12 @@ def multiplier_names(robot: Robot) -> tuple[str, ...]:
 # Answers in the student's own coordinates, as they read in the problem's
 
 _OF_ROWS = (
-    families.TAU, families.G, families.CQD, action_families.Q, action_families.TAU_STATIC,
-    asked.QD, asked.QDD, model_families.QDD_FORWARD,
+    families.TAU, families.G, families.CQD, statics.Q, statics.TAU_STATIC,
+    rates.QD, rates.QDD, forward_dynamics.QDD_FORWARD,
 )  # fmt: skip
 _OF_COLUMNS = (
-    families.JV, families.JW, families.J, families.JV_BODY, families.JW_BODY, asked.JV_POINT, asked.JW_POINT,
-    asked.JV_DOT, asked.JW_DOT, asked.J_DOT, asked.JR, asked.JR_DOT,
+    families.JV, families.JW, families.J, families.JV_BODY, families.JW_BODY, task.JV_POINT, task.JW_POINT,
+    task.JV_DOT, task.JW_DOT, task.J_DOT, task.JR, task.JR_DOT,
 )  # fmt: skip
 _OF_BOTH = (families.D, families.C)
 
@@ -167,11 +167,11 @@ def _coordinates(quantity: Quantity, row: int, column: int) -> tuple[int, ...]:
 
 _LINEAR = (
     families.RC, families.V, families.JV, families.JV_BODY,
-    asked.P_POINT, asked.V_POINT, asked.JV_POINT, asked.JV_DOT,
+    task.P_POINT, task.V_POINT, task.JV_POINT, task.JV_DOT,
 )  # fmt: skip
-_ANGULAR = (families.W, families.JW, families.JW_BODY, asked.JW_POINT, asked.JW_DOT)
-_BOTH = (families.J, asked.J_DOT)
-_POSITIONS = (families.RC, asked.P_POINT)
+_ANGULAR = (families.W, families.JW, families.JW_BODY, task.JW_POINT, task.JW_DOT)
+_BOTH = (families.J, task.J_DOT)
+_POSITIONS = (families.RC, task.P_POINT)
 
 Entry = TypeVar("Entry")
 
@@ -236,7 +236,7 @@ def unfolded(
 
 Rows = tuple[tuple[RationalExpr, ...], ...]
 
-_BY_RATES = {families.CQD: "C", families.V: "Jv", families.W: "Jw", asked.V_POINT: "Jv"}
+_BY_RATES = {families.CQD: "C", families.V: "Jv", families.W: "Jw", task.V_POINT: "Jv"}
 """What is a matrix times q̇, and how the name of that matrix begins."""
 
 

@@ -18,12 +18,12 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.verdict import Part
 from dynsolve.derivation.configurations import reaches, solution_of
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
-from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tokens import ARCS
 from dynsolve.notation.tree import Function, Node, Symbol, names_in, walk, with_atan2_exchanged
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.questions.inverse.forms import InverseForms
 from dynsolve.robot.model import Robot
 
 # What is found of a set of configurations
@@ -74,7 +74,7 @@ class BranchKey:
         robot: Robot,
         r: Matrix,
         task: Node,
-        shown: ConfigurationForms,
+        shown: InverseForms,
         states: Sequence[Mapping[str, float]],
     ) -> None:
         self.robot, self.shown, self.states = robot, shown, states

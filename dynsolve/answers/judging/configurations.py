@@ -32,7 +32,6 @@ from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import WIDEST
 from dynsolve.answers.judging.branches import RIGHT, BranchKey, SetVerdict
 from dynsolve.answers.verdict import ConfigurationAnswer, Part
-from dynsolve.derivation.balance import balanced_points, is_balanced
 from dynsolve.derivation.configurations import (
     NO_VALUE,
     is_zero,
@@ -41,21 +40,29 @@ from dynsolve.derivation.configurations import (
     with_half_turns,
     zero_near,
 )
-from dynsolve.derivation.equilibrium_check import balanced_forces, in_balance, starts
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tokens import ARCS
 from dynsolve.notation.tree import Function, Node, Number, Symbol, mapped, names_in, walk
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.questions.equilibria.check import (
+    balanced_forces,
+    balanced_points,
+    in_balance,
+    is_balanced,
+    starts,
+)
+from dynsolve.questions.equilibria.forms import EquilibriaForms
+from dynsolve.questions.inverse.forms import InverseForms
+from dynsolve.questions.singular.forms import SingularForms
 from dynsolve.robot.model import JointType, Robot
 
 if TYPE_CHECKING:
     from dynsolve.answers.judging.target_branches import TargetKey
-    from dynsolve.derivation.reduced_check import ConstrainedStates
+    from dynsolve.questions.constraints.check import ConstrainedStates
 
 
 # A configuration in round numbers, as an example of what is said of a set of configurations
@@ -236,7 +243,9 @@ class ConfigurationKey:
         self.robot, self.values, self.exact = robot, derivation, exact
         self.numbers = {name: float(value) for name, value in values.items()}
         self.forms = Forms(robot, derivation)
-        self.shown = ConfigurationForms(robot, derivation)
+        self.inverse = InverseForms(robot, derivation)
+        self.singular = SingularForms(robot, derivation)
+        self.equilibria = EquilibriaForms(robot, derivation)
 
     def verdict(self, answer: ConfigurationAnswer) -> SetVerdict:
         """Whether a set is that of the key."""
@@ -274,33 +283,33 @@ class ConfigurationKey:
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
         if name == "inverse" and self.robot.questions.target is not None:
-            return self.shown.target is None
+            return self.inverse.target is None
         if isinstance(self.values[name], Skipped):
             return name in SETS
         return name == "reduced" and not self._constrained.all
 
     @cached_property
     def _branches(self) -> BranchKey | TargetKey:
-        if self.shown.target is not None:
+        if self.inverse.target is not None:
             from dynsolve.answers.judging.target_branches import TargetKey
 
-            return TargetKey(self.shown.target, self.exact, self.robot.questions.all_branches)
+            return TargetKey(self.inverse.target, self.exact, self.robot.questions.all_branches)
         (task,) = self.values.rules["inverse"].inputs
         form = self.forms(task)
         states = [*map(self._limited, self._states(compile_trees([form])))]
-        return BranchKey(self.robot, self.values[task], form, self.shown, states)
+        return BranchKey(self.robot, self.values[task], form, self.inverse, states)
 
     @cached_property
     def _equilibria(self) -> EquilibriumKey:
         forces = in_balance(self.robot, self.forms(balanced_forces(self.robot)))
-        alternatives = self.shown.equilibria
+        alternatives = self.equilibria.equilibria
         if any(self._is_special(one.factor) for one in self.values["equilibria"].special):
             alternatives = (tuple(forces),)
         return EquilibriumKey(self.robot, forces, alternatives, self.numbers)
 
     def _is_special(self, factor: Expr) -> bool:
         """Whether a factor is 0 for the numbers of the problem, for which the equilibria are others."""
-        held = names_in(self.shown.comparison(factor, "="))
+        held = names_in(self.equilibria.comparison(factor, "="))
         return held <= self.numbers.keys() and abs(evaluate(factor, self.numbers)) < CLOSE
 
     def _balance(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
@@ -314,7 +323,7 @@ class ConfigurationKey:
             return SetVerdict(False, "not_balanced")
         for number, node in enumerate(theirs, 1):
             condition = held_equations([node], (), ())
-            if not all(condition.hold(at) for at in balanced_points(self.robot, self.shown.balance)):
+            if not all(condition.hold(at) for at in balanced_points(self.robot, self.equilibria.balance)):
                 return SetVerdict(False, "condition_too_much", number)
         return RIGHT
 
@@ -329,7 +338,7 @@ class ConfigurationKey:
 
     @cached_property
     def _constrained(self) -> ConstrainedStates:
-        from dynsolve.derivation.reduced_check import ConstrainedStates, constrained_names
+        from dynsolve.questions.constraints.check import ConstrainedStates, constrained_names
 
         forms = {name: self.forms(name) for name in constrained_names(self.robot)}
         return ConstrainedStates(self.robot, forms, self.numbers)
@@ -377,17 +386,17 @@ class ConfigurationKey:
         def is_met(q: Mapping[str, float]) -> bool:
             return any(one.hold(q) for one in theirs)
 
-        alternatives = map(compile_trees, self.shown.singular)
+        alternatives = map(compile_trees, self.singular.singular)
         missed = [q for one in alternatives for q in self._points(one) if not is_met(q)]
-        if not missed and (theirs or not self.shown.singular):
+        if not missed and (theirs or not self.singular.singular):
             return RIGHT
         shown = missed if theirs else []
         where = example_point(self.robot, formulas, shown, self._is_singular, is_met)
         return SetVerdict(False, "configurations_missing", where=where)
 
     def _is_singular(self, q: Mapping[str, float]) -> bool:
-        assert self.shown.singular_set is not None
-        return rank_of(self._jacobian.run(q)[0]) < self.shown.singular_set.rank
+        assert self.singular.singular_set is not None
+        return rank_of(self._jacobian.run(q)[0]) < self.singular.singular_set.rank
 
     @cached_property
     def _jacobian_form(self) -> Node:

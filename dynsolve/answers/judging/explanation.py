@@ -23,7 +23,7 @@ from dynsolve.answers.judging.follow_through import FollowThrough, PossibleValue
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.judging.other_solutions import covers
-from dynsolve.quantities.model_families import REGRESSORS
+from dynsolve.questions.parameters import REGRESSORS
 from dynsolve.robot.model import Coordinate
 
 MOST_EXPECTED = 4

@@ -31,16 +31,19 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
-from dynsolve.derivation import euler_lagrange, kinematics, statics
+from dynsolve.derivation import euler_lagrange, kinematics
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.derivation.mechanism import position_jacobian
-from dynsolve.derivation.recursion_rules import torque_rule
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Reference
-from dynsolve.quantities import action_families, families, kinematic_families
+from dynsolve.quantities import action_families, families
 from dynsolve.quantities.index import Quantities, Quantity, quantities
-from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
+from dynsolve.questions import statics
+from dynsolve.questions import task as of_task
+from dynsolve.questions.newton_euler.derive import torque_rule
+from dynsolve.questions.parameters import PARAMETERS, REFERENCE
+from dynsolve.questions.statics.derive import wrench as force_and_moment
 from dynsolve.robot.model import Body, Robot
 from dynsolve.robot.questions import TIP, Load, Questions, Task
 
@@ -75,9 +78,9 @@ def differentiation_routes(robot: Robot, quantity: Quantity) -> Iterator[Route]:
         case families.JV:
             tip = f"H{len(robot.joints)}"
             yield Route((tip,), lambda H: position_jacobian(robot, kinematics.origin(H)))
-        case kinematic_families.JV_POINT if _is_in_world(robot, owner):
+        case of_task.JV_POINT if _is_in_world(robot, owner):
             yield Route((f"p{owner}",), partial(position_jacobian, robot))
-        case kinematic_families.V_POINT if _is_in_world(robot, owner):
+        case of_task.V_POINT if _is_in_world(robot, owner):
             yield Route((f"p{owner}",), _rate)
 
 
@@ -128,11 +131,11 @@ def task_routes(questions: Questions, quantity: Quantity, key: Key) -> Iterator[
     task = questions.task
     if task is None or task.is_twist:
         return
-    if quantity.family is kinematic_families.JR:
+    if quantity.family is of_task.JR:
         rows = [_axis(entry) for entry in task.entries]
         if None not in rows:
             yield Route(("Jv",), lambda Jv: Matrix(Jv.ring, tuple(Jv.rows[k] for k in rows if k is not None)))
-    elif quantity.family is action_families.LOAD:
+    elif quantity.family is statics.LOAD:
         load = questions.loads[quantity.index[0] - 1]
         wrench = _task_wrench(task, load, quantity.rule, key)
         if wrench is not None:
@@ -154,7 +157,7 @@ def _task_wrench(task: Task, load: Load, rule: str, key: Key) -> Matrix | None:
     if load.point != TIP:
         return None
     J, wanted = key("Jr"), key(rule)
-    force, moment = statics.wrench(load, key(f"H{load.link}"))
+    force, moment = force_and_moment(load, key(f"H{load.link}"))
     for around in range(3):
         parts: list[Expr] = []
         for entry in task.entries:

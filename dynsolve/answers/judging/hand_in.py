@@ -44,7 +44,7 @@ from dynsolve.answers.verdict import Answer
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, Symbol, names_in, walk, with_children
 from dynsolve.quantities import families
-from dynsolve.quantities.model_families import PARAMETERS, REFERENCE, REGRESSORS
+from dynsolve.questions.parameters import PARAMETERS, REFERENCE, REGRESSORS
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import LENGTH
 

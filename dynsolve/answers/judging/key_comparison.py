@@ -26,7 +26,7 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
-from dynsolve.quantities.model_families import REGRESSORS
+from dynsolve.questions.parameters import REGRESSORS
 
 Rows = tuple[tuple[WrittenEntry, ...], ...]
 

@@ -35,18 +35,19 @@ from dynsolve.answers.judging.answer_values import AnswerValue, as_value
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, put_numbers
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS
-from dynsolve.derivation import statics
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.link_frame import accelerations, velocities
-from dynsolve.derivation.rates import wanted_by_accelerations
-from dynsolve.derivation.recursions import is_standard
-from dynsolve.derivation.regressor import missing, parameters_for, reference_forces
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import action_families, families
 from dynsolve.quantities.index import Quantity
-from dynsolve.quantities.model_families import PARAMETERS, REFERENCE, REGRESSORS
+from dynsolve.questions import newton_euler
+from dynsolve.questions.newton_euler.recursions import is_standard
+from dynsolve.questions.parameters import PARAMETERS, REFERENCE, REGRESSORS
+from dynsolve.questions.parameters.derive import missing, parameters_for, reference_forces
+from dynsolve.questions.rates.derive import wanted_by_accelerations
+from dynsolve.questions.statics import derive as statics
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import reference
 
@@ -184,7 +185,7 @@ def other_solution(
     `is_equation` says that it was written as one side of `... = 0`.
     """
     quantity = graph.quantities.of_rule(node)
-    if quantity is not None and quantity.family in (action_families.AL, action_families.ACL):
+    if quantity is not None and quantity.family in (newton_euler.AL, newton_euler.ACL):
         return _with_other_gravity(graph, quantity, rows, compare)
     if node in PARAMETERS:
         return Other.OF_THE_PRODUCT if _multiplies(graph, node, rows) else None
@@ -226,7 +227,7 @@ def _with_other_gravity(
 ) -> Other | None:
     """Whether an acceleration is right where gravity is counted in the other of the two ways."""
     robot, place = graph.robot, quantity.index[0]
-    link = robot.bodies[place - 1].link if quantity.family is action_families.ACL else place
+    link = robot.bodies[place - 1].link if quantity.family is newton_euler.ACL else place
     standard = is_standard(robot)
     gravity = rotation(graph.key(f"H{link}")).T @ robot.gravity
     wanted = graph.key(quantity.rule) + (-gravity if standard else gravity)

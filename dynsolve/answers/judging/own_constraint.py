@@ -23,7 +23,7 @@ from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.judging.other_solutions import Other
 from dynsolve.derivation.elimination import solved
-from dynsolve.derivation.rate_check import orthonormal
+from dynsolve.questions.rates.check import orthonormal
 
 if TYPE_CHECKING:
     from dynsolve.answers.judging.answer_values import AnswerValue

@@ -25,8 +25,8 @@ from dynsolve.answers.judging.entry_comparison import ROUNDED, half_unit
 from dynsolve.answers.verdict import Part
 from dynsolve.derivation.configurations import on_branch
 from dynsolve.derivation.reached import CLOSE, gap
-from dynsolve.explain.target import Configuration, TargetForms
 from dynsolve.notation.tree import Degrees, Negative, Node, Number, mapped, walk
+from dynsolve.questions.inverse.target import Configuration, TargetForms
 
 IN_DEGREES = "in_degrees"
 """The note of an answer whose bare numbers are right as degrees."""

@@ -34,8 +34,9 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Matrix, Node, names_in
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.index import Quantities
-from dynsolve.quantities.model_families import QDD_FORWARD, REFERENCE
 from dynsolve.quantities.stages import Stage
+from dynsolve.questions.forward_dynamics import QDD_FORWARD
+from dynsolve.questions.parameters import REFERENCE
 
 # A quantity that is given several times
 

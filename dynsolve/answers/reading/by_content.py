@@ -43,8 +43,8 @@ from dynsolve.notation.build import negated, total
 from dynsolve.notation.characters import split
 from dynsolve.notation.tree import ZERO, Node, Symbol, walk
 from dynsolve.quantities.letters import key
-from dynsolve.quantities.model_families import QDD_FORWARD
 from dynsolve.quantities.stages import Stage
+from dynsolve.questions.forward_dynamics import QDD_FORWARD
 
 # Names that mean an answer only where their value says so: k_1, u_1, H_11, T_1, Γ_1
 

@@ -52,9 +52,9 @@ from dynsolve.notation.tree import (
     with_atan2_exchanged,
 )
 from dynsolve.quantities import families
-from dynsolve.quantities.action_families import REDUCED
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
+from dynsolve.questions.constraints import REDUCED
 
 # Formulas of sets and branches: read, and asked which coordinates and names stand in them
 

@@ -70,7 +70,7 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Node, names_in
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.letters import key
-from dynsolve.quantities.model_families import QDD_FORWARD
+from dynsolve.questions.forward_dynamics import QDD_FORWARD
 
 # Linear models as they are written out: `\dot x = [...] x + [...] u` gives A and B
 

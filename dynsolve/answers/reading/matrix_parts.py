@@ -48,7 +48,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import UnicodePrinter, printable
 from dynsolve.quantities import families
 from dynsolve.quantities.index import Quantities
-from dynsolve.quantities.model_families import REFERENCE
+from dynsolve.questions.parameters import REFERENCE
 
 # One row or one column of a matrix, as programs name it
 

@@ -30,7 +30,7 @@ from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.unread_text import list_pictures, list_unread
 from dynsolve.answers.verdict import NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
-from dynsolve.quantities.model_families import LINEAR_A
+from dynsolve.questions.equilibria import LINEAR_A
 
 _ENVIRONMENT = (
     "equation|align|gather|multline|eqnarray|alignat|flalign|xalignat|displaymath|math|dmath|IEEEeqnarray"

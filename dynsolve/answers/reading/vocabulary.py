@@ -27,10 +27,10 @@ from dynsolve.answers.reading.tokens.lexer import GREEK_COMMANDS, Token
 from dynsolve.notation.characters import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem
-from dynsolve.quantities.action_families import MULTIPLIERS
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantities, Shape, quantities
 from dynsolve.quantities.letters import key, open_index, subscripts
+from dynsolve.questions.constraints import MULTIPLIERS
 from dynsolve.robot.model import Coordinate, JointType
 from dynsolve.robot.questions import reference
 

@@ -413,9 +413,9 @@ def decoupled_step(context: Context) -> Step | None:
     factor = _of_parameters(coupling) if coupling else None
     if factor is None:
         return None
-    from dynsolve.explain.inverse_formulas import ConfigurationForms
+    from dynsolve.explain.set_forms import SetForms
 
-    sides = ConfigurationForms(context.robot, context.values).inequality(Bound(factor)).parts
+    sides = SetForms(context.robot, context.values).inequality(Bound(factor)).parts
     ring = context.robot.ring
     is_constant = not any(ring.depends_on_coordinates(D[i, i]) for i in range(n))
     told = say(

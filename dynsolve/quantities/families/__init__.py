@@ -6,8 +6,8 @@ By the sections of the textbook:
     lagrange        P, K and L; the derivatives of L, the generalized forces; D, the Christoffel symbols, C,
                     g
 
-What acts beside gravity, and what only some exercises ask, is in the files `*_families` of
-`dynsolve.quantities`.  To add a quantity:
+What acts beside gravity is in `quantities.action_families`; what only some exercises ask, with its
+question in `dynsolve.questions`.  To add a quantity of the course:
 
 1. its record in the file of its section, at its place in the derivation;
 2. its formula in `dynsolve.derivation`, in the file of its section of the textbook, and its rule there;
@@ -18,7 +18,9 @@ Reading, judging, marks, numbers, JSON and NumPy take what they must know from t
 
 from __future__ import annotations
 
-from dynsolve.quantities import action_families, kinematic_families, model_families
+from collections.abc import Iterator
+
+from dynsolve.quantities import action_families
 from dynsolve.quantities.families import bodies, lagrange
 from dynsolve.quantities.families.bodies import (
     DH,
@@ -58,6 +60,7 @@ from dynsolve.quantities.families.lagrange import (
     P,
 )
 from dynsolve.quantities.family import Family
+from dynsolve.quantities.stages import ASKED_FOR, Stage
 
 __all__ = [
     "H0", "DH", "A", "H", "JV", "JW", "J",
@@ -68,9 +71,8 @@ __all__ = [
     "FAMILIES", "HOLD_FORCES",
 ]  # fmt: skip
 
-FAMILIES: tuple[Family, ...] = (
+_OF_THE_COURSE = (
     *bodies.KINEMATICS_FAMILIES,
-    *kinematic_families.FAMILIES,
     *bodies.FAMILIES,
     *lagrange.OF_BODIES,
     *action_families.OF_ENERGY,
@@ -79,14 +81,19 @@ FAMILIES: tuple[Family, ...] = (
     *lagrange.FAMILIES,
     *lagrange.VECTORIZED_FAMILIES,
     *action_families.OF_THE_MODEL,
-    *action_families.FAMILIES,
-    *model_families.FAMILIES,
-    *action_families.STATIC_FAMILIES,
-    *action_families.CONSTRAINT_FAMILIES,
-    *action_families.DEFINITE_FAMILIES,
 )
 
-HOLD_FORCES = frozenset(
-    {action_families.LAMBDA.name, action_families.REDUCED.name, model_families.QDD_FORWARD.name}
+
+def _asked_for() -> Iterator[Family]:
+    """Those of the questions, each in its own folder."""
+    for stage in ASKED_FOR:
+        question = stage.part("__init__")
+        yield from getattr(question, "FAMILIES", ())
+
+
+FAMILIES: tuple[Family, ...] = tuple(
+    sorted((*_OF_THE_COURSE, *_asked_for()), key=lambda family: list(Stage).index(family.stage))
 )
+
+HOLD_FORCES = frozenset(family.name for family in FAMILIES if family.holds_forces)
 """The names of the results that hold the generalized forces by their names."""

@@ -29,11 +29,12 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
-from dynsolve.quantities import action_families, families
+from dynsolve.quantities import families
 from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.letters import key
-from dynsolve.quantities.model_families import REFERENCE
+from dynsolve.questions import newton_euler
+from dynsolve.questions.parameters import REFERENCE
 from dynsolve.robot.model import JointType
 
 # Names of answers inside a value
@@ -80,7 +81,7 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
 def _framed(quantities: Quantities, form: Form, names: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
     """The quantity in view of the frame that stands as its exponent: H_1^0, H_2^1."""
     powers = form.scripts.powers
-    in_link = tuple(n for n in names if quantities[n].family in action_families.FAMILIES)
+    in_link = tuple(n for n in names if quantities[n].family in newton_euler.FAMILIES)
     if in_link and not powers and form.key not in quantities:
         return tuple(dict.fromkeys((*in_link, *names))), False
     if not powers or not names:
@@ -88,7 +89,7 @@ def _framed(quantities: Quantities, form: Form, names: tuple[str, ...]) -> tuple
     first, frame = quantities[names[0]], powers[0]
     if in_link and frame == quantities[in_link[0]].index[0]:
         return in_link, True
-    if first.family in action_families.FAMILIES:  # in another frame than the recursions have it in
+    if first.family in newton_euler.FAMILIES:  # in another frame than the recursions have it in
         return (), True
     if first.family is families.FORCE and frame == first.index[0]:  # Craig's F_i: the inertia force of a link
         return (), True

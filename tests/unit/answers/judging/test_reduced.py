@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.derivation.reduced_check import constrained_names, verify_reduced
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.inverse_formulas import ConfigurationForms
 from dynsolve.notation.build import negated, total
 from dynsolve.problem import read_problem
+from dynsolve.questions.constraints.check import constrained_names, verify_reduced
+from dynsolve.questions.constraints.forms import ReducedForms
 
 BLADE = """
 gravity: none
@@ -86,7 +86,7 @@ def test_the_check_finds_an_equation_that_is_missing(kept: slice) -> None:
     robot = read_problem(BLADE).robot
     values = derive(robot)
     forms = {name: Forms(robot, values)(name) for name in constrained_names(robot)}
-    sides = ConfigurationForms(robot, values).reduced
+    sides = ReducedForms(robot, values).reduced
     residuals = [total([left, negated(right)]) for left, right in sides]
     verify_reduced(robot, forms, residuals)
     with pytest.raises(VerificationError):

@@ -8,8 +8,8 @@ import pytest
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.inverse.equations import search_ring
 from dynsolve.derivation.rules import derive
+from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import singular_set
 from dynsolve.notation.python import to_python
 from dynsolve.problem import read_problem

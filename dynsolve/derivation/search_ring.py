@@ -1,0 +1,59 @@
+"""The ring in which coordinates are solved for: one basic angle a revolute coordinate, values as symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import lcm
+
+from msgspec.structs import replace
+
+from dynsolve.algebra.angles import Angle, Contents
+from dynsolve.algebra.rationals import rational_gcd
+from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import ring_of
+
+
+def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, Angle]) -> Ring:
+    """The ring with one basic angle a revolute coordinate and the task's `values` as symbols.
+
+    `given_angles` are the coordinates that sums of angles in the task give away, each as an angle of
+    such values and of other coordinates: the names of these values are angles too.
+    """
+    names = [name for name, _ in ring.coordinates]
+    turning = tuple(
+        (_unit(names, name, _finest_rate(ring, name)), Angle())
+        for name, kind in ring.coordinates
+        if kind == "revolute" and name not in given_angles
+    )
+    carried = (_put(pair.angle, given_angles).degrees for pair in ring.pairs)
+    constants = Contents(angles=tuple(Angle((), degrees) for degrees in carried if degrees % 90))
+    plan = ring.plan.extended(constants, 0) if given_angles else ring.plan
+    fixed = dict(plan.fixed)
+    for atom, rate in (term for angle in given_angles.values() for term in angle.terms):
+        if atom[0][0] not in names:
+            fixed[atom] = rational_gcd((rate, fixed.get(atom, rate)))
+    symbols = tuple(dict.fromkeys((*plan.symbols, *values)))
+    return ring_of(
+        ring.coordinates,
+        replace(plan, turning=turning, fixed=tuple(fixed.items()), symbols=symbols, signed=tuple(values)),
+    )
+
+
+def _put(angle: Angle, angles: Mapping[str, Angle]) -> Angle:
+    """An angle with others for coordinates."""
+    found = angle
+    for atom, rate in angle.terms:
+        if atom[0][0] in angles:
+            found = found + (angles[atom[0][0]] - Angle.of(atom[0][0])) * rate
+    return found
+
+
+def _unit(names: Sequence[str], name: str, rate: Fraction) -> tuple[Fraction, ...]:
+    return tuple(rate if other == name else Fraction(0) for other in names)
+
+
+def _finest_rate(ring: Ring, name: str) -> Fraction:
+    """The part of a coordinate of which all its multiples in angles are whole multiples."""
+    rates = [rate for pair in ring.pairs for atom, rate in pair.angle.terms if atom == ((name, 1),)]
+    return Fraction(1, lcm(*(rate.denominator for rate in rates))) if rates else Fraction(1)

@@ -1,0 +1,128 @@
+"""Sets of configurations as formulas: what is 0 together, under which conditions, and inequalities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from math import lcm, prod
+from typing import TYPE_CHECKING, Any
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import is_positive, ratio, trig_factors
+from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.matrix import Matrix as Values
+from dynsolve.algebra.ring import Ring
+from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.derivation.singular.zeros import Condition
+from dynsolve.document import Prose
+from dynsolve.document.sentences import say
+from dynsolve.explain.forms import is_numeric, leading_names, parallel_coordinates
+from dynsolve.explain.writing import as_row, listed, side_by_side
+from dynsolve.notation.build import cost, split_sign, times
+from dynsolve.notation.python import to_python
+from dynsolve.notation.tree import (
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Relation,
+    Sum,
+    equation,
+)
+from dynsolve.robot.model import Robot
+
+if TYPE_CHECKING:
+    pass
+
+
+class SetForms:
+    """The formulas of sets of equations of one robot, by the names of their rules."""
+
+    def __init__(self, robot: Robot, values: Derivation) -> None:
+        self.robot = robot
+        self.values = values
+
+    def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
+        """The alternatives of a set of equations, by its name; none where they are too long."""
+        found = self.values[name]
+        if isinstance(found, Skipped):
+            return ()
+        return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
+
+    def inequality(self, bound: Bound) -> Relation:
+        """l W² > g, with either side positive."""
+        return self.comparison(bound.value, ">" if bound.is_strict else "≥")
+
+    def comparison(self, value: Expr, sign: str) -> Relation:
+        """A value compared with 0: what is positive of it on one side, what is negative on the other."""
+        ring = value.ring
+        sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
+        for exponents, factor in value.poly.to_dict().items():
+            sides[factor < 0][exponents] = abs(factor)
+        form = self.compactor(ring).form
+        left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
+        return Relation((left, right), (sign,))
+
+    def existence(self, name: str, exist: Sequence[Sequence[Bound]]) -> Iterator[Prose]:
+        """For which parameters the alternatives of a set are there that are not for all."""
+        for case, bounds in zip(self.alternatives(name), exist, strict=True):
+            if bounds:
+                yield say(
+                    "{these} has solutions where {conditions}.",
+                    these=side_by_side([equation(value, Number(0)) for value in case]),
+                    conditions=side_by_side([*map(self.inequality, bounds)]),
+                )
+
+    def matrix(self, values: Values) -> Matrix:
+        """A matrix of a ring of the search."""
+        form = self.compactor(values.ring).form
+        return Matrix(tuple(tuple(map(form, row)) for row in values.rows))
+
+    def condition(self, condition: Condition) -> Node:
+        """What is 0 where a condition holds, with whole coefficients but where the file has decimals."""
+        whole = 1 if is_numeric(self.robot) else lcm(*(int(c.q) for c in condition.expr.poly.coeffs()))
+        return self._signed(condition.expr * whole)[0]
+
+    def vanishing(self, value: Expr) -> Node:
+        """What is 0 where an expression is, without the factors that never are."""
+        factors = (factor for factor, _ in trig_factors(value) if not is_positive(factor))
+        return self._signed(prod(factors, start=value.ring.one))[0]
+
+    def product(self, value: Expr) -> Node:
+        """An expression as the product of its factors in sines and cosines."""
+        product = value.ring.one
+        shown: list[tuple[Node, int]] = []
+        for factor, exponent in trig_factors(value):
+            node, signed = self._signed(factor)
+            shown.append((node, exponent))
+            product = product * signed**exponent
+        number = ratio(value, product)
+        if not number.is_number:
+            shown.append((self.compactor(value.ring).form(number), 1))
+        return times(
+            number.number if number.is_number else Fraction(1),
+            sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))),
+        )
+
+    def _signed(self, expr: Expr) -> tuple[Node, Expr]:
+        """±expr with the sign that leaves fewer minus signs, as a formula and as it is."""
+        form = self.compactor(expr.ring).form
+        return min(((form(e), e) for e in (expr, -expr)), key=lambda both: _minus_signs(both[0]))
+
+    def compactor(self, ring: Ring) -> Compactor:
+        """The compactor of a ring of the search: the values of the task lead its sums, then masses."""
+        named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
+        leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
+        return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
+
+
+def vanishing(conditions: tuple[Node, ...]) -> Node:
+    """a = 0 and b = 0, in one line"""
+    return as_row(listed([equation(value, Number(0)) for value in conditions]))
+
+
+def _minus_signs(node: Node) -> int:
+    """How many terms of a sum are negative; a sum that begins with a minus counts one more."""
+    terms = node.terms if isinstance(node, Sum) else (node,)
+    return sum(isinstance(term, Negative) for term in terms) + (split_sign(terms[0])[0] < 0)

@@ -1,0 +1,310 @@
+"""Whether a matrix can be an inertia matrix: symmetric, of the coordinates as D is, positive definite.
+
+An inertia matrix is made of sines and cosines of angles, and is at most quadratic in lengths;
+of a chain with relative coordinates the first one does not occur.  It is positive definite for
+every q exactly if its leading minors are positive for every q (Sylvester).  Each minor is taken
+to its smallest value over one coordinate after the other, which leaves inequalities between
+parameters: those that do not follow from what is assumed are the conditions.
+
+Spong, Hutchinson, Vidyasagar, section 7.5; De Luca, Robotics 2, midterm of 29 April 2019.
+
+The smallest value of a function of coordinates, as inequalities between parameters.
+
+f > 0 for every q exactly if f > 0 where one coordinate makes it smallest, whatever the others are:
+so one coordinate after the other is taken out.
+
+    A + B u,  u a sine or cosine     smallest at u = 1 or u = -1
+    A + B u²                         at u = 0 or u = ±1
+    A + B u + C u²                   at u = ±1 where C ≤ 0, or its vertex lies outside
+    A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²
+    A + B cos² θ + C sin θ cos θ     the same of 2θ
+    A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from enum import Enum
+from random import Random
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.inequality import Bound, follows, independent, opposite, simplified
+from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.derivation.graph import Rule, Skipped
+from dynsolve.robot.actions import Candidate
+from dynsolve.robot.model import JointType, Robot
+
+# The smallest value of a function of coordinates, as inequalities between parameters
+
+MOST = 64
+"""More inequalities than this are not worked with."""
+
+
+class Extreme(Struct, frozen=True):
+    """An inequality that must hold, and where the function has that value.
+
+    `where` is (generator, value) of sines, cosines and lengths, as far as the place is known.
+    """
+
+    bound: Bound
+    where: tuple[tuple[int, int], ...] = ()
+
+    def at(self, generator: int, value: int, bound: Bound) -> Extreme:
+        """The same at a value of a further generator."""
+        return Extreme(bound, (*self.where, (generator, value)))
+
+
+def smallest(f: Expr, assumed: Sequence[Bound]) -> list[Extreme] | None:
+    """Inequalities between parameters that hold exactly if f > 0 for every q; None where none are found."""
+    found = [Extreme(Bound(f))]
+    ring = f.ring
+    while True:
+        step = _next(_moving(found), found)
+        if step is None:
+            return found if not any(ring.depends_on_coordinates(e.bound.value) for e in found) else None
+        reduced = [_without(step, extreme, assumed) for extreme in found]
+        if any(part is None for part in reduced):
+            return None
+        found = list(dict.fromkeys(extreme for part in reduced if part for extreme in part))
+        if len(found) > MOST:
+            return None
+
+
+def _moving(found: Sequence[Extreme]) -> Iterator[Pair | int]:
+    """The coordinates that may be taken out: angles by their sines and cosines, lengths by their place."""
+    ring = found[0].bound.value.ring
+    yield from (pair for pair in ring.pairs if ring.depends_on_coordinates(ring.cos(pair.angle)))
+    yield from (ring.symbol_indices[(name, 0)] for name in ring.names)
+
+
+def _next(moving: Iterator[Pair | int], found: Sequence[Extreme]) -> Pair | int | None:
+    """The first of them that occurs."""
+    degrees = [extreme.bound.value.poly.degrees() for extreme in found]
+    for one in moving:
+        places = (one,) if isinstance(one, int) else (one.sine, one.cosine)
+        if any(d[i] > 0 for d in degrees for i in places):
+            return one
+    return None
+
+
+def _without(step: Pair | int, extreme: Extreme, assumed: Sequence[Bound]) -> list[Extreme] | None:
+    if isinstance(step, int):
+        return _without_length(step, extreme)
+    return _without_angle(step, extreme, assumed)
+
+
+def _coefficients(value: Expr, *generators: int) -> dict[tuple[int, ...], Expr]:
+    """The coefficients of a polynomial in some generators, by their exponents."""
+    parts: dict[tuple[int, ...], dict[tuple[int, ...], object]] = {}
+    for exponents, factor in value.poly.to_dict().items():
+        key = tuple(int(exponents[i]) for i in generators)
+        rest = tuple(0 if i in generators else int(e) for i, e in enumerate(exponents))
+        parts.setdefault(key, {})[rest] = factor
+    ring = value.ring
+    return {key: Expr(ring, ring.ctx.from_dict(terms)) for key, terms in parts.items()}
+
+
+# -- angles ----------------------------------------------------------------------------------------
+
+
+def _without_angle(pair: Pair, extreme: Extreme, assumed: Sequence[Bound]) -> list[Extreme] | None:
+    value, ring = extreme.bound.value, extreme.bound.value.ring
+    found = _coefficients(value, pair.sine, pair.cosine)
+    zero = ring.zero
+    keys = set(found)
+    if keys <= {(0, 0)}:
+        return [extreme]
+    if keys <= {(0, 0), (0, 1), (0, 2)}:
+        return _in_one(extreme, pair.cosine, [found.get((0, k), zero) for k in range(3)], assumed)
+    if keys <= {(0, 0), (1, 0), (0, 2)}:  # c² = 1 - s²
+        squares = found.get((0, 2), zero)
+        by_sine = [found.get((0, 0), zero) + squares, found.get((1, 0), zero), -squares]
+        return _in_one(extreme, pair.sine, by_sine, assumed)
+    A, B, C = (found.get(key, zero) for key in ((0, 0), (0, 1), (1, 0)))
+    if keys <= {(0, 0), (0, 2), (1, 1)}:  # in cos 2θ and sin 2θ
+        B, C = found.get((0, 2), zero) / 2, found.get((1, 1), zero) / 2
+        A = A + B
+    elif not keys <= {(0, 0), (0, 1), (1, 0)}:
+        return None
+    if not extreme.bound.is_strict:
+        return None
+    return [replace(extreme, bound=Bound(A)), replace(extreme, bound=Bound(A * A - B * B - C * C))]
+
+
+def _in_one(
+    extreme: Extreme, u: int, coefficients: Sequence[Expr], assumed: Sequence[Bound]
+) -> list[Extreme] | None:
+    """A + B u + C u² over -1 ≤ u ≤ 1."""
+    A, B, C = coefficients
+    strict = extreme.bound.is_strict
+    ends = [extreme.at(u, 1, Bound(A + B + C, strict)), extreme.at(u, -1, Bound(A - B + C, strict))]
+    if B.is_zero:
+        return [extreme.at(u, 0, Bound(A, strict)), ends[0]]
+    outside = (-C, B - C * 2, -B - C * 2)
+    if C.is_zero or any(follows(Bound(value, False), assumed) for value in outside):
+        return ends
+    if follows(Bound(A * C * 4 - B * B), assumed) and follows(Bound(A), assumed):
+        return []
+    return None
+
+
+# -- lengths ---------------------------------------------------------------------------------------
+
+
+def _without_length(d: int, extreme: Extreme) -> list[Extreme] | None:
+    """A + B d + C d² + ... over all lengths."""
+    value, ring = extreme.bound.value, extreme.bound.value.ring
+    found = {key[0]: part for key, part in _coefficients(value, d).items()}
+    strict = extreme.bound.is_strict
+    A, B, C = (found.get(k, ring.zero) for k in range(3))
+    if all(power % 2 == 0 for power in found):
+        if any(power > 2 for power in found):
+            return None
+        return [extreme.at(d, 0, Bound(A, strict)), replace(extreme, bound=Bound(C, False))]
+    if max(found) == 1:
+        return [replace(extreme, bound=Bound(-B * B, False)), extreme.at(d, 0, Bound(A, strict))]
+    if max(found) > 2 or not strict:
+        return None
+    return [replace(extreme, bound=Bound(C)), replace(extreme, bound=Bound(A * C * 4 - B * B))]
+
+
+MOST_WORK = 20_000
+"""The products of terms that a determinant may come to."""
+
+TRIES = 4000
+"""So many values of the parameters are tried for a case in which the conditions hold."""
+
+
+class Answer(Enum):
+    """Whether it can be one: for all parameters that are assumed, for some of them, or for none."""
+
+    YES = "yes"
+    IF = "if"
+    NO = "no"
+
+
+class Refusal(Enum):
+    """Why it can be none."""
+
+    ASYMMETRIC = "it is not symmetric"
+    NOT_PERIODIC = "an angle stands outside of sines and cosines"
+    LENGTH_IN_SINE = "a length stands in a sine or cosine"
+    DEGREE = "a length stands in a higher power than the second"
+    BASE = "it depends on the coordinate of the base"
+    INDEFINITE = "it is not positive definite"
+
+
+class Definiteness(Struct, frozen=True):
+    """What is found of a matrix.
+
+    `minors` are its leading ones; `conditions` what the parameters must satisfy beyond what is
+    assumed.  Of a matrix that can be none `refusal` says why, `place` the entry (from 0), `extreme` where
+    which minor (its `size`) is not positive.  `moves_with_base` is a remark.
+    """
+
+    name: str
+    answer: Answer
+    minors: tuple[Expr, ...] = ()
+    conditions: tuple[Bound, ...] = ()
+    refusal: Refusal | None = None
+    place: tuple[int, int] = (0, 0)
+    coordinate: str = ""
+    extreme: Extreme | None = None
+    size: int = 0
+    moves_with_base: bool = False
+
+
+def rules(robot: Robot) -> Iterator[Rule]:
+    """What is found of each matrix that is to be judged."""
+    candidates = robot.questions.candidates
+    yield Rule("definite", (), lambda: tuple(definiteness(robot, candidate) for candidate in candidates))
+
+
+def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
+    """Whether a matrix can be an inertia matrix, for every q and the parameters that are assumed."""
+    matrix, name = candidate.matrix, candidate.name
+    refused = next(_refusals(robot, candidate), None)
+    if refused is not None:
+        return refused
+    if work(matrix) > MOST_WORK:
+        return Skipped(f"the leading minors of {name} are too long")
+    minors = tuple(_leading(matrix))
+    first = matrix.ring.names[0]
+    moves = any(not matrix.ring.diff(entry, 0).is_zero for entry in matrix.entries) and bool(first)
+    needed: list[Bound] = []
+    for size, minor in enumerate(minors, 1):
+        extremes = smallest(minor, candidate.assumed)
+        if extremes is None:
+            return Skipped(f"the smallest value of the {size}×{size} minor of {name} is not found")
+        for extreme in extremes:
+            if follows(extreme.bound, candidate.assumed):
+                continue
+            if follows(opposite(extreme.bound), candidate.assumed):
+                found = Definiteness(name, Answer.NO, minors, (), Refusal.INDEFINITE, moves_with_base=moves)
+                return replace(found, extreme=extreme, size=size)
+            bound = simplified(extreme.bound, [*candidate.assumed, *needed])
+            if not follows(bound, needed):
+                needed.append(bound)
+    conditions = independent(needed, candidate.assumed)
+    if conditions and not _is_possible(matrix, (*candidate.assumed, *conditions)):
+        return Skipped(f"whether {name} is positive definite for some parameters is not found")
+    answer = Answer.IF if conditions else Answer.YES
+    return Definiteness(name, answer, minors, conditions, moves_with_base=moves)
+
+
+def _leading(matrix: Matrix) -> Iterator[Expr]:
+    for size in range(1, matrix.shape[0] + 1):
+        yield determinant(matrix.block(0, size, 0, size))
+
+
+def _is_possible(matrix: Matrix, bounds: Sequence[Bound]) -> bool:
+    """Whether there are parameters that satisfy all inequalities: tried at random, the same every time."""
+    ring, random = matrix.ring, Random(TRIES)  # noqa: S311 - the same values every time are wanted
+    for _ in range(TRIES):
+        values = {
+            name: random.choice((random.uniform(-3, 3), random.uniform(0, 3))) for name in ring.parameters
+        }
+        if all(evaluate(b.value, values) > (1e-9 if b.is_strict else -1e-9) for b in bounds):
+            return True
+    return False
+
+
+# -- what no inertia matrix has --------------------------------------------------------------------
+
+
+def _refusals(robot: Robot, candidate: Candidate) -> Iterator[Definiteness]:
+    """Why it can be none, but for its definiteness."""
+    matrix, n = candidate.matrix, candidate.matrix.shape[0]
+    refused = Definiteness(candidate.name, Answer.NO)
+    for i in range(n):
+        for j in range(i):
+            if matrix[i, j] != matrix[j, i]:
+                yield replace(refused, refusal=Refusal.ASYMMETRIC, place=(i, j))
+    for q in robot.coordinates:
+        for i in range(n):
+            for j in range(i + 1):
+                refusal = _of_entry(matrix[i, j], q.name, q.type)
+                if refusal is not None:
+                    yield replace(refused, refusal=refusal, place=(i, j), coordinate=q.name)
+    if candidate.is_relative:
+        for i in range(n):
+            for j in range(i + 1):
+                if not matrix.ring.diff(matrix[i, j], 0).is_zero:
+                    base = robot.coordinates[0].name
+                    yield replace(refused, refusal=Refusal.BASE, place=(i, j), coordinate=base)
+
+
+def _of_entry(entry: Expr, name: str, kind: JointType) -> Refusal | None:
+    """What is wrong with how an entry depends on a coordinate."""
+    ring, degrees = entry.ring, entry.poly.degrees()
+    degree = degrees[ring.symbol_indices[(name, 0)]]
+    if kind is JointType.REVOLUTE:
+        return Refusal.NOT_PERIODIC if degree > 0 else None
+    turning = [pair for pair in ring.pairs if any(name == n for atom, _ in pair.angle.terms for n, _ in atom)]
+    if any(degrees[pair.sine] > 0 or degrees[pair.cosine] > 0 for pair in turning):
+        return Refusal.LENGTH_IN_SINE
+    return Refusal.DEGREE if degree > 2 else None

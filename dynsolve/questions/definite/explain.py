@@ -1,0 +1,139 @@
+"""Steps of the matrices that are to be judged: symmetric, of the coordinates as D is, positive definite."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from dynsolve.algebra.angles import angle_node
+from dynsolve.algebra.inequality import Bound
+from dynsolve.derivation.graph import Skipped
+from dynsolve.document import Prose
+from dynsolve.document.sentences import say
+from dynsolve.explain.context import Context
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.step import NOTED, Detail, Step
+from dynsolve.explain.writing import listed, spong
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
+from dynsolve.robot.actions import Candidate
+
+_CONCLUSIONS = {
+    Answer.YES: "it can be an inertia matrix.",
+    Answer.IF: "it can be an inertia matrix under these conditions.",
+    Answer.NO: "it can be no inertia matrix.",
+}
+
+_REFUSALS = {
+    Refusal.ASYMMETRIC: "It is not symmetric: {entry} is not entry ({column}, {row}).",
+    Refusal.NOT_PERIODIC: "{q} is an angle, and stands outside of sines and cosines in {entry}: after a full "
+    "turn the matrix would not be the same.",
+    Refusal.LENGTH_IN_SINE: "{q} is a length, and stands in a sine or cosine in {entry}.",
+    Refusal.DEGREE: "{q} is a length, and stands in a higher power than the second in {entry}.",
+    Refusal.BASE: "{q} is the coordinate of the base, and stands in {entry}.",
+}
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """A step for each matrix: its leading minors, and whether they are positive for every q."""
+    if "definite" not in context.wanted:
+        return
+    candidates = context.robot.questions.candidates
+    yield Step(
+        id="definite",
+        title="What an inertia matrix is",
+        why=say(
+            "An inertia matrix is symmetric. It is made of sines and cosines of angles, and at most "
+            "quadratic in lengths.{chain} And it is positive definite in every configuration: its leading "
+            "minors are positive.",
+            chain=" The first of the relative coordinates of a chain does not occur."
+            if any(candidate.is_relative for candidate in candidates)
+            else "",
+        ),
+        formula=formula("Δ_k > 0"),
+        source=spong("7.5"),
+    )
+    for candidate, found in zip(candidates, context.values["definite"], strict=True):
+        yield _step(context, candidate, found)
+
+
+def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped) -> Step:
+    name = Symbol(candidate.name) if context.robot.given is None else letters.D
+    matrix = equation(name, context.show(candidate.matrix))
+    step = Step(
+        id=f"definite_{candidate.name}",
+        title=f"The matrix {candidate.name}",
+        result=(matrix,),
+        detail=Detail.BRIEF,
+    )
+    if isinstance(found, Skipped):
+        why = (f"{found.why[0].upper()}{found.why[1:]}.",)
+        return replace(step, why=why, outcome=(name, f": {found.why}."))
+    assumed: Prose = ()
+    if candidate.assumed and found.refusal in (None, Refusal.INDEFINITE):
+        assumed = say("Let {these}. ", these=_all_of(context.forms, candidate.assumed))
+    notes: tuple[Prose, ...] = ()
+    if found.moves_with_base and found.answer is not Answer.NO:
+        text = "It depends on {q}, which no inertia matrix of a chain with relative coordinates does."
+        notes = (say(text, q=Symbol(context.robot.coordinates[0].name)),)
+    minors = [formula("Δ_{k} = {value}", k=k, value=context.show(m)) for k, m in enumerate(found.minors, 1)]
+    conclusion = _CONCLUSIONS[found.answer]
+    return replace(
+        step,
+        source=spong("7.5"),
+        result=(matrix, *minors),
+        why=(*assumed, *reason(context.forms, found), f" So {conclusion}"),
+        notes=notes,
+        outcome=(name, f": {conclusion}"),
+        normal=NOTED,
+        hint=("Look at its entries first, then at its leading minors.",),
+    )
+
+
+def reason(forms: Forms, found: Definiteness) -> Prose:
+    """Why a matrix can be an inertia matrix, or cannot."""
+    if found.refusal is Refusal.INDEFINITE:
+        return _not_positive(forms, found)
+    if found.refusal is not None:
+        row, column = (k + 1 for k in found.place)
+        q, entry = Symbol(found.coordinate), f"entry ({row}, {column})"
+        return say(_REFUSALS[found.refusal], q=q, entry=entry, row=row, column=column)
+    return say(
+        "Every leading minor is positive in every configuration{conditions}.",
+        conditions=say(" exactly if {these}", these=_all_of(forms, found.conditions))
+        if found.answer is Answer.IF
+        else "",
+    )
+
+
+def _not_positive(forms: Forms, found: Definiteness) -> Prose:
+    """Where which minor is not positive: where cos θ₂ = 0, d = 0."""
+    assert found.extreme is not None
+    ring, bound = forms.robot.ring, found.extreme.bound
+    minor = Letter("Delta", Number(found.size))
+    known = equation(minor, forms.of(bound.value))
+    where: list[Node] = []
+    for index, value in found.extreme.where:
+        g = ring.generators[index]
+        sign: Node = Symbol(g.name)
+        if g.kind in ("sin", "cos"):
+            sign = Function(g.kind, angle_node(g.angle, ring.names))
+        where.append(equation(sign, forms.of(ring.constant(value))))
+    if where:
+        text = "Where {where}, {minor}, which is not positive."
+        return say(text, where=listed(where), minor=known if bound.is_strict else minor)
+    if found.minors[found.size - 1].is_number:
+        return say("{known} is not positive.", known=known)
+    return say("{minor} is not positive in every configuration.", minor=minor)
+
+
+def _all_of(forms: Forms, bounds: tuple[Bound, ...]) -> Prose:
+    return listed([inequality(forms, bound) for bound in bounds])
+
+
+def inequality(forms: Forms, bound: Bound) -> Relation:
+    """a₁a₃ - a₂² > 0"""
+    return Relation((forms.of(bound.value), Number(0)), (">" if bound.is_strict else "≥",))

@@ -1,0 +1,45 @@
+"""Equilibria, the balance of gravity, and the linearized equations of motion.
+
+solving        where forces are 0, and how stable that is
+balance        conditions on the parameters for gravity to move nothing
+linearization  the motion near an equilibrium; equilibria of steady motion
+forms          all of these as formulas
+"""
+
+from __future__ import annotations
+
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, Kind, of_robot
+from dynsolve.quantities.stages import Stage
+
+EQUILIBRIA = Family(
+    name="equilibria", stage=Stage.EQUILIBRIA, kind=Kind.EQUATIONS, spellings=("equilibrium",)
+)
+
+
+BALANCE = Family(
+    name="balance", stage=Stage.EQUILIBRIA, kind=Kind.CONDITIONS, spellings=("balanced", "balancing")
+)
+
+
+LINEAR_A = Family(
+    name="linear_A",
+    stage=Stage.EQUILIBRIA,
+    shape=("any", "any"),
+    letter=of_robot(letters.LINEAR_A),
+    spellings=("A", "Alin"),
+    needs="linearize",
+)
+
+
+LINEAR_B = Family(
+    name="linear_B",
+    stage=Stage.EQUILIBRIA,
+    shape=("any", "any"),
+    letter=of_robot(letters.LINEAR_B),
+    spellings=("B", "Blin"),
+    needs="linearize",
+)
+
+FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
+"""The records above, in their order."""

@@ -1,0 +1,197 @@
+"""Equilibria and their stability, compared with numbers.
+
+At points of each case, found by Newton's method, gravity and springs must move nothing; every
+zero that the same method finds of the forces themselves must lie in one of the cases; and at
+the points whose stability is told, differences of the forces decide whether the energy rises
+in every direction.  Where rates are held constant the forces are τ, with these rates and without
+accelerations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+from math import atan2
+
+from msgspec import Struct
+
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.algebra.sampling import ENOUGH, samples
+from dynsolve.derivation.arm_values import states_with
+from dynsolve.derivation.configurations import NO_VALUE, is_zero
+from dynsolve.derivation.elimination import is_positive_definite, solved
+from dynsolve.derivation.reached import CLOSE
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Matrix, Node
+from dynsolve.notation.tree_values import Program, compile_trees
+from dynsolve.questions.equilibria.balance import STATES, never_zero, table_lengths
+from dynsolve.questions.equilibria.forms import EquilibriaForms
+from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
+from dynsolve.questions.equilibria.solving import Point, Stability, wanted_rows
+from dynsolve.questions.held import Held
+from dynsolve.robot.model import Robot
+
+_STEP = 1e-5
+_NEAR = 1e-6
+_NEWTON_STEPS = 60
+_TINY = 1e-12
+
+
+class Case(Struct, frozen=True):
+    """Expressions that are 0 together, and the points among them whose stability is told."""
+
+    zeros: tuple[Node, ...]
+    points: tuple[Point, ...]
+
+
+def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator[dict[str, float]]:
+    """Configurations in all quadrants, with parameters as is assumed of them."""
+
+    def assumed(values: Mapping[str, float]) -> None:
+        if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
+            raise ValueError  # the next sample is taken
+
+    for found, _ in islice(states_with(robot.ring, assumed), ENOUGH):
+        values = {**found, **(numbers or {})}
+        yield values | _moving(robot, values)
+
+
+def _moving(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
+    """Rates and accelerations: 0, but for the rates that are held constant."""
+    still = {name: 0.0 for q in robot.coordinates for name in (q.velocity, q.acceleration)}
+    steady = robot.questions.model.steady
+    rates = {q.name: q.velocity for q in robot.coordinates}
+    held = compile_trees([value for _, value in steady]).run(values)
+    return still | {rates[name]: float(value) for (name, _), value in zip(steady, held, strict=True)}
+
+
+def balanced_forces(robot: Robot) -> str:
+    """The name of the forces that are 0 in an equilibrium: g, or τ where rates are held constant."""
+    return "tau" if robot.questions.model.steady else "g"
+
+
+def in_balance(robot: Robot, forces: Node) -> list[Node]:
+    """The forces that must be 0: those of all coordinates that no motor holds."""
+    assert isinstance(forces, Matrix)
+    return [forces.rows[k][0] for k in wanted_rows(robot)]
+
+
+def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:
+    """A configuration near `start` at which everything is 0, by Newton's method; None where none is found.
+
+    Each step is the shortest that solves the linear equations, which may be fewer than the
+    coordinates, or repeat each other: Jᵀ (J Jᵀ + ε)⁻¹ f.
+    """
+    return zero_along([q.name for q in robot.coordinates], zeros, start)
+
+
+def zero_along(names: Sequence[str], zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:
+    """The same where only these names are changed."""
+    at = dict(start)
+    try:
+        for _ in range(_NEWTON_STEPS):
+            f = zeros.run(at)
+            if max(map(abs, f)) < CLOSE**2:
+                return at
+            moved = [zeros.run({**at, name: at[name] + _STEP}) for name in names]
+            J = [[(m[k] - value) / _STEP for m in moved] for k, value in enumerate(f)]
+            squares = [
+                [
+                    sum(a * b for a, b in zip(row, other, strict=True)) + _TINY * (i == j)
+                    for j, other in enumerate(J)
+                ]
+                for i, row in enumerate(J)
+            ]
+            along = solved(squares, f)
+            for k, name in enumerate(names):
+                at[name] -= sum(x * row[k] for x, row in zip(along, J, strict=True))
+    except NO_VALUE:
+        return None
+    return None
+
+
+def verify_equilibria(robot: Robot, balanced: Node, cases: Sequence[Case]) -> None:
+    """Compare the cases with the forces, which are those of `balanced_forces`.
+
+    Raises VerificationError where an equilibrium is none, one is missing, or its stability is another.
+    """
+    forces = compile_trees(in_balance(robot, balanced))
+    programs = [compile_trees(list(case.zeros)) for case in cases]
+    for start in starts(robot):
+        for program, case in zip(programs, cases, strict=True):
+            at = zero_near(robot, program, start) if case.zeros else start
+            if at is not None and not is_zero(forces, at):
+                raise VerificationError("something moves in an equilibrium; this is a fault of dynsolve")
+        found = zero_near(robot, forces, start)
+        if found is not None and not any(is_zero(program, found) for program in programs):
+            raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
+    whole = compile_trees([balanced])
+    for program, case in zip(programs, cases, strict=True):
+        for point in case.points:
+            _verify_stability(robot, whole, program, point)
+
+
+def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
+    """Whether a minimum of the energy is told for these parameters; None where nothing is."""
+    if not point.conditions:
+        return {Stability.STABLE: True, Stability.UNSTABLE: False}.get(point.stability)
+    least = min(evaluate(bound.value, at) for bound in point.conditions)
+    return None if least == 0 else least > 0
+
+
+def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Point) -> None:
+    for start in starts(robot):
+        turned = {pair.angle.terms[0][0][0][0]: atan2(s, c) for pair, s, c in point.values}
+        at = zero_near(robot, zeros, {**start, **turned})
+        if at is None or any(abs(at[name] - angle) > _NEAR for name, angle in turned.items()):
+            continue
+        told = _is_minimum(point, at)
+        if told is not None and _rises(robot, forces, at, point) is not told:
+            raise VerificationError("the stability told is another; this is a fault of dynsolve")
+
+
+def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point) -> bool:
+    """Whether the energy rises but along what is neutral."""
+    steady = dict(robot.questions.model.steady)
+    rest = [q for q in robot.coordinates if q.index - 1 not in point.neutral and q.name not in steady]
+    rows = []
+    for q in rest:
+        ahead, behind = (forces.run({**at, q.name: at[q.name] + step})[0] for step in (_STEP, -_STEP))
+        rows.append([(ahead[k.index - 1][0] - behind[k.index - 1][0]) / (2 * _STEP) for k in rest])
+    return is_positive_definite(rows)
+
+
+def verify(held: Held) -> None:
+    """Hold the results as they are printed; raises VerificationError where one is wrong."""
+    robot, values, forms = held.robot, held.values, held.forms
+    held.hold(verify_linear, linear_names(held.wanted))
+    shown = EquilibriaForms(robot, values)
+    if "balance" in held.wanted:
+        verify_balance(robot, forms("g"), shown.balance)
+    if "equilibria" in held.wanted:
+        cases = [Case(*case) for case in zip(shown.equilibria, values["equilibria"].points, strict=True)]
+        verify_equilibria(robot, forms(balanced_forces(robot)), cases)
+
+
+def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:
+    """Values of all parameters at which all conditions are 0, each with a configuration."""
+    program = compile_trees(list(conditions))
+    free = sorted(set(robot.parameters) - never_zero(robot))
+    places = [name for name in free if name not in table_lengths(robot)]
+    for start in islice(samples(robot.ring), STATES):
+        found = (zero_along(names, program, start) for names in (places, free)) if conditions else (start,)
+        yield from islice((at for at in found if at is not None), 1)
+
+
+def is_balanced(robot: Robot, gravity: Node, at: Mapping[str, float]) -> bool:
+    """Whether gravity is what is asked for."""
+    wanted = robot.questions.model.balanced
+    found = compile_trees([gravity]).run(at)[0]
+    given = [0.0] * robot.n if wanted is None else [evaluate(e, at) for e in wanted.entries]
+    return all(abs(row[0] - other) < CLOSE for row, other in zip(found, given, strict=True))
+
+
+def verify_balance(robot: Robot, gravity: Node, conditions: Sequence[Node]) -> None:
+    """Raises VerificationError where the conditions hold and gravity is not what is asked for."""
+    if not all(is_balanced(robot, gravity, at) for at in balanced_points(robot, conditions)):
+        raise VerificationError("gravity is not balanced where it should be; this is a fault of dynsolve")

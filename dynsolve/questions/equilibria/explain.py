@@ -1,0 +1,344 @@
+"""Steps of equilibria: where nothing moves, how stable that is, the motion near one of them, linear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from dynsolve.algebra.matrix import Matrix, determinant
+from dynsolve.derivation.graph import Skipped
+from dynsolve.document import Prose
+from dynsolve.document.sentences import say
+from dynsolve.explain.context import Context
+from dynsolve.explain.set_forms import vanishing
+from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
+from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, is_small, listed, side_by_side, spong
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import (
+    Degrees,
+    Negative,
+    Node,
+    Number,
+    Relation,
+    Symbol,
+    equation,
+    names_in,
+    walk,
+)
+from dynsolve.quantities import letters
+from dynsolve.questions.equilibria import linearization
+from dynsolve.questions.equilibria.forms import EquilibriaForms
+from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
+from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Stability
+
+_SOURCE = SLOTINE_LI.section("3.3")
+_DG = formula("∂𝐠/∂𝐪")
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """The equilibria with their stability; A and B of the motion near one."""
+    wanted = context.wanted
+    if "equilibria" in wanted:
+        group = Group("equilibria", "Where nothing moves, and how stable that is")
+        yield from (replace(step, group=group, normal=NOTED) for step in _equilibria(context))
+    if "balance" in wanted:
+        yield replace(_balance(context), normal=NOTED)
+    if "linear_A" in wanted:
+        yield replace(_state_matrix(context), normal=NOTED)
+    if "linear_B" in wanted:
+        yield _input_matrix(context)
+
+
+# -- where nothing moves ---------------------------------------------------------------------------
+
+_AT_REST = "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion $𝐠$ is left. "
+_GIVEN = "Of the parameters it is given that {these}. "
+
+
+def _equilibria(context: Context) -> Iterator[Step]:
+    robot, found = context.robot, context.values["equilibria"]
+    if isinstance(found, Skipped):
+        yield not_derived("equilibria", found.why)
+        return
+    shown = EquilibriaForms(robot, context.values)
+    cases = shown.equilibria
+    result: tuple[Node, ...] = tuple(vanishing(one) for one in cases if one)
+    rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
+    said = {part for one in result for part in walk(one) if isinstance(part, Relation)}
+    turned = [equation(context.show(-row), Number(0)) for row in found.rows]
+    is_said = all(one in said or other in said for one, other in zip(rows, turned, strict=True))
+    balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
+    own = {sign * force for force in balanced.entries for sign in (1, -1)}
+    is_new = not is_said and not own.issuperset(found.rows)  # else nothing was combined
+    of_free: list[Prose] = []
+    special = [shown.comparison(one.factor, "≠") for one in found.special]
+    where = say(" where {special}", special=listed(special)) if special else ""
+    factors = say("that are not 0{where}" if special else "that are never 0", where=where)
+    heading = say(
+        "Combined, without factors {which}:", which="of the parameters" if found.may_be_others else factors
+    )
+    lines = (Line(heading, rows),) if is_new else ()
+    if not cases:
+        notes = [say("No configuration makes all of them 0{where}: there is no equilibrium.", where=where)]
+    elif not cases[0]:
+        notes = [say("Nothing is left to be 0{where}: every configuration is an equilibrium.", where=where)]
+    else:
+        names = [q.name for q in robot.coordinates if q.name not in dict(robot.questions.model.steady)]
+        free = [Symbol(name) for name in names if any(name not in names_in(*one) for one in cases)]
+        some = " where it does not occur" if len(cases) > 1 else ""
+        of_free = [say("{free} may have any value{some}.", free=listed(free), some=some)] if free else []
+        notes = [*shown.existence("equilibria", found.exist)]
+        notes += [say("These are the equilibria{where}.", where=where)] if special else []
+    notes += [_special(shown, one) for one in found.special]
+    if found.may_be_others:
+        notes.append(("For special values of the parameters there may be others.",))
+    steady = bool(robot.questions.model.steady)
+    forces: Node = FORCES if steady else letters.G
+    values = context.show(forces_of_motion(context)) if steady else context.form("g")
+    is_held = robot.questions.model.inputs_given
+    balance = "Motors hold the others; what has none must be in balance: {passive}. "
+    assumed = [*map(shown.inequality, robot.questions.model.assumed)]
+    passive = listed([Symbol(robot.coordinates[k].name) for k in robot.actions.passive])
+    yield Step(
+        id="equilibria",
+        title="Where nothing else moves" if steady else "Where nothing moves",
+        why=say(
+            "{which}{held}{given}",
+            which=why(context) if steady else say(_AT_REST, idle="" if is_held else ", and no motor drives"),
+            held=say(balance, passive=passive) if is_held else "",
+            given=say(_GIVEN, these=side_by_side(assumed)) if assumed else "",
+        ),
+        formula=equation(forces, *([values] if is_small(values) else []), Number(0)),
+        task=equation(forces, Number(0)),
+        source=SOURCE if steady else SLOTINE_LI.section("3.1"),
+        lines=lines,
+        result=result,
+        listed=len(result) > 1,
+        notes=(*of_free, *notes),
+        outcome=tuple(part for k, note in enumerate(notes) for part in ([" "] * (k > 0) + [*note])),
+        detail=Detail.BRIEF,
+    )
+    if any(points for points in found.points):
+        yield _stability(context, shown, found)
+
+
+def _special(shown: EquilibriaForms, case: SpecialCase) -> Prose:
+    """What is an equilibrium for parameters of which a factor is 0."""
+    forces = shown.special_forces(case)
+    where = shown.comparison(case.factor, "=")
+    if forces is None:
+        return say("Where {where}, there is no equilibrium.", where=where)
+    if not forces:
+        return say("Where {where}, every configuration is an equilibrium.", where=where)
+    return say("Where {where}, the equilibria are where {zero}.", where=where, zero=vanishing(forces))
+
+
+def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> Step:
+    robot = context.robot
+    steady = bool(robot.questions.model.steady)
+    forces = context.values["g"]
+    why: Prose = (
+        "Where the matrix of the second derivatives of the potential energy is positive definite, the "
+        "equilibrium is stable; where the energy falls in some direction, it is not.",
+    )
+    working: tuple[Node, ...] = ()
+    second: Node = _DG
+    if steady:
+        why, energy = energy_of_motion(context)
+        forces, working = forces_of_motion(context), (energy,)
+        second = SECOND
+    curvature = context.show(linearization.curvature(robot, forces))
+    if is_small(curvature):
+        working = (*working, equation(second, curvature))
+    told = [
+        _point(context, shown, point, case)
+        for case, points in zip(shown.equilibria, found.points, strict=True)
+        for point in points
+    ]
+    return Step(
+        id="equilibria_stability",
+        title="How stable they are",
+        why=why,
+        source=SOURCE if steady else SLOTINE_LI.section("3.4"),
+        working=working,
+        concluding=tuple(part for sentence in told for part in (*sentence, " ")),
+        uses=("equilibria",),
+    )
+
+
+def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:
+    """At q₁ = -90°, q₂ = 0: stable."""
+    quarters = {(0, 1): Number(0), (1, 0): Degrees(90), (0, -1): Degrees(180), (-1, 0): Negative(Degrees(90))}
+    at = [
+        equation(Symbol(pair.angle.terms[0][0][0][0]), quarters[sine, cosine])
+        for pair, sine, cosine in point.values
+    ]
+    said = _VERDICTS[point.stability]
+    if point.is_open:
+        said = ("the signs of the second derivatives depend on the configuration",)
+    if point.conditions:
+        said = say("stable where {all}", all=listed([*map(shown.inequality, point.conditions)]))
+    if point.falls:
+        fails = [shown.comparison(bound.value, "<") for bound in point.conditions]
+        said = say("{stable}, not stable where {fails}", stable=said, fails=listed(fails, "or"))
+    steady = dict(context.robot.questions.model.steady)
+    names = [context.robot.coordinates[k].name for k in point.neutral]
+    free = listed([Symbol(name) for name in names if name not in steady])
+    is_told = point.conditions or point.stability is not Stability.UNDECIDED
+    along = say(", but for {free}, along which nothing changes", free=free) if free and is_told else ""
+    where: Prose = ("In every configuration",)
+    if at:
+        where = ("At ", side_by_side(at))
+    elif case:
+        where = ("Where ", vanishing(case))
+    return say("{where}: {said}{along}.", where=where, said=said, along=along)
+
+
+_VERDICTS: dict[Stability, Prose] = {
+    Stability.STABLE: ("stable",),
+    Stability.UNSTABLE: ("not stable",),
+    Stability.UNDECIDED: ("second derivatives alone do not decide",),
+}
+
+
+# -- nowhere to move -------------------------------------------------------------------------------
+
+
+def _balance(context: Context) -> Step:
+    found, wanted = context.values["balance"], context.robot.questions.model.balanced
+    if isinstance(found, Skipped):
+        return not_derived("balance", found.why)
+    shown = EquilibriaForms(context.robot, context.values).balance
+    goal: Node = Number(0) if wanted is None else context.show(wanted)
+    g = equation(letters.G, context.form("g"))
+    return Step(
+        id="balance",
+        title="What balances gravity",
+        why=say(
+            "Multiplied out, $𝐠$ is a sum of what moves, each with a coefficient of parameters. It is what "
+            "it should be in every configuration where all the coefficients are. Those that are combinations "
+            "of others are left out, and so are factors that are positive, as masses and lengths of the "
+            "table are."
+        ),
+        formula=equation(letters.G, goal),
+        source=spong("7.5.3"),
+        working=(g,) if is_small(context.form("g")) else (),
+        result=tuple(equation(value, Number(0)) for value in shown),
+        listed=len(shown) > 1,
+        notes=() if shown else (("Gravity is what it should be for all values of the parameters.",),),
+        detail=Detail.BRIEF,
+    )
+
+
+# -- near one of them ------------------------------------------------------------------------------
+
+
+def _state_matrix(context: Context) -> Step:
+    robot, value = context.robot, context.values["linear_A"]
+    if isinstance(value, Skipped):
+        return not_derived("linear_A", value.why)
+    has_friction = "friction" in robot.actions.kinds
+    passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
+    by = "gravity and springs do" if robot.actions.springs else "gravity does"
+    balanced = f"No motor drives {{passive}}: in the equilibrium {by} not move {{which}}. "
+    rests = [
+        equation(Symbol(name, dots), value)
+        for (name, dots), value in robot.questions.model.equilibrium.items()
+    ]
+    at = linearization.at_equilibrium(robot)
+    D, g = at.matrix(context.values["D"]), linearization.stiffness(robot, context.values["g"])
+    working: list[Node] = [equation(letters.D, context.show(D)), equation(_DG, context.show(g))]
+    if has_friction:
+        F = linearization.damping(robot, context.values["friction"])
+        working.append(equation(letters.bold("F"), context.show(F)))
+    working.append(formula("det 𝐃 = {value}", value=context.show(determinant(D))))
+    jumps = "Coulomb friction jumps where a rate changes its sign: it has no part in a linear model."
+    return Step(
+        id="linear_A",
+        title="The motion near the equilibrium",
+        why=say(
+            "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
+            "inputs are counted from the forces that hold it. {balanced}$𝐂 𝐪̇$ is of second order in the "
+            "rates and falls away; so does every change of $𝐃$, which stands beside an acceleration. The "
+            "rest is taken at {rests}.",
+            balanced=say(balanced, passive=listed(passive), which="it" if len(passive) == 1 else "them")
+            if passive
+            else "",
+            rests=side_by_side(rests),
+        ),
+        formula=equation(
+            letters.LINEAR_A,
+            formula("[𝟎, 𝐄; -𝐃⁻¹ ∂𝐠/∂𝐪, -𝐃⁻¹ 𝐅]" if has_friction else "[𝟎, 𝐄; -𝐃⁻¹ ∂𝐠/∂𝐪, 𝟎]"),
+        ),
+        source=_SOURCE,
+        working=tuple(working),
+        result=(equation(letters.LINEAR_A, context.form("linear_A")),),
+        notes=((jumps,),) if any(not one.coulomb.is_zero for one in robot.actions.friction) else (),
+        detail=Detail.BRIEF,
+    )
+
+
+def _input_matrix(context: Context) -> Step:
+    robot, value = context.robot, context.values["linear_B"]
+    if isinstance(value, Skipped):
+        return not_derived("linear_B", value.why)
+    inputs: list[Node] = [letters.force(robot.coordinates[k]) for k in linearization.driven(robot)]
+    column = "A column for each input" if len(inputs) > 1 else "One column, of the only input"
+    ones = "has a 1 in the row of each, a column each" if len(inputs) > 1 else "has a 1 in its row"
+    if len(inputs) == robot.n:
+        ones = "is the identity matrix"
+    return Step(
+        id="linear_B",
+        title="What the inputs do to it",
+        why=say("{column}: {inputs}. $𝐒$ {ones}.", column=column, inputs=listed(inputs), ones=ones),
+        formula=equation(letters.LINEAR_B, formula("[𝟎; 𝐃⁻¹ 𝐒]")),
+        source=_SOURCE,
+        result=(equation(letters.LINEAR_B, context.form("linear_B")),),
+        detail=Detail.BRIEF,
+    )
+
+
+# -- what the step of equilibria says of a steady motion, in which some rates are constant ---------
+
+SOURCE = GOLDSTEIN.section("2.7")
+FORCES = formula("𝐂 𝐪̇ + 𝐠")
+SECOND = formula("∂({forces})/∂𝐪", forces=FORCES)
+
+
+def why(context: Context) -> Prose:
+    """Which rates are held, by what, and what is left of the equations of the others."""
+    robot = context.robot
+    rates = robot.questions.model.steady
+    passive = {robot.coordinates[k].name for k in robot.actions.passive}
+    free = listed([Symbol(name) for name, _ in rates if name in passive])
+    driven = listed([Symbol(name) for name, _ in rates if name not in passive])
+    return say(
+        "In this motion {held} all the time; the other rates and all accelerations are 0. {driven}{free}Of "
+        "the equations of the others {forces} is left. ",
+        held=side_by_side([equation(Symbol(name, 1), value) for name, value in rates]),
+        driven=say("Motors keep the rate of {names}, whatever that takes. ", names=driven) if driven else "",
+        free=say("No motor drives {names}. ", names=free) if free else "",
+        forces=FORCES,
+    )
+
+
+def forces_of_motion(context: Context) -> Matrix:
+    """C q̇ + g in this motion, n×1."""
+    return steady_forces(context.robot, context.values["C"], context.values["g"])
+
+
+def energy_of_motion(context: Context) -> tuple[Prose, Node]:
+    """What the stability follows from, and the energy whose derivatives these forces are."""
+    value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
+    shown = equation(letters.STEADY_ENERGY, formula("𝒫 - 𝒦"), value)
+    elsewhere = "; where it falls in some direction, it is not. "
+    if may_be_held(context.robot, context.values["D"]):
+        elsewhere = (
+            ". Elsewhere nothing is said: what V alone lets fall may be held by forces of first order in the "
+            "rates, or by a rate that is free to change. "
+        )
+    return (
+        "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
+        f"Where the matrix of its second derivatives is positive definite, the motion is stable{elsewhere}",
+    ), shown

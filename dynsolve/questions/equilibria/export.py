@@ -1,0 +1,63 @@
+"""Where equilibria are, how stable, and what balances gravity, in the JSON of a solution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from dynsolve.algebra.inequality import Bound
+from dynsolve.notation.python import PythonPrinter
+from dynsolve.questions.equilibria.forms import EquilibriaForms
+from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Values
+from dynsolve.questions.export import Export, alternatives, existence, inequalities, plain_inequality, skipped
+
+
+def value(export: Export, name: str) -> Any:
+    """Alternatives of equations; of `balance` equations that all hold."""
+    if name == "equilibria":
+        return alternatives(export, EquilibriaForms(export.robot, export.values), name)
+    conditions = EquilibriaForms(export.general_robot, export.general_values).balance
+    return skipped(export.general_values, name) or [f"{export.python.text(left)} = 0" for left in conditions]
+
+
+QUARTERS = {(0, 1): "0", (1, 0): "pi/2", (0, -1): "pi", (-1, 0): "-pi/2"}
+"""Quarter turns by their sine and cosine."""
+
+
+def beside(export: Export) -> Iterator[tuple[str, Any]]:
+    """`equilibria_stability`, and for which parameters the equilibria are there, or are others."""
+    shown, printer = EquilibriaForms(export.robot, export.values), export.python
+    found = shown.values["equilibria"] if "equilibria" in export.robot.questions.asked else None
+    if not isinstance(found, Equilibria):
+        return
+
+    def written(bounds: Sequence[Bound]) -> list[str]:
+        return inequalities(shown, printer, bounds)
+
+    def told(point: Point) -> dict[str, Any]:
+        conditions = {"stable_if": written(point.conditions)} if point.conditions else {}
+        if point.falls:
+            conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])
+        return {**angles(point.values), "stability": point.stability.value, **conditions}
+
+    yield "equilibria_stability", [[told(point) for point in points] for points in found.points]
+    yield from existence("equilibria", shown, printer, found.exist)
+    if found.special:
+        yield "equilibria_special", [_special(one, shown, printer) for one in found.special]
+    if found.may_be_others:
+        yield "equilibria_general", True
+
+
+def _special(one: SpecialCase, shown: EquilibriaForms, printer: PythonPrinter) -> dict[str, Any]:
+    """Parameters for which the equilibria are others, and what these are there, as `equilibria` has them."""
+    forces = shown.special_forces(one)
+    equations = [] if forces is None else [[f"{printer.text(force)} = 0" for force in forces]]
+    return {
+        "where": plain_inequality(shown.comparison(one.factor, "="), printer),
+        "equilibria": equations,
+    }
+
+
+def angles(values: Values) -> dict[str, str]:
+    """Quarter turns by the names of the coordinates."""
+    return {pair.angle.terms[0][0][0][0]: QUARTERS[sine, cosine] for pair, sine, cosine in values}

@@ -1,0 +1,334 @@
+"""The equations of motion near an equilibrium, linear: ẋ = A x + B u.
+
+With x = (q - q_e, q̇) and the inputs u counted from the forces g(q_e) that hold the equilibrium,
+
+    A = [ 0, 1; -D⁻¹ ∂g/∂q, -D⁻¹ F ],   B = [ 0; D⁻¹ S ]   at q = q_e, q̇ = 0:
+
+C q̇ is of second order, F holds the viscous friction, and S a column for each coordinate that a
+motor drives.  D⁻¹ is the adjugate over the determinant.
+
+Slotine, Li, Applied Nonlinear Control, section 3.3 (1991).
+
+Steady motions: some coordinates move at constant rates, the others are in balance.
+
+With q̇ = q̇_s constant, and nothing in the others' equations that changes with the coordinates that
+move, what is left of the equations of motion is C(q, q̇_s) q̇_s + g = 0 in the rows of the others.
+These forces are the derivatives of the energy
+
+    V = P - K(q, q̇_s),
+
+whose minimum is stable, as that of P is at rest: with a motor that keeps the rates V, and what is
+kinetic energy of the others, is conserved.  Terms of first order in the rates of the others do no
+work (gyroscopic forces), and may hold what V alone would let fall.
+
+Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., sections 2.7 and 8.3; Lanczos, The Variational
+Principles of Mechanics, 4th ed., section V.8.
+
+Linearization and the inertia of the task, compared with numbers.
+
+The accelerations D⁻¹(τ - C q̇ - friction - g) are found by elimination from D and τ as they are
+printed, and differentiated by differences about the equilibrium; of the rates by second
+differences of what is odd in them, in which neither C q̇ nor a sign has a part.
+
+The inertia that a force at the task meets: Λ = (J_r D⁻¹ J_rᵀ)⁻¹.
+
+Nothing is inverted on the way.  By the formulas of Cauchy and Binet, and of Jacobi for the minors
+of an adjugate, the minors of J_r adj D J_rᵀ are powers of det D times
+
+    S(A, B) = Σ_{I, J} ± det J_r[A, I] · det D[J', I'] · det J_r[B, J],
+
+over all I and J of as many columns as there are rows in A and B; J' and I' are the others.  With
+these Λ_ij = ± S(without j, without i) / S(all, all).
+
+Lynch, Park, Modern Robotics, section 8.6 (2017); Horn, Johnson, Matrix Analysis, section 0.8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import combinations, islice
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, fraction_of, quotient, tidy
+from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
+from dynsolve.derivation.arm_values import states_with
+from dynsolve.derivation.elimination import solved
+from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.link_frame import velocities
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node, Number, Symbol
+from dynsolve.notation.tree_values import Program, compile_trees, plain_name
+from dynsolve.questions.equilibria.solving import Equilibria, equilibria, wanted_rows
+from dynsolve.robot.model import Robot
+
+# The equations of motion near an equilibrium, linear: ẋ = A x + B u
+
+MOST_PRODUCTS = 200_000
+"""An inertia matrix whose determinant may come to more products of terms is not inverted."""
+
+TOO_LARGE = "the inverse of the inertia matrix is too large to be read"
+SINGULAR = "the inertia matrix has no inverse"
+
+Linear = Matrix | FractionMatrix | Skipped
+
+
+def at_equilibrium(robot: Robot) -> AtState:
+    """Puts the equilibrium into expressions; rates are 0 there."""
+    return AtState(robot.ring, robot.questions.model.equilibrium)
+
+
+def driven(robot: Robot) -> list[int]:
+    """The coordinates that a motor drives, from 0: the inputs."""
+    return [k for k in range(robot.n) if k not in robot.actions.passive]
+
+
+def unbalanced(robot: Robot, gravity: Matrix) -> str:
+    """The name of a passive coordinate that gravity and springs move there; empty where none does."""
+    at = at_equilibrium(robot)
+    for k in robot.actions.passive:
+        if not at(gravity[k, 0]).is_zero:
+            return robot.coordinates[k].name
+    return ""
+
+
+def curvature(robot: Robot, gravity: Matrix) -> Matrix:
+    """∂g/∂q, n×n: the second derivatives of the potential energy."""
+    ring = robot.ring
+    return Matrix.of(ring, ([ring.diff(g, k) for k in range(robot.n)] for g in gravity.entries))
+
+
+def stiffness(robot: Robot, gravity: Matrix) -> Matrix:
+    """∂g/∂q at the equilibrium, n×n."""
+    return at_equilibrium(robot).matrix(curvature(robot, gravity))
+
+
+def damping(robot: Robot, friction: Matrix | None) -> Matrix:
+    """F = ∂(friction)/∂q̇ at the equilibrium, n×n: of the viscous friction, for sgn jumps there."""
+    ring, at = robot.ring, at_equilibrium(robot)
+    if friction is None:
+        return Matrix.zero(ring, robot.n, robot.n)
+    return Matrix.of(ring, ([at(ring.diff_velocity(f, k)) for k in range(robot.n)] for f in friction.entries))
+
+
+def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, friction: Matrix | None = None) -> Linear:
+    """A, 2n×2n."""
+    name = unbalanced(robot, gravity)
+    if name:
+        return Skipped(f"this is no equilibrium: no motor holds {name}")
+    below = Matrix(
+        robot.ring,
+        tuple(
+            (*k, *f)
+            for k, f in zip((-stiffness(robot, gravity)).rows, (-damping(robot, friction)).rows, strict=True)
+        ),
+    )
+    zero, one = Matrix.zero(robot.ring, robot.n, robot.n), Matrix.identity(robot.ring, robot.n)
+    return _below(
+        robot, D, Matrix(robot.ring, tuple((*z, *e) for z, e in zip(zero.rows, one.rows, strict=True))), below
+    )
+
+
+def input_matrix(robot: Robot, D: Matrix) -> Linear:
+    """B, 2n×m, a column for each coordinate that a motor drives."""
+    inputs = driven(robot)
+    selected = Matrix.of(
+        robot.ring,
+        ([robot.ring.one if i == k else robot.ring.zero for k in inputs] for i in range(robot.n)),
+    )
+    if not inputs:
+        return Skipped("no coordinate has a motor")
+    return _below(robot, D, Matrix.zero(robot.ring, robot.n, len(inputs)), selected)
+
+
+def _below(robot: Robot, D: Matrix, upper: Matrix, right: Matrix) -> Linear:
+    """[upper; D⁻¹ right] with D at the equilibrium."""
+    inertia = at_equilibrium(robot).matrix(D)
+    if work(inertia) > MOST_PRODUCTS:
+        return Skipped(TOO_LARGE)
+    divisor = determinant(inertia)
+    if divisor.is_zero:
+        return Skipped(SINGULAR)
+    lower = quotient(adjugate(inertia) @ right, divisor)
+    return tidy(robot.ring, [map(fraction_of, row) for row in (*upper.rows, *lower.rows)])
+
+
+# Steady motions: some coordinates move at constant rates, the others are in balance
+
+
+def steady_rates(robot: Robot) -> dict[tuple[str, int], Node]:
+    """The rate of each coordinate by (name, 1); 0 of those that are in balance."""
+    rates = dict(robot.questions.model.steady)
+    return {(q.name, 1): rates.get(q.name, Number(0)) for q in robot.coordinates}
+
+
+def steady_forces(robot: Robot, C: Matrix, gravity: Matrix) -> Matrix:
+    """C q̇ + g in the motion, n×1, without friction."""
+    return AtState(robot.ring, steady_rates(robot)).matrix(C @ velocities(robot) + gravity)
+
+
+def steady_energy(robot: Robot, P: Expr, K: Expr) -> Expr:
+    """V = P - K(q, q̇_s)"""
+    return AtState(robot.ring, steady_rates(robot))(P - K)
+
+
+def steady_equilibria(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Equilibria | Skipped:
+    """Where the others are in balance."""
+    forces = steady_forces(robot, C, gravity)
+    changing = (*D.entries, *(forces[row, 0] for row in wanted_rows(robot)))
+    for name, _ in robot.questions.model.steady:
+        k = robot.ring.names.index(name)
+        if any(not robot.ring.diff(entry, k).is_zero for entry in changing):
+            return Skipped(f"{name} is not cyclic: the equations of the others change as it moves")
+    braked = _braked(robot)
+    if braked:
+        return Skipped(f"friction acts on {braked} in this motion, and no motor holds it")
+    return equilibria(robot, forces, may_be_held(robot, D))
+
+
+def may_be_held(robot: Robot, D: Matrix) -> bool:
+    """Whether more than the energy holds: gyroscopic forces, or rates that no motor keeps."""
+    rates = dict(robot.questions.model.steady)
+    moving = [k for k, q in enumerate(robot.coordinates) if q.name in rates]
+    if set(moving) & set(robot.actions.passive):
+        return True
+    momentum = AtState(robot.ring, steady_rates(robot)).matrix(D @ velocities(robot))
+    others = [k for k in range(robot.n) if k not in moving]
+    return any(not _curl(robot, momentum, *pair).is_zero for pair in combinations(others, 2))
+
+
+def _curl(robot: Robot, momentum: Matrix, i: int, j: int) -> Expr:
+    """∂p_i/∂q_j - ∂p_j/∂q_i, the factor of the gyroscopic force between two coordinates."""
+    return robot.ring.diff(momentum[i, 0], j) - robot.ring.diff(momentum[j, 0], i)
+
+
+def _braked(robot: Robot) -> str:
+    """The name of a coordinate that friction acts on in the motion, and no motor holds; else nothing."""
+    ring, wanted = robot.ring, wanted_rows(robot)
+    rates = steady_rates(robot)
+    for one in robot.actions.friction:
+        name = robot.coordinates[one.coordinate].name
+        is_turning = rates[name, 1] != Number(0)
+        if one.coordinate in wanted and is_turning and not (one.viscous.is_zero and one.coulomb.is_zero):
+            return name
+    at = AtState(ring, rates)
+    for damper in robot.actions.dampers:
+        parts = [ring.diff(damper.of, k) for k in range(robot.n)]
+        speed = sum((p * v for p, v in zip(parts, velocities(robot).entries, strict=True)), start=ring.zero)
+        for k in wanted:
+            if not at(damper.damping * speed * parts[k]).is_zero:
+                return robot.coordinates[k].name
+    return ""
+
+
+# Linearization and the inertia of the task, compared with numbers
+
+TOLERANCE = 1e-5
+"""The largest error of an entry, relative to the largest: differences are no derivatives."""
+
+_STEP = 1e-4
+
+_NEAR = ("linear_A", "linear_B", "D", "tau")
+"""What is compared near the equilibrium."""
+
+Rows = list[list[float]]
+
+
+def linear_names(wanted: frozenset[str]) -> tuple[str, ...]:
+    """Which of the wanted results are compared, with what they are compared with."""
+    near = [name for name in ("linear_A", "linear_B") if name in wanted]
+    found = [*near, *(("D", "tau") if near else ())]
+    return tuple(dict.fromkeys((*found, *(("Lambda", "Jr", "D") if "Lambda" in wanted else ()))))
+
+
+def verify_linear(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare printed forms with elimination and differences on numbers (see `linear_names`).
+
+    Raises VerificationError where one is off.
+    """
+    if not results:
+        return
+    program = compile_trees(list(results.values()))
+    near = {name: results[name] for name in _NEAR if name in results}  # where Lambda may be singular
+    near_program = compile_trees(list(near.values()))
+    for values, found in islice(states_with(robot.ring, program.run), states):
+        here = dict(zip(results, found, strict=True))
+        if "Lambda" in here:
+            _compare("Lambda", _products(here["Lambda"], _mobility(here)), _identity(len(here["Jr"])))
+        if "tau" in near:
+            _verify_near(robot, near, _equilibrium(robot, values), near_program)
+
+
+def _compare(name: str, ours: Sequence[Sequence[float]], theirs: Sequence[Sequence[float]]) -> None:
+    size = max((1.0, *(abs(x) for row in theirs for x in row)))
+    gaps = (abs(a - b) for r, s in zip(ours, theirs, strict=True) for a, b in zip(r, s, strict=True))
+    if not all(gap <= TOLERANCE * size for gap in gaps):
+        raise VerificationError(f"{name} differs from elimination on numbers; this is a fault of dynsolve")
+
+
+def _mobility(here: Mapping[str, Any]) -> Rows:
+    """J D⁻¹ Jᵀ"""
+    J = here["Jr"]
+    columns = [solved(here["D"], row) for row in J]
+    return [[sum(a * b for a, b in zip(row, column, strict=True)) for column in columns] for row in J]
+
+
+# -- near an equilibrium ---------------------------------------------------------------------------
+
+
+def _equilibrium(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
+    """The values with the equilibrium in them, at rest."""
+    at = robot.questions.model.equilibrium
+    numbers = compile_trees(list(at.values())).run(values)
+    still = {name: 0.0 for q in robot.coordinates for name in (q.velocity, q.acceleration)}
+    return {**values, **{plain_name(Symbol(*key)): x for key, x in zip(at, numbers, strict=True)}, **still}
+
+
+def _verify_near(
+    robot: Robot, results: Mapping[str, Node], rest: Mapping[str, float], program: Program
+) -> None:
+    names = list(results)
+    at_rest = dict(zip(names, program.run(rest), strict=True))
+    held = [row[0] for row in at_rest["tau"]]
+
+    def accelerations(**moved: float) -> list[float]:
+        here = dict(zip(names, program.run({**rest, **moved}), strict=True))
+        return solved(here["D"], [h - row[0] for h, row in zip(held, here["tau"], strict=True)])
+
+    n = robot.n
+    if "linear_A" in results:
+        columns = [_by_coordinate(accelerations, q.name, rest[q.name]) for q in robot.coordinates]
+        columns += [_by_rate(accelerations, q.velocity) for q in robot.coordinates]
+        upper = [[float(j == n + i) for j in range(2 * n)] for i in range(n)]
+        _compare("linear_A", at_rest["linear_A"], [*upper, *map(list, zip(*columns, strict=True))])
+    if "linear_B" in results:
+        units = [[float(i == k) for i in range(n)] for k in driven(robot)]
+        columns = [solved(at_rest["D"], unit) for unit in units]
+        zeros = [[0.0] * len(units) for _ in range(n)]
+        _compare("linear_B", at_rest["linear_B"], [*zeros, *map(list, zip(*columns, strict=True))])
+
+
+def _by_coordinate(accelerations: Any, name: str, at: float) -> list[float]:
+    ahead, behind = (accelerations(**{name: at + step}) for step in (_STEP, -_STEP))
+    return [(a - b) / (2 * _STEP) for a, b in zip(ahead, behind, strict=True)]
+
+
+def _by_rate(accelerations: Any, name: str) -> list[float]:
+    """((f(2) - f(-2)) - (f(1) - f(-1))) / 2: exact for f = a + b x + c x² + d sgn x."""
+    far, near, back, opposite = (accelerations(**{name: x}) for x in (2.0, 1.0, -1.0, -2.0))
+    return [(a - d - b + c) / 2 for a, b, c, d in zip(far, near, back, opposite, strict=True)]
+
+
+# -- matrices of numbers ---------------------------------------------------------------------------
+
+
+def _products(left: Sequence[Sequence[float]], right: Sequence[Sequence[float]]) -> Rows:
+    columns = list(zip(*right, strict=True))
+    return [[sum(a * b for a, b in zip(row, column, strict=True)) for column in columns] for row in left]
+
+
+def _identity(size: int) -> Rows:
+    return [[float(i == j) for j in range(size)] for i in range(size)]
+
+
+# The inertia that a force at the task meets: Λ = (J_r D⁻¹ J_rᵀ)⁻¹

@@ -1,0 +1,398 @@
+"""Equilibria: the configurations at which gravity and springs move nothing, g(q) = 0.
+
+The rows are combined first, as linear equations in what moves, with factors of parameters: what
+stands in one of them alone is left.  Then each is taken apart into its factors, and every choice
+of one factor of each is a case (as for singular configurations).  A case in which the cosine of an
+angle would have to be more than 1 for all parameters is none.
+
+What is divided out or multiplied by on the way may be 0 for special parameters, as m₁ l₁ - m₂ l₂
+is: these are told, with the remainders of the forces on division by it, which are the forces there.
+
+Where rates are held constant, g is the sum of forces in that motion (`linearization`).
+
+Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
+
+How stable equilibria are, by the second derivatives of the potential energy.
+
+An equilibrium is stable where the potential energy has a strict minimum, the matrix of its second
+derivatives being positive definite (Lagrange and Dirichlet): where all its leading minors are
+positive (Sylvester).  It is unstable where the matrix has a negative direction, which it has where
+any principal minor is negative.  Parameters count as positive; a leading minor whose sign they leave
+open is a condition for stability: where it is negative the equilibrium is unstable, and only where
+it is 0 the second derivatives do not decide.
+
+Where rates are held constant the energy is that of steady motion, and forces across the motion, which
+do no work, may hold what would fall: then nothing is called unstable.
+
+Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from enum import StrEnum
+from itertools import combinations, product
+from typing import Any
+
+from msgspec import Struct
+
+from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.inequality import Bound, independent
+from dynsolve.algebra.linear_systems import part
+from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.parameter_span import Generators, expression, primitive
+from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.elimination import ParameterSigns, Turn, conditions, turn_of
+from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.search_ring import search_ring
+from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
+from dynsolve.derivation.singular.zeros import Condition
+from dynsolve.questions.parameters.derive import generators
+from dynsolve.robot.model import Robot
+
+# How stable equilibria are, by the second derivatives of the potential energy
+
+MOST_POINTS = 16
+"""With more points in a case their stability is not told one by one."""
+
+MOST_TURNING = 6
+"""With more sines and cosines the least value of an expression is not looked for."""
+
+MOST_PRODUCTS = 50_000
+"""Second derivatives whose determinant may come to more products of terms are not looked at."""
+
+Values = tuple[tuple[Pair, int, int], ...]
+"""(angle, sine, cosine): quarter turns."""
+
+
+class Stability(StrEnum):
+    """What second derivatives say of an equilibrium."""
+
+    STABLE = "stable"
+    UNSTABLE = "unstable"
+    UNDECIDED = "undecided"
+
+
+class Point(Struct, frozen=True):
+    """Quarter turns of angles in a case, and how stable the arm is there.
+
+    `neutral` are the coordinates, from 0, along which nothing changes.  Where the stability is
+    undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
+    them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
+    sides are equal nothing is said.  `is_open` says that the signs depend on the configuration.
+    """
+
+    values: Values
+    stability: Stability
+    neutral: tuple[int, ...] = ()
+    conditions: tuple[Bound, ...] = ()
+    falls: bool = False
+    is_open: bool = False
+
+
+class Curvature(Struct, frozen=True):
+    """The second derivatives of the energy, n×n, and the signs of what stands in them.
+
+    `may_be_held` says that forces which do no work act, too.
+    """
+
+    second: Matrix
+    signs: ParameterSigns
+    may_be_held: bool
+
+    def points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
+        """The quarter turns that a case allows, each with its stability where the case `exists`."""
+        if 2 ** len(alternative) > MOST_POINTS:
+            return
+        turns = [found for one in alternative if (found := quarter_turns(one))]
+        others = [one for one in alternative if not quarter_turns(one)]
+        known = [turn for one in others if (turn := turn_of(one.expr)) is not None and turn.is_one_sided]
+        nonzero = [f for turn in known for f in self.signs.open_factors(turn.cosine + turn.sine)]
+        signs = self.signs.beside(*(Bound(bound.value) for bound in exists), nonzero=nonzero)
+        ring = self.second.ring
+        free = [
+            k
+            for k in range(len(ring.names))
+            if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
+        ]
+        for values in product(*turns):
+            at = _put(self.second, values)
+            for other in others:
+                (left,) = _put(Matrix.column(at.ring, [other.expr]), values).entries
+                at = _where_zero(at, left)
+            yield self._point(values, at, signs, free)
+
+    def _point(self, values: Values, second: Matrix, signs: ParameterSigns, free: Sequence[int]) -> Point:
+        """The stability at quarter turns where `free` coordinates may have any value."""
+        neutral = tuple(k for k in free if all(entry.is_zero for entry in second.rows[k]))
+        rest = tuple(k for k in range(len(second.rows)) if k not in neutral)
+        if not rest or work(part(second, rest, rest)) > MOST_PRODUCTS:
+            return Point(values, Stability.UNDECIDED, neutral, is_open=bool(rest))
+        if not self.may_be_held and _falls(second, rest, signs):
+            return Point(values, Stability.UNSTABLE, neutral)
+        leading = (determinant(part(second, rest[:k], rest[:k])) for k in range(1, len(rest) + 1))
+        left = [
+            minor
+            for minor in map(signs.open_part, leading)
+            if not (minor.is_number and minor.number > 0) and not _is_positive_throughout(minor, signs)
+        ]
+        if not left:
+            return Point(values, Stability.STABLE, neutral)
+        if any(minor.is_number for minor in left):
+            return Point(values, Stability.UNDECIDED, neutral)
+        if any(minor.ring.depends_on_coordinates(minor) for minor in left):
+            return Point(values, Stability.UNDECIDED, neutral, is_open=True)
+        conditions = independent([Bound(minor) for minor in _least(left, signs)], signs.assumed)
+        return Point(values, Stability.UNDECIDED, neutral, conditions, not self.may_be_held)
+
+
+def _falls(second: Matrix, rest: Sequence[int], signs: ParameterSigns) -> bool:
+    """Whether the energy surely falls in some direction: a principal minor is negative."""
+    return any(
+        signs.is_positive(-determinant(part(second, chosen, chosen)))
+        for size in range(1, len(rest) + 1)
+        for chosen in combinations(rest, size)
+    )
+
+
+def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
+    """Whether k - m g l cos q > 0 for all q: what is linear in each sine and cosine is least at ±1."""
+    ring, degrees = value.ring, value.poly.degrees()
+    turning = [i for pair in ring.pairs for i in (pair.sine, pair.cosine) if degrees[i] > 0]
+    if not turning or len(turning) > MOST_TURNING or any(degrees[index] > 1 for index in turning):
+        return False
+    return all(
+        signs.is_positive(_composed(value, dict(zip(turning, ends, strict=True))))
+        for ends in product((1, -1), repeat=len(turning))
+    )
+
+
+def _least(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
+    """The values without those that are another one and something positive."""
+    return [
+        value
+        for value in values
+        if not any(signs.is_positive(value - other) for other in values if other != value)
+    ]
+
+
+def _where_zero(second: Matrix, left: Expr) -> Matrix:
+    """The second derivatives where a further expression is 0, up to a positive factor."""
+    if left.is_zero:
+        return second
+    turn = turn_of(left)
+    if turn is not None and turn.is_one_sided:
+        return _at_turn(second, turn)
+    size = second.shape[1]
+    flat = Condition(left).reduced_together(second.entries)
+    return Matrix.of(second.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
+
+
+def _at_turn(second: Matrix, turn: Turn) -> Matrix:
+    """The matrix where A x + C = 0 for the sine or the cosine x of an angle, times A to an even power."""
+    ring, pair = second.ring, turn.pair
+    known, other = (pair.cosine, pair.sine) if turn.sine.is_zero else (pair.sine, pair.cosine)
+    factor, rest = turn.cosine + turn.sine, turn.rest
+    degrees = (int(e[known]) + int(e[other]) for entry in second.entries for e in entry.poly.monoms())
+    most = max(degrees, default=0)
+    highest, y = most + most % 2, ring.generator(other)
+
+    def put(expr: Expr) -> Expr:
+        total = ring.zero
+        for exponents, number in expr.poly.to_dict().items():
+            i, j = int(exponents[known]), int(exponents[other])
+            plain = tuple(0 if k in (known, other) else e for k, e in enumerate(exponents))
+            squares = (factor * factor - rest * rest) ** (j // 2)  # A² y² = A² - C²
+            power = highest - i - 2 * (j // 2)
+            own = Expr(ring, ring.ctx.from_dict({plain: number}))
+            total += own * (-rest) ** i * squares * factor**power * y ** (j % 2)
+        return total
+
+    return second.map(put)
+
+
+def quarter_turns(condition: Condition) -> list[tuple[Pair, int, int]]:
+    """The quarter turns at which sin q, cos q, or one of these less ±1, is 0; none of other conditions."""
+    ring = condition.expr.ring
+    quarters = ((0, 1), (1, 0), (0, -1), (-1, 0))
+    for pair in ring.pairs:
+        used = {i for i, degree in enumerate(condition.expr.poly.degrees()) if degree > 0}
+        if used and used <= {pair.sine, pair.cosine}:
+            column = Matrix.column(ring, [condition.expr])
+            return [(pair, s, c) for s, c in quarters if _put(column, ((pair, s, c),)).is_zero]
+    return []
+
+
+def _put(matrix: Matrix, values: Values) -> Matrix:
+    """The matrix at quarter turns."""
+    numbers = {pair.sine: sine for pair, sine, _ in values} | {
+        pair.cosine: cosine for pair, _, cosine in values
+    }
+    return matrix.map(lambda entry: _composed(entry, numbers))
+
+
+def _composed(value: Expr, numbers: Mapping[int, int]) -> Expr:
+    """A value with numbers for some generators."""
+    ring = value.ring
+    images = [
+        (ring.constant(numbers[g.index]) if g.index in numbers else ring.generator(g.index)).poly
+        for g in ring.generators
+    ]
+    return Expr(ring, ring.reduce(value.poly.compose(*images, ctx=ring.ctx)))
+
+
+MOST_TERMS = 200
+"""Forces with more terms are not taken apart."""
+
+MOST_SPECIAL = 4
+"""So many factors that may be 0 are told."""
+
+MOST_SHOWN_TERMS = 12
+"""Factors with more terms are not told."""
+
+TOO_LONG = "gravity and springs are too long to be taken apart into factors"
+
+
+class SpecialCase(Struct, frozen=True):
+    """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0."""
+
+    factor: Expr
+    forces: tuple[Expr, ...]
+
+
+class Equilibria(Struct, frozen=True):
+    """Where all of `rows` are 0: at any of the alternatives, with the points of each.
+
+    `exist` is what the parameters must satisfy for each to be there.  All this is so where none of the
+    `special` is; where there `may_be_others`, that are not told, for general parameters.
+    """
+
+    rows: tuple[Expr, ...]
+    alternatives: tuple[Alternative, ...]
+    points: tuple[tuple[Point, ...], ...]
+    exist: tuple[tuple[Bound, ...], ...]
+    special: tuple[SpecialCase, ...] = ()
+    may_be_others: bool = False
+
+
+def wanted_rows(robot: Robot) -> list[int]:
+    """The coordinates, from 0, whose forces must be 0: those that no motor holds, or keeps at its rate."""
+    passive, model = robot.actions.passive, robot.questions.model
+    steady = dict(model.steady)
+    return [
+        k
+        for k, q in enumerate(robot.coordinates)
+        if k in passive or not (model.inputs_given or q.name in steady)
+    ]
+
+
+def equilibria(robot: Robot, forces: Matrix, may_be_held: bool = False) -> Equilibria | Skipped:
+    """The configurations where the forces (n×1) are 0 in every row that no motor holds.
+
+    The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
+    `stability.Curvature`.
+    """
+    wanted = [forces[k, 0] for k in wanted_rows(robot)]
+    if sum(map(len, wanted)) > MOST_TERMS:
+        return Skipped(TOO_LONG)
+    ring = search_ring(robot.ring, (), {})
+    there = Transfer(robot.ring, ring)
+    assumed = robot.questions.model.assumed
+    signs = ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
+    special = Special(signs)
+    rows = tuple(combined(robot, wanted, lambda factor: special.add(there(factor))))
+    try:
+        alternatives = common_zeros([there(row) for row in rows], special)
+    except TooLong:
+        return Skipped(TOO_LONG)
+    found = {
+        one: exist
+        for one in alternatives
+        if (exist := conditions([condition.expr for condition in one], signs)) is not None
+    }
+    second = Matrix.of(ring, ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries))
+    for condition in (condition for one in found for condition in one):
+        special.add(condition.multiplier(second.entries))
+    curvature = Curvature(second, signs.beside(nonzero=special.factors), may_be_held)
+    points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
+    short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
+    return Equilibria(
+        rows,
+        tuple(found),
+        points,
+        tuple(found.values()),
+        tuple(SpecialCase(factor, _modulo(factor, map(there, wanted))) for factor in short),
+        special.is_open or len(short) < len(special.factors),
+    )
+
+
+def _modulo(factor: Expr, forces: Iterable[Expr]) -> tuple[Expr, ...]:
+    """What is left of forces where a factor is 0, without those that are 0, too."""
+    ring = factor.ring
+    rests = (Expr(ring, ring.reduce(divmod(force.poly, factor.poly)[1])) for force in forces)
+    return tuple(dict.fromkeys(rest for rest in rests if not rest.is_zero))
+
+
+def combined(robot: Robot, forces: Sequence[Expr], use: Callable[[Expr], None]) -> Iterator[Expr]:
+    """Combinations of forces that are 0 where these are: each without what the others begin with.
+
+    `use` is told what must not be 0 for that: factors that are multiplied by or divided out.
+    """
+    kinds = generators(robot.ring, frozenset())
+    left = [row for row in map(_row(robot, kinds), forces) if row]
+    done: list[dict[Any, Expr]] = []
+    while left:
+        lead = max(key for row in left for key in row)
+        chosen = min((row for row in left if lead in row), key=lambda row: (len(row), _size(row)))
+        others = [row for row in left if row is not chosen]
+        left = [row for row in (_without(other, chosen, lead, use) for other in others) if row]
+        done = [_without(row, chosen, lead, use) for row in done]
+        done.append(chosen)
+    yield from (expression(robot.ring, _primitive(row, use)) for row in done)
+
+
+def _primitive(row: dict[Any, Expr], use: Callable[[Expr], None]) -> dict[Any, Expr]:
+    """A row without what all its entries share."""
+    found = primitive(row)
+    for key in list(found)[:1]:
+        use(_quotient(row[key], found[key]))
+    return found
+
+
+def _quotient(value: Expr, divisor: Expr) -> Expr:
+    """A value divided by one of its factors."""
+    return Expr(value.ring, divmod(value.poly, divisor.poly)[0])
+
+
+def _row(robot: Robot, kinds: Generators) -> Any:
+    """A force as a vector: polynomials in the parameters by the product of what moves."""
+
+    def row(force: Expr) -> dict[Any, Expr]:
+        moving = Generators(frozenset(range(len(robot.ring.generators))) - kinds.moving, kinds.moving)
+        found: dict[Any, Expr] = {}
+        for factor, vector in moving.split(force):
+            for key, number in vector.items():
+                value = factor * number
+                found[key] = found[key] + value if key in found else value
+        return {key: value for key, value in found.items() if not value.is_zero}
+
+    return row
+
+
+def _without(
+    row: dict[Any, Expr], chosen: dict[Any, Expr], lead: Any, use: Callable[[Expr], None]
+) -> dict[Any, Expr]:
+    """A row less so much of another that `lead` is gone; it is multiplied by a parameter for that."""
+    if lead not in row:
+        return row
+    shared = Expr(row[lead].ring, row[lead].poly.gcd(chosen[lead].poly))
+    mine, theirs = _quotient(row[lead], shared), _quotient(chosen[lead], shared)
+    use(theirs)
+    found = {key: value * theirs for key, value in row.items()}
+    for key, value in chosen.items():
+        found[key] = found[key] - value * mine if key in found else -(value * mine)
+    return _primitive({key: value for key, value in found.items() if not value.is_zero}, use)
+
+
+def _size(row: dict[Any, Expr]) -> int:
+    return sum(map(len, row.values()))

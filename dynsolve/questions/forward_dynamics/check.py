@@ -1,0 +1,44 @@
+"""Forward dynamics, put back: with these accelerations the left side of the equations gives the forces.
+
+Nothing is inverted or eliminated: D q̈ + C q̇ + friction + g, as it is printed, must be τ + Q.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import islice
+
+from dynsolve.derivation.arm_values import states_with
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
+from dynsolve.questions.held import Held
+from dynsolve.questions.rates.check import TOLERANCE
+from dynsolve.robot.model import Robot
+
+COMPARED = ("qdd_forward", "tau", "Q")
+"""What is compared; Q where forces act from outside."""
+
+
+def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare the printed form of `qdd_forward` with those of `tau` and, where there is one, `Q`.
+
+    Raises VerificationError where it does not give the forces back.
+    """
+    found, left = compile_trees([results["qdd_forward"]]), compile_trees([results["tau"]])
+    outside = compile_trees([results["Q"]]) if "Q" in results else None
+    for values, (rows,) in islice(states_with(robot.ring, found.run), states):
+        moved = {q.acceleration: row[0] for q, row in zip(robot.coordinates, rows, strict=True)}
+        (theirs,) = left.run({**values, **moved})
+        loads = outside.run(values)[0] if outside else [(0.0,)] * robot.n
+        for k, q in enumerate(robot.coordinates):
+            force = loads[k][0] + (0.0 if k in robot.actions.passive else values[q.force])
+            size = max(1.0, abs(force), *map(abs, moved.values()))
+            if not abs(theirs[k][0] - force) <= TOLERANCE * size:
+                raise VerificationError("qdd_forward does not give the forces; this is a fault of dynsolve")
+
+
+def verify(held: Held) -> None:
+    """Hold the results as they are printed; raises VerificationError where one is wrong."""
+    if "qdd_forward" in held.wanted:
+        held.hold(verify_forward, (name for name in COMPARED if name != "Q" or name in held.wanted))

@@ -1,0 +1,108 @@
+"""Forward dynamics: the accelerations that given forces make.
+
+    q̈ = D⁻¹ (τ + Q - C q̇ - friction - g)
+
+D⁻¹ is the adjugate over the determinant, so that all is polynomial but for one division.
+
+Lynch, Park, Modern Robotics, section 8.5 (2017).
+
+The equations of motion of a constrained mechanism without the multipliers.
+
+The columns of Z span the rates that the constraints leave free, A_c Z = 0.  The forces of the
+constraints do no work on these:
+
+    Zᵀ (D q̈ + C q̇ + friction + g) = Zᵀ (τ + Q)
+
+Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.3 (1994).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from msgspec import Struct
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, nullspace, quotient
+from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.derivation.graph import Rule, Skipped
+from dynsolve.robot.model import Robot
+
+# Forward dynamics: the accelerations that given forces make
+
+MOST_PRODUCTS = 50_000
+"""Accelerations that may come to more products of terms are not multiplied out: nobody could read them."""
+
+TOO_LARGE = "multiplied out they are too large to be read"
+
+SINGULAR = "the inertia matrix has no inverse: a coordinate moves nothing that has mass"
+
+CONSTRAINED = "the forces of the constraints act, too: the accelerations follow with the multipliers lambda"
+
+
+def rules(robot: Robot) -> Iterator[Rule]:
+    """The accelerations q̈, of a robot with masses."""
+    if robot.has_dynamics:
+        yield Rule("qdd_forward", ("D", *acting_names(robot)), partial(accelerations, robot))
+
+
+def driving_forces(robot: Robot) -> Matrix:
+    """τ, n×1, by the names of the generalized forces; 0 where no motor drives a coordinate."""
+    ring, passive = robot.ring, robot.actions.passive
+    entries = [ring.zero if k in passive else ring.symbol(q.force) for k, q in enumerate(robot.coordinates)]
+    return Matrix.column(ring, entries)
+
+
+def acting_names(robot: Robot) -> tuple[str, ...]:
+    """The rules of the forces that act beside τ."""
+    friction = ("friction",) if "friction" in robot.actions.kinds else ()
+    return ("Cqd", "g", *friction, *(("Q",) if robot.questions.loads else ()))
+
+
+def acting_forces(robot: Robot, *forces: Matrix) -> Matrix:
+    """τ + Q - C q̇ - friction - g, n×1, from the forces of `acting_names`."""
+    total = driving_forces(robot)
+    for name, force in zip(acting_names(robot), forces, strict=True):
+        total = total + force if name == "Q" else total - force
+    return total
+
+
+def accelerations(robot: Robot, D: Matrix, *forces: Matrix) -> Matrix | FractionMatrix | Skipped:
+    """q̈, n×1, from D and the forces of `acting_names`."""
+    if robot.questions.constraints:
+        return Skipped(CONSTRAINED)
+    acting = acting_forces(robot, *forces)
+    if work(D) * max(1, max(map(len, acting.entries))) > MOST_PRODUCTS:
+        return Skipped(TOO_LARGE)
+    scale = determinant(D)
+    return Skipped(SINGULAR) if scale.is_zero else quotient(adjugate(D) @ acting, scale)
+
+
+# The equations of motion of a constrained mechanism without the multipliers
+
+MOST_TERMS = 400
+"""Equations with more terms together are not multiplied out."""
+
+
+class Reduced(Struct, frozen=True):
+    """Z, n×(n-c), and (left, right) of each equation."""
+
+    free: Matrix
+    equations: tuple[tuple[Expr, Expr], ...]
+
+
+def reduced(robot: Robot, A: Matrix, forces: Matrix, *loads: Matrix) -> Reduced | Skipped:
+    """The equations without multipliers; `forces` are their left sides, n×1, `loads` Q where there is any."""
+    Z = nullspace(A)
+    if not Z.shape[1]:
+        return Skipped("the constraints leave nothing free to move")
+    if sum(map(len, forces.entries)) * max(map(len, Z.entries)) > MOST_TERMS:
+        return Skipped("multiplied out the equations are too long to be read")
+    driving = driving_forces(robot)
+    for Q in loads:
+        driving = driving + Q
+    return Reduced(Z, tuple(zip((Z.T @ forces).entries, (Z.T @ driving).entries, strict=True)))
+
+
+# Forward dynamics, put back

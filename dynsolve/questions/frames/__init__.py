@@ -1,0 +1,1 @@
+"""The frames of a drawing, which is given in the place of a table."""

@@ -1,0 +1,31 @@
+"""What the check of a question is given: the results of a robot as they are printed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from msgspec import Struct
+
+from dynsolve.derivation.graph import Derivation
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Node
+from dynsolve.robot.model import Robot
+
+
+class Held(Struct, frozen=True):
+    """The results to be held: `wanted` are their names, and those that they are derived from.
+
+    They are compared at `states` random states.
+    """
+
+    robot: Robot
+    values: Derivation
+    forms: Forms
+    wanted: frozenset[str]
+    states: int
+
+    def hold(self, verify: Callable[[Robot, Mapping[str, Node], int], object], names: Iterable[str]) -> None:
+        """Compare printed forms, by name; those that the robot has not are passed over."""
+        verify(
+            self.robot, {name: self.forms(name) for name in names if name in self.values.rules}, self.states
+        )

@@ -1,0 +1,565 @@
+"""Steps of the inverse kinematics: one unknown after the other, and the branches."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from math import inf
+
+from msgspec.structs import replace
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import is_nonnegative, is_positive
+from dynsolve.derivation.configurations import Conditions
+from dynsolve.document import Prose, Table
+from dynsolve.document.sentences import say
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
+from dynsolve.explain.step import Part as Shown
+from dynsolve.explain.writing import agreeing, and_joined, craig, listed, spong, turns
+from dynsolve.notation.build import cost, power, times, total
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import (
+    Function,
+    Letter,
+    Matrix,
+    Node,
+    Number,
+    Reference,
+    Relation,
+    Symbol,
+    column,
+    equation,
+    names_in,
+    with_formulas,
+)
+from dynsolve.quantities import letters
+from dynsolve.questions.inverse.equations import (
+    Direct,
+    Equation,
+    Given,
+    OfPoint,
+    OfTurn,
+    Origin,
+    Squared,
+    Turned,
+    lineage,
+)
+from dynsolve.questions.inverse.figures import figure_of
+from dynsolve.questions.inverse.forms import InverseForms, InverseFormulas
+from dynsolve.questions.inverse.solving import FixedPoint, Part, Solving, Turn
+from dynsolve.questions.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
+from dynsolve.questions.inverse.target import target_steps
+from dynsolve.robot.model import Robot
+
+SHORT = 4
+"""Formulas with more operations are not repeated in the table of the branches."""
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """What is to be solved, the unknowns in the order in which they are found, and the branches."""
+    if "inverse" not in context.wanted:
+        return
+    forms = InverseForms(context.robot, context.values)
+    yield _task(context, forms)
+    if forms.solved is None:
+        yield Step(
+            id=_id_of_branches(forms),
+            title="No closed form",
+            why=(
+                "No equation with one unknown in a known form was found: turned into the frames of the "
+                "joints, squared and added, these equations stay coupled. Such arms are solved numerically.",
+            ),
+            detail=Detail.BRIEF,
+            notes=tuple(_of_pieper(context.robot)),
+            normal=NOTED,
+            uses=(),
+        )
+    else:
+        yield from _unknowns(forms, forms.solved.solving)
+        yield _branches(forms, forms.solved.solving)
+    if forms.target is not None:
+        yield from target_steps(forms.target)
+
+
+def _task(context: Context, forms: InverseForms) -> Step:
+    """The pose that is to be reached, or the components of the task."""
+    names = [*map(Symbol, context.robot.questions.reached)]
+    asked, frame = column(*names), len(context.robot.joints)
+    step = Step(
+        id="inverse_task",
+        title="What is to be solved",
+        why=("The values of the task are given, and the joint variables that give them are looked for.",),
+        formula=equation(letters.TASK, asked),
+        source=spong("3.3"),
+        uses=("r",),
+        is_task=False,
+    )
+    if not _is_pose(context.robot):
+        given = () if forms.target is None else forms.target.given
+        numbers = (equation(Symbol(name), value) for name, value in given)
+        return replace(step, result=(equation(context.form("r"), asked), *numbers))
+    rows = [(*names[3 * k + 3 : 3 * k + 6], names[k]) for k in range(3)]
+    last = (Number(0), Number(0), Number(0), Number(1))
+    few = (
+        f"With {context.robot.n} joint{'s' * (context.robot.n > 1)} only some poses are reached: the "
+        "equations give the joint variables, and the others hold where the pose is one of these."
+    )
+    return replace(
+        step,
+        why=(
+            "The position and the rotation of the last frame are given, and the joint variables that give "
+            "them are looked for.",
+        ),
+        formula=equation(letters.H(context.robot, frame), Matrix((*rows, last))),
+        source=spong("3.3.1"),
+        uses=(f"H{frame}",),
+        notes=((few,),) if context.robot.n < 6 else (),
+    )
+
+
+def _is_pose(robot: Robot) -> bool:
+    task = robot.questions.task
+    return task is not None and task.is_pose
+
+
+def _of_pieper(robot: Robot) -> Iterator[Prose]:
+    """What is known of three joints that turn, though they are not solved for in a known form."""
+    entries = robot.questions.task.entries if robot.questions.task else ()
+    points = [entry.quantity for entry in entries if isinstance(entry, Reference)]
+    if robot.n == 3 and all(map(turns, robot.coordinates)) and len(points) == 3 and len(set(points)) == 1:
+        yield (
+            "Brought to one angle, the equations of a point that three joints turn are of degree four in the "
+            "tangent of half that angle (Pieper 1968; Craig, section 4.6): at most four configurations reach "
+            "it, or infinitely many.",
+        )
+
+
+def _id_of_branches(forms: InverseForms) -> str:
+    """Where the target is given in numbers, the answer comes after the branches."""
+    return "inverse" if forms.target is None else "inverse_branches"
+
+
+# -- one unknown -----------------------------------------------------------------------------------
+
+
+def _unknowns(forms: InverseForms, solving: Solving) -> Iterator[Step]:
+    """The unknowns, one after the other."""
+    before: tuple[Solved, ...] = ()
+    general: list[Node | None] = []
+    for number, part in enumerate(solving.parts, 1):
+        yield from _starting(forms.inverse_formulas, part, number, before)
+        for solved in part.solved:
+            found = _unknown(forms, solved, before, part)
+            told = found.formula in general
+            yield replace(found, normal=found.normal & ~Shown.FORMULA) if told else found
+            general.append(found.formula)
+            before = (*before, solved)
+
+
+def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: Part) -> Step:
+    """How one unknown is found."""
+    formulas = forms.inverse_formulas
+    known = {e.expr for earlier in before for e in lineage(earlier.equations)}
+    needed = {e.expr: e for e in _new(step.equations, known)}.values()
+    first, made = list[Equation](), list[Equation]()
+    for e in needed:
+        (first if isinstance(e.origin, Direct) or e.expr in known else made).append(e)
+    lines = tuple(_lines(formulas, step, made))
+    first.sort(key=lambda e: e.origin.index if isinstance(e.origin, Given) else inf)  # as in the task
+    working = tuple(_equation(formulas, e) for e in first)
+    results = formulas.results(Symbol(step.coordinate), step)
+    shown = names_in(*results, *(lines[-1].formulas if lines else working))
+    starts_anew = any(e.expr not in known for e in first)
+    if isinstance(step, Remainder):
+        why: Prose = ("The task gives the sum of the angles; the others are known now.",)
+    else:
+        why = (*_origin([e.origin for e in step.equations]), *say(_form(step), q=Symbol(step.coordinate)))
+    return Step(
+        id=f"inverse_{step.coordinate}",
+        title=f"Solving for {step.coordinate}",
+        why=why,
+        working=working,
+        lines=lines,
+        formula=_general(step),
+        source=spong("3.3"),
+        concluding=("So:",) if lines else (),
+        result=results,
+        figure=figure_of(formulas, step),
+        notes=tuple(_notes(forms, step, part.turn)),
+        normal=NOTED if starts_anew or not lines else RESUMED,
+        uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
+    )
+
+
+def _origin(origins: Sequence[Origin]) -> Prose:
+    """How the equations are made."""
+    match origins[0]:
+        case Squared():
+            return (
+                "Turning a vector does not change its length: in the sum of the squares the other angles "
+                "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",
+            )
+        case Turned(_, _, name):
+            text = "Turned back by {q}, the components have that angle on the left side alone. "
+            return say(text, q=Symbol(name))
+        case Given():
+            text = "Component|Components {places} of the task"
+        case OfPoint(_, joint):
+            seen = f", seen from the frame before joint {joint}," if joint else ""
+            text = f"Coordinate|Coordinates {{places}} of the point{seen}"
+        case OfTurn():
+            text = "Entry|Entries {places} of the rotation"
+    places = []
+    for origin in origins:
+        match origin:
+            case Given(index):
+                places.append(str(index + 1))
+            case OfPoint(index):
+                places.append("xyz"[index])
+            case OfTurn(row, column):
+                places.append(f"({row + 1}, {column + 1})")
+    return say(agreeing(f"{text} has|have no other unknown. ", len(origins)), places=listed(places))
+
+
+def _form(step: Solved) -> str:
+    """What kind of equation it is."""
+    match step:
+        case TwoLines() if step.is_rotation:
+            return (
+                "Two equations in the sine and the cosine of {q} give the angle: one joint turns a vector to "
+                "where it is to be (Paden-Kahan subproblem 1)."
+            )
+        case TwoLines():
+            return "Two equations in the sine and the cosine of {q} give the angle."
+        case OneLine() if step.value.is_zero:
+            return "The ratio of sine and cosine gives {q} up to half a turn: two angles."
+        case OneLine() if step.sine.is_zero:
+            return "The cosine of {q} belongs to two angles, which differ by their sign."
+        case OneLine() if step.cosine.is_zero:
+            return "The sine of {q} belongs to two angles, whose sum is π."
+        case OneLine():
+            return "One equation in the cosine and the sine of {q} has two solutions."
+        case Length():
+            return "The length {q} stands in it to the first power."
+    return "The length {q} stands in it as a square: two lengths."
+
+
+def _general(step: Solved) -> Node | None:
+    """The form that an equation has, and its solution."""
+    both = {name: Letter(name) for name in "ABXY"}
+    match step:
+        case TwoLines() if step.is_rotation and not (step.first[0].is_zero or step.first[1].is_zero):
+            turned = formula("{A} cos ψ - {B} sin ψ = {X}, {A} sin ψ + {B} cos ψ = {Y}", **both)
+            return formula("{turned} ⇒ ψ = atan2({Y}, {X}) - atan2({B}, {A})", turned=turned, **both)
+        case OneLine() if step.value.is_zero:
+            either = formula("atan2({A}, {B}), atan2(-{A}, -{B})", **both)
+            return formula("{A} cos ψ = {B} sin ψ ⇒ ψ = {either}", either=either, **both)
+        case OneLine() if not (step.cosine.is_zero or step.sine.is_zero):
+            either = formula("atan2({B}, {A}) ± atan2(sqrt({A}² + {B}² - {X}²), {X})", **both)
+            return formula("{A} cos ψ + {B} sin ψ = {X} ⇒ ψ = {either}", either=either, **both)
+    return None
+
+
+def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Prose]:
+    """When there is a solution, and when there are infinitely many."""
+    if turn is not None and turn.is_wrist:
+        yield from _wrist_notes(forms.inverse_formulas, turn, step)
+        return
+    formulas, q = forms.inverse_formulas, Symbol(step.coordinate)
+    there: Node | None = None
+    factors: list[Expr] = []
+    match step:
+        case OneLine(_, cosine, sine, value) if value.is_zero:
+            factors = [sine, cosine]
+        case OneLine(_, cosine, sine, value) if cosine.is_zero or sine.is_zero:
+            there = formula("-1 ≤ {ratio} ≤ 1", ratio=formulas.ratio(value, cosine + sine))
+        case OneLine():
+            there = formulas.boundary(step)
+        case RootLength():
+            there = formula("{radicand} ≥ 0", radicand=formulas.radicand(step))
+        case Length() if not (is_nonnegative(step.factor) or is_nonnegative(-step.factor)):
+            yield say("This needs ${factor} ≠ 0$.", factor=formulas.form(step.factor))
+        case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
+            factors = [factor for factor in (cosine, sine) if not factor.is_zero]
+    if there is not None:
+        text = "There are solutions where {there}; on the boundary, with =, the two solutions are one."
+        yield say(text, there=there)
+    if factors and not any(is_positive(factor * factor) for factor in factors) and _may_vanish(factors):
+        zeros = [equation(forms.vanishing(factor), Number(0)) for factor in factors]
+        yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
+
+
+def _may_vanish(factors: Sequence[Expr]) -> bool:
+    """Whether all may be 0 at once: where one of them is a sine, the others with c = 1 or c = -1."""
+    ring = factors[0].ring
+    for pair in ring.pairs:
+        lengths = {pair.sine, *(g.index for g in ring.generators if g.name in ring.parameters)}
+        held = [
+            {i for i, degree in enumerate(x.poly.degrees()) if degree > 0} for x in factors if len(x) == 1
+        ]
+        if not any(pair.sine in each and each <= lengths for each in held):
+            continue
+        for cosine in (1, -1):
+            point = [ring.generator(g.index).poly for g in ring.generators]
+            point[pair.sine], point[pair.cosine] = ring.zero.poly, (ring.one * cosine).poly
+            there = [Expr(ring, ring.reduce(factor.poly.compose(*point, ctx=ring.ctx))) for factor in factors]
+            if not any(is_positive(value * value) for value in there):
+                return True
+        return False
+    return True
+
+
+# -- the way to an unknown: components turned, squared and added, then sorted ----------------------
+
+
+def _new(equations: Sequence[Equation], known: Collection[Expr]) -> Iterator[Equation]:
+    """Equations after those that they come from, as far as these are not known."""
+    for e in equations:
+        if e.expr not in known:
+            match e.origin:
+                case Turned(first, second):
+                    yield from _new((first, second), known)
+                case Squared(parts):
+                    yield from _new(parts, known)
+        yield e
+
+
+def _lines(formulas: InverseFormulas, step: Solved, made: Sequence[Equation]) -> Iterator[Line]:
+    """How equations are made of others, and how the unknown is taken out."""
+    form = formulas.form
+    pairs: dict[tuple[Expr, Expr, str], dict[bool, Equation]] = {}
+    for e in made:
+        match e.origin:
+            case Turned(first, second, name, is_second):
+                pairs.setdefault((first.expr, second.expr, name), {})[is_second] = e
+    for e in made:
+        match e.origin:
+            case Turned(first, second, name):
+                both = sorted(pairs.pop((first.expr, second.expr, name), {}).items())
+                if both:
+                    shown = tuple(_equation(formulas, one) for _, one in both)
+                    how = listed(
+                        [_turned_by(formulas, (first, second), name, second_one) for second_one, _ in both]
+                    )
+                    yield Line(say("Turned back by {q} ({how}):", q=Symbol(name), how=how), shown)
+            case Squared(parts):
+                left = total([power(form(part.left), 2) for part in parts if not part.left.is_zero])
+                right = total([power(form(part.right), 2) for part in parts])
+                yield Line(("The squares of these equations, added:",), (equation(left, right),))
+                yield Line(("Multiplied out, with s² + c² = 1:",), (_equation(formulas, e),))
+    q = Symbol(step.coordinate)
+    rows: list[tuple[Expr, Expr, Expr]] = []
+    match step:
+        case TwoLines(_, upper, lower):
+            if max(map(len, (*upper[:2], *lower[:2]))) > 1:
+                rows = [upper, lower]
+        case OneLine(_, cosine, sine, value) if not value.is_zero:
+            if cosine.is_zero or sine.is_zero:
+                name, word = ("cos", "cosine") if sine.is_zero else ("sin", "sine")
+                solved = equation(Function(name, q), formulas.ratio(value, cosine + sine))
+                yield Line((f"Solved for the {word}:",), (solved,))
+            else:
+                rows = [(cosine, sine, value)]
+
+    def line(cosine: Expr, sine: Expr, value: Expr) -> Node:
+        """A cos q + B sin q = X"""
+        both = [(factor, name) for factor, name in ((cosine, "cos"), (sine, "sin")) if not factor.is_zero]
+        terms = [times(1, [(form(factor), 1), (Function(name, q), 1)]) for factor, name in both]
+        return equation(total(terms), form(value))
+
+    if rows:
+        by = say("Sorted by the cosine and the sine of {q}:", q=q)
+        yield Line(by, tuple(line(*row) for row in rows))
+
+
+def _turned_by(formulas: InverseFormulas, pair: Sequence[Equation], name: str, is_second: bool) -> Prose:
+    """Two components turned back by an angle, as the sum that a hand writes."""
+    one, other = (formulas.form(e.left) for e in (reversed(pair) if is_second else pair))
+    return say(
+        "$cos {q}$ times the equation of {one} {sign} $sin {q}$ times that of {other}",
+        q=Symbol(name),
+        one=one,
+        sign="minus" if is_second else "plus",
+        other=other,
+    )
+
+
+def _equation(formulas: InverseFormulas, e: Equation) -> Node:
+    return equation(formulas.form(e.left), formulas.form(e.right))
+
+
+# -- what the steps of a part start from: a rotation that is left, a point -------------------------
+
+
+def _starting(forms: InverseFormulas, part: Part, number: int, before: Sequence[Solved]) -> Iterator[Step]:
+    if part.turn is not None:
+        yield _turn(forms, part.turn, number, before)
+    if part.parallel:
+        joints = and_joined([str(k) for k in part.parallel])
+        yield Step(
+            id=f"inverse_parallel_{number}",
+            title="Parallel axes",
+            why=(
+                f"The axes of joints {joints} are parallel. In that direction these joints move nothing, and "
+                "they turn nothing out of it: what is seen along it holds the others alone, and these come "
+                "first.",
+            ),
+            source=craig("4.6"),
+            uses=(),
+        )
+    if part.point is not None:
+        title, why = _about(part.point)
+        known = forms.matrix(part.point.known)
+        meant = {d.name: forms.form(d.value) for d in part.point.definitions}
+        defined = (equation(known, with_formulas(known, meant)),) if meant else ()
+        yield Step(
+            id=f"inverse_point_{number}",
+            title=title,
+            why=(why,),
+            result=(*defined, equation(known, forms.matrix(part.point.made))),
+            source=spong("3.3.2"),
+            detail=Detail.NORMAL,
+            uses=("inverse_task", *((f"inverse_turn_{number}",) if part.turn else ())),
+        )
+
+
+def _about(point: FixedPoint) -> tuple[str, str]:
+    """What a point is called, and what it is good for."""
+    count, joints = point.last - point.first + 1, _joints(point)
+    seen = "fixed in the base, and the pose says where the hand sees it"
+    if not point.from_hand:
+        seen = "fixed in the hand, and the pose says where it is"
+    alone = f"It is {seen}. Only the other joints move it"
+    if count == 0:
+        return "The origin of the last frame", "Every joint moves it."
+    if count == 1:
+        why = f"Joint {point.first} turns about its axis and does not move this point. {alone}."
+        return f"A point on the axis of joint {point.first}", why
+    why = f"The axes of joints {joints} meet in one point, which these joints do not move. {alone}"
+    if count >= 3 and not point.from_hand:
+        why += " to its place, and the wrist then turns the hand: position and rotation are decoupled."
+    else:
+        why += "."
+    is_wrist = count == 3 and not point.from_hand
+    return "The wrist centre" if is_wrist else f"The point where the axes of joints {joints} meet", why
+
+
+def _joints(told: FixedPoint | Turn) -> str:
+    return and_joined([str(k) for k in range(told.first, told.last + 1)])
+
+
+_OF_A_WRIST = (
+    " The last joint does not move its own axis: the first two turn that to where it is to be (Paden-Kahan "
+    "subproblem 2), and the last turns the hand about it (subproblem 1)."
+)
+
+
+def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[Solved]) -> Step:
+    """The rotation that is left for some joints."""
+    joints = f"joint {turn.first}" if turn.first == turn.last else f"joints {_joints(turn)}"
+    known, made = (formulas.matrix(pose.block(0, 3, 0, 3)) for pose in (turn.known, turn.made))
+    rotation = formula("𝐔 = {known} = {made}", known=known, made=made)
+    values = tuple(equation(Symbol(d.name), formulas.form(d.value)) for d in turn.definitions)
+    return Step(
+        id=f"inverse_turn_{number}",
+        title="The rotation of the wrist" if turn.is_wrist else f"What is left for {joints}",
+        why=say(
+            "The other joints are known now. Taken off the given pose, they leave to {joints} the rotation "
+            "$𝐔$, which is also the product of the rotations of these joints.{subproblems}",
+            joints=joints,
+            subproblems=_OF_A_WRIST if turn.is_wrist else "",
+        ),
+        working=(rotation,),
+        source=spong("3.3.2"),
+        concluding=("From the given pose and the joints that are known:",) if values else (),
+        result=values or (rotation,),
+        listed=True,
+        uses=("inverse_task", *(f"inverse_{step.coordinate}" for step in before)),
+    )
+
+
+def _wrist_notes(formulas: InverseFormulas, turn: Turn, step: Solved) -> Iterator[Prose]:
+    """Where a spherical wrist is singular; said with its first angle that has two values."""
+    if not isinstance(step, OneLine):
+        return
+    first, middle, last = map(Symbol, turn.names)
+    where = formula("sin {middle} = 0", middle=middle)
+    if len(turn.made[2, 2]) != 1:  # else it is ± the cosine of the angle between the outer axes
+        where = Relation((formulas.form(turn.known[2, 2]), Number(1)), ("= ±",))
+    text = (
+        "Where {where} the first and the last axis of the wrist are one line: the wrist is singular. Only "
+        "the sum of {first} and {last}, or their difference, is given then, and one of them is free: "
+        "infinitely many solutions."
+    )
+    yield say(text, where=where, first=first, last=last)
+
+
+# -- the branches ----------------------------------------------------------------------------------
+
+
+def _branches(forms: InverseForms, solving: Solving) -> Step:
+    """All of them, each put into r(q)."""
+    names, count = [step.coordinate for step in solving.solved], len(forms.inverse)
+    task = letters.FRAME_OF_Q if _is_pose(forms.robot) else letters.TASK_OF_Q
+    return Step(
+        id=_id_of_branches(forms),
+        title="The solution" if count == 1 else f"The {count} solutions",
+        why=say(
+            "{count}, each put into {task} to see that it gives what is asked. A coordinate that stands in a "
+            "formula is that of the same line.",
+            count="There is one solution" if count == 1 else f"Together there are {count} solutions",
+            task=task,
+        ),
+        table=Table(("", *map(Symbol, names)), tuple(_rows(forms, solving))),
+        notes=(*_conditions(forms, task), *_free_coordinates(solving)),
+        normal=NOTED,
+        detail=Detail.BRIEF,
+        uses=tuple(f"inverse_{name}" for name in names),
+        hint=say(
+            "Put every choice among these into {task}: those that give what is asked are the solutions.",
+            task=task,
+        ),
+        hint_title="The solutions",
+    )
+
+
+def _rows(forms: InverseForms, solving: Solving) -> Iterator[tuple[Node | str, ...]]:
+    """A branch a row: formulas that are short, and of the others which of their two is meant."""
+    assert forms.solved is not None
+    for number, branch in enumerate(forms.solved.branches, 1):
+        row: list[Node | str] = [str(number)]
+        for step, index in zip(solving.solved, branch.choice, strict=True):
+            solutions = forms.inverse_formulas.solutions(step)
+            if cost(solutions[index]) <= SHORT:
+                row.append(solutions[index])
+            elif len(solutions) == 1:
+                row.append("as above")
+            else:
+                signs = forms.inverse_formulas.has_signs(step)
+                row.append((("with +", "with -") if signs else ("the first", "the second"))[index])
+        yield tuple(row)
+
+
+def _conditions(forms: InverseForms, task: Node) -> Iterator[Prose]:
+    """Where the branches are solutions, those with the same conditions together."""
+    lines: dict[Conditions, list[str]] = {}
+    for number, when in enumerate(forms.when, 1):
+        lines.setdefault(when, []).append(str(number))
+    for when, numbers in lines.items():
+        if when:
+            which = "Line|Lines {numbers} holds|hold" if len(lines) > 1 else "This|They holds|hold"
+            text = " where {conditions} alone: the joints give {task} no other values."
+            conditions = listed([equation(*one.sides) for one in when])
+            which = agreeing(which, len(numbers))
+            yield say(which + text, numbers=listed(numbers), conditions=conditions, task=task)
+
+
+def _free_coordinates(solving: Solving) -> Iterator[Prose]:
+    sums = [step for step in solving.solved if isinstance(step, Remainder)]
+    bound = [name for name in solving.free if any(name in dict(step.others) for step in sums)]
+    unused = [name for name in solving.free if name not in bound]
+    if bound:
+        yield say("{q} may be anything; the others follow.", q=listed([*map(Symbol, bound)]))
+    if unused:
+        text = agreeing("{q} does|do not change the task, and may be anything.", len(unused))
+        yield say(text, q=listed([*map(Symbol, unused)]))

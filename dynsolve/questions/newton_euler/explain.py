@@ -1,0 +1,576 @@
+"""Steps of the Newton-Euler recursions: outwards the motions, link by link, inwards the forces.
+
+Every vector of link i is written along the axes of frame i, as ω_i^i and r_{ci}^i.  Where the recursions are
+the way to the forces, these follow as components of what the joints hold; of robots of more than three
+coordinates the recursions are then told once for all links.  Spong, Hutchinson, Vidyasagar, section 7.6,
+in the standard convention; Craig, section 6.5, in the modified.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.derivation.kinematics import origin, rotation
+from dynsolve.document import Prose
+from dynsolve.document.sentences import say
+from dynsolve.explain.actions import friction_steps, in_recursions, rotor_moments, spring_steps
+from dynsolve.explain.context import MOST_JOINTS, Context
+from dynsolve.explain.jacobian import ZERO
+from dynsolve.explain.step import Detail, Group, Line, Step
+from dynsolve.explain.terms import driving_row
+from dynsolve.explain.writing import is_small, listed, spong, sum_of, turns
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import (
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Product,
+    Row,
+    Symbol,
+    Transpose,
+    Words,
+    equation,
+    number,
+)
+from dynsolve.quantities import letters
+from dynsolve.questions.newton_euler import recursions
+from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
+from dynsolve.robot.questions import Method
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """What is known of each link; outwards ω, ω̇ and the accelerations; inwards f, n and the forces τ."""
+    robot = context.robot
+    by_method = robot.questions.method is Method.NEWTON_EULER
+    yield _links(context)
+    if by_method and robot.n > MOST_JOINTS:
+        yield from general_steps(context)
+    for joint in robot.joints:
+        group = Group(f"outwards{joint.index}", f"Link {joint.index}, outwards")
+        yield from (replace(step, group=group) for step in _outwards(context, joint))
+    for joint in reversed(robot.joints):
+        group = Group(f"inwards{joint.index}", f"Link {joint.index}, inwards")
+        yield from (replace(step, group=group) for step in _inwards(context, joint))
+    if by_method:
+        yield from (*spring_steps(context), *friction_steps(context))
+        for q in robot.coordinates:
+            yield replace(_torque(context, q), group=Group("tau", "The forces and torques of the motors"))
+        yield _lagrange(context)
+    else:
+        yield from _ends(context)
+
+
+# -- the letters of a link, and the terms of each recursion in them, of one link or of link i ------
+
+
+class Names(Struct, frozen=True):
+    """The letters of a link by its index and that of the frame before it, and of one of its bodies.
+
+    In the `standard` convention the joint lies on the axis of the frame before.
+    """
+
+    i: Node
+    before: Node
+    standard: bool
+    body: Node = letters.COUNT
+
+    @staticmethod
+    def of(robot: Robot, link: int, body: Body | None = None) -> Names:
+        """Those of one link."""
+        before, standard = robot.joints[link - 1].parent, robot.convention is Convention.STANDARD
+        index = letters.COUNT if body is None else letters.index_of(body.name)
+        return Names(Number(link), Number(before), standard, index)
+
+    @staticmethod
+    def general(standard: bool) -> Names:
+        """Those of link i."""
+        return Names(letters.COUNT, letters.BEFORE, standard)
+
+    def __call__(self, text: str, **values: Node) -> Node:
+        """A formula of the link, in which
+
+        - R is R_i^{i-1}, z the joint's axis along the axes of frame i, and r leads from o_{i-1} to o_i, along
+          the axes of frame i, in the modified convention of frame i-1;
+        - rc leads to the mass centre from o_{i-1}, in the modified convention from o_i; ac and I are its
+          acceleration and the tensor about it;
+        - w, dw and a are ω_i^i, ω̇_i^i and a_i^i; w0, dw0 and a0 those of the link before; g is g_0^i.
+        """
+        i, before, k = self.i, self.before, self.body
+        own = {
+            "R": letters.bold("R", i, before),
+            "z": letters.bold("z", before if self.standard else i, i),
+            "r": letters.bold("r", Row((before, Words(","), i)), i if self.standard else before),
+            "rc": letters.bold(
+                "r", Row((*((before, Words(",")) if self.standard else ()), Words("c"), k)), i
+            ),
+            "ac": letters.bold("a", Row((Words("c"), k)), i),
+            "I": letters.bold("I", Row((Words("c"), k)), i),
+            "g": letters.bold("g", Number(0), i),
+        }
+        for name, base, dots in (("w", "omega", 0), ("dw", "omega", 1), ("a", "a", 0)):
+            own[name] = letters.bold(base, i, i, dots)
+            own[f"{name}0"] = letters.bold(base, before, before, dots)
+        return formula(text, i=i, **{**own, **values})
+
+
+Rates = tuple[Node, Node] | None
+"""The first and second rate of a joint's variable; None of a joint that does not move so."""
+
+
+def _angular_velocity(link: Names, spin: Rates) -> list[Node]:
+    """Rᵀ ω_{i-1} + z θ̇_i"""
+    return [link("{R}ᵀ {w0}"), *([link("{z} {rate}", rate=spin[0])] if spin else [])]
+
+
+def _angular_acceleration(link: Names, spin: Rates) -> list[Node]:
+    """Rᵀ ω̇_{i-1} + z θ̈_i + ω_i × z θ̇_i"""
+    own = [link("{z} {rate}", rate=spin[1]), link("{w} × ({z} {rate})", rate=spin[0])] if spin else []
+    return [link("{R}ᵀ {dw0}"), *own]
+
+
+def _turning(link: Names, lever: Node) -> list[Node]:
+    """ω̇ × r + ω × (ω × r)"""
+    return [link("{dw} × {lever}", lever=lever), link("{w} × ({w} × {lever})", lever=lever)]
+
+
+def _acceleration(link: Names, slide: Rates, lever: str = "{r}") -> list[Node]:
+    """The terms of the acceleration a lever away from o_{i-1}; `slide` are ḋ_i and d̈_i.
+
+    The lever turns with link i in the standard convention, with link i-1 in the modified one.
+    """
+    if link.standard:
+        carried = [link("{R}ᵀ {a0}"), *_turning(link, link(lever))]
+    else:
+        carried = [link("{R}ᵀ ({a0} + {dw0} × {r} + {w0} × ({w0} × {r}))")]
+    if slide is None:
+        return carried
+    coriolis = formula("2 {product}", product=link("{w} × ({z} {rate})", rate=slide[0]))
+    return [*carried, coriolis, link("{z} {rate}", rate=slide[1])]
+
+
+def _center_acceleration(link: Names, slide: Rates) -> list[Node]:
+    """The same of a mass centre: from o_{i-1} in the standard convention, else from o_i."""
+    if link.standard:
+        return _acceleration(link, slide, "{rc}")
+    return [link("{a}"), *_turning(link, link("{rc}"))]
+
+
+def _inertial_force(link: Names, mass: Node, is_heavy: bool) -> Node:
+    """m (a_c - g_0), where gravity is a force of its own; else m a_c."""
+    return link("{m} ({ac} - {g})" if is_heavy else "{m} {ac}", m=mass)
+
+
+def _moment_of_next(link: Names, after: Names) -> list[Node]:
+    """R n_{i+1} + r × (R f_{i+1}), r from the point of n_i to that of n_{i+1}."""
+    lever = (link if link.standard else after)("{r}")
+    return [after("{R} 𝐧_{i}^{i}"), after("{lever} × ({R} 𝐟_{i}^{i})", lever=lever)]
+
+
+def _moment_of_body(link: Names, inertial: Node, is_point: bool) -> list[Node]:
+    """r × F + I ω̇ + ω × (I ω), r from the point of n_i to the mass centre; of a point mass r × F."""
+    turned = [] if is_point else [link("{I} {dw}"), link("{w} × ({I} {w})")]
+    return [link("{rc} × ({F})", F=inertial), *turned]
+
+
+# -- the steps: what is known of each link, then a sum of terms each, its parts before it is added up
+
+
+def _sum(context: Context, key: str, title: str, why: Prose, name: Node, parts: Sequence[Part]) -> Step:
+    """A quantity as the sum of its terms; their values where several are not zero."""
+    shown = [
+        equation(term, context.show(value))
+        for term, value in parts
+        if value is not None and not value.is_zero
+    ]
+    zero = "; the others are zero" if len(shown) < len(parts) else ""
+    lines = (Line((f"Its parts{zero}:",), tuple(shown)),) if len(shown) > 1 else ()
+    return Step(
+        id=key,
+        title=title,
+        why=why,
+        formula=equation(name, sum_of([term for term, _ in parts]) if parts else ZERO),
+        source=context.by_convention("7.6", "6.5"),
+        lines=lines,
+        concluding=("Added:",) if lines else (),
+        result=(equation(name, context.form(key)),),
+    )
+
+
+Part = tuple[Node, Matrix | None]
+"""A term of a formula, and its value where that is shown."""
+
+
+def _links(context: Context) -> Step:
+    """R, the levers, the axes, gravity, and the tensors of all links."""
+    general = Names.general(context.standard)
+    base = say(" In place of gravity the base accelerates upwards, which weighs on every link alike.")
+    if context.standard:
+        base = say(" Gravity is turned into each frame too: ${g} = 𝐑_i^0ᵀ 𝐠_0$.", g=general("{g}"))
+    return Step(
+        id="links",
+        title="The links, each in its own frame",
+        why=say(
+            "Every vector of link i is written along the axes of its own frame i, in which the mass centre "
+            "and the tensor are constant. A vector passes from frame i-1 to frame i by the transpose of "
+            "{R}, the rotation in $𝐀_i$.{base}",
+            R=general("{R}"),
+            base=base,
+        ),
+        source=context.by_convention("7.6", "6.5"),
+        result=tuple(known for joint in context.robot.joints for known in _known(context, joint)),
+        listed=True,
+        uses=tuple(f"A{joint.index}" for joint in context.robot.joints),
+    )
+
+
+def _known(context: Context, joint: Joint) -> Iterator[Node]:
+    """The rotation, the lever, the joint's axis, gravity, and the bodies of a link."""
+    robot, link = context.robot, Names.of(context.robot, joint.index)
+    A: Matrix = context.values[f"A{joint.index}"]
+    yield equation(link("{R}"), context.show(rotation(A)))
+    yield equation(link("{r}"), context.show(recursions.lever(A) if context.standard else origin(A)))
+    if joint.type:
+        yield equation(link("{z}"), context.show(recursions.joint_axis(robot, A)))
+    if _is_heavy(context):
+        H: Matrix = context.values[f"H{joint.index}"]
+        yield equation(link("{g}"), context.show(rotation(H).T @ robot.gravity))
+    for body in robot.bodies_on(joint.index):
+        names = Names.of(robot, joint.index, body)
+        center = recursions.start_of_moments(robot, A) + body.center
+        yield equation(names("{rc}"), context.show(center))
+        if not body.is_point:
+            yield equation(names("{I}"), context.show(_tensor(context, body)))
+
+
+def _is_heavy(context: Context) -> bool:
+    """Whether gravity stands in the forces; in the modified convention it stands in the accelerations."""
+    return context.standard and not context.robot.gravity.is_zero
+
+
+def _tensor(context: Context, body: Body) -> Matrix:
+    """The tensor about the mass centre along the axes of the link's frame, 3×3."""
+    H, own = context.values[f"H{body.link}"], context.values[f"I_body{body.name}"]
+    return recursions.tensor_in_link(context.robot, body, H, own)
+
+
+# -- outwards: ω, ω̇ and the acceleration of each frame, from those of the frame before -------------
+
+
+def _outwards(context: Context, joint: Joint) -> Iterator[Step]:
+    """The steps of one link, of what is asked for and what that is derived from."""
+    i = joint.index
+    for name, step in (("wl", _turning_step), ("wdl", _spinning_step), ("al", _origin_step)):
+        if f"{name}{i}" in context.wanted:
+            yield step(context, joint)
+    for body in context.robot.bodies_on(i):
+        if f"acl{body.name}" in context.wanted:
+            yield _center_step(context, joint, body)
+
+
+def _rates(context: Context, joint: Joint, kind: JointType) -> Rates:
+    """The first and second rate of the joint's variable, q̇_1 + q̇_2; None where it is of another kind."""
+    if joint.type is not kind:
+        return None
+    first, second = (
+        [_rated(rate, Symbol(context.robot.coordinates[k].name, dots)) for k, rate in joint.rates]
+        for dots in (1, 2)
+    )
+    is_plain = len(first) == 1 and not isinstance(first[0], Negative)
+    if is_plain:
+        return first[0], second[0]
+    return Parenthesized(sum_of(first)), Parenthesized(sum_of(second))
+
+
+def _rated(rate: Fraction, term: Node) -> Node:
+    """A term times a rate, the sign in front."""
+    if abs(rate) != 1:
+        term = Product((number(abs(rate)), term))
+    return Negative(term) if rate < 0 else term
+
+
+def _turning_step(context: Context, joint: Joint) -> Step:
+    """ω_i, with this robot's matrices where there is anything to work out."""
+    i, link = joint.index, Names.of(context.robot, joint.index)
+    spin = _rates(context, joint, JointType.REVOLUTE)
+    parts = [(term, None) for term in _angular_velocity(link, spin)]
+    why = say("{why}", why=_turning_why(joint))
+    step = _sum(context, f"wl{i}", f"Link {i}, outwards: angular velocity", why, link("{w}"), parts)
+    if not joint.parent:
+        return step
+    A: Matrix = context.values[f"A{i}"]
+    terms = [formula("{R}ᵀ {w}", R=context.show(rotation(A)), w=context.form(f"wl{joint.parent}"))]
+    if spin:
+        terms.append(Product((context.show(recursions.joint_axis(context.robot, A)), spin[0])))
+    working = (equation(link("{w}"), sum_of(terms)),) if is_small(*terms) else ()
+    return replace(step, working=working)
+
+
+def _turning_why(joint: Joint) -> str:
+    i = joint.index
+    if joint.type is JointType.REVOLUTE:
+        if not joint.parent:
+            return "The base does not turn; the link turns about its joint."
+        return f"Link {i} turns with link {joint.parent}, and about its own joint."
+    still = f"link {joint.parent}" if joint.parent else "the base, which does not turn"
+    how = "Its joint slides: the link turns with" if joint.type else "The link is fixed to"
+    return f"{how} {still}."
+
+
+def _spinning_step(context: Context, joint: Joint) -> Step:
+    """ω̇_i"""
+    robot, i, link = context.robot, joint.index, Names.of(context.robot, joint.index)
+    spin = _rates(context, joint, JointType.REVOLUTE)
+    why = "The joint adds nothing; that of the link before is turned into the frame."
+    A: Matrix = context.values[f"A{i}"]
+    values = [rotation(A).T @ _motion_before(context, joint).dw]
+    if spin:
+        first, second = (recursions.joint_rate(robot, joint, A, dots) for dots in (1, 2))
+        values += [second, cross(context.values[f"wl{i}"], first)]
+        why = "The joint's own acceleration, and the turning of its axis with the link."
+    title, terms = f"Link {i}, outwards: angular acceleration", _angular_acceleration(link, spin)
+    return _sum(context, f"wdl{i}", title, (why,), link("{dw}"), list(zip(terms, values, strict=True)))
+
+
+def _motion_before(context: Context, joint: Joint) -> recursions.Motion:
+    """How the frame before moves."""
+    if not joint.parent:
+        return recursions.base_motion(context.robot)
+    return recursions.Motion(*(context.values[f"{stem}{joint.parent}"] for stem in ("wl", "wdl", "al")))
+
+
+def _origin_step(context: Context, joint: Joint) -> Step:
+    """The acceleration of o_i."""
+    i, link = joint.index, Names.of(context.robot, joint.index)
+    terms = _acceleration(link, _rates(context, joint, JointType.PRISMATIC))
+    base: Prose = ()
+    if not joint.parent and context.standard:
+        base = (" The base is at rest.",)
+    elif not joint.parent:
+        x, y, z = map(context.show, recursions.lift(context.robot).entries)
+        base = say(
+            " The base accelerates by ${a} = {lift}$, which stands for gravity.",
+            a=link("{a0}"),
+            lift=Transpose(Parenthesized(Row((x, Words(","), y, Words(","), z)))),
+        )
+    why = say(
+        "What the origin before has, and what the turning adds over the way from there{slide}.{base}",
+        slide="; since the joint slides, also the Coriolis acceleration and its own"
+        if joint.type is JointType.PRISMATIC
+        else "",
+        base=base,
+    )
+    parts = list(zip(terms, _carried(context, joint, None), strict=True))
+    return _sum(context, f"al{i}", f"Link {i}, outwards: acceleration of its origin", why, link("{a}"), parts)
+
+
+def _carried(context: Context, joint: Joint, beyond: Matrix | None) -> tuple[Matrix, ...]:
+    """The values of the terms of an acceleration."""
+    i, values = joint.index, context.values
+    step = recursions.Step(joint, values[f"A{i}"], _motion_before(context, joint))
+    return recursions.acceleration_parts(context.robot, step, values[f"wl{i}"], values[f"wdl{i}"], beyond)
+
+
+def _center_step(context: Context, joint: Joint, body: Body) -> Step:
+    """The acceleration of a mass centre."""
+    link = Names.of(context.robot, joint.index, body)
+    terms = _center_acceleration(link, _rates(context, joint, JointType.PRISMATIC))
+    if context.standard:
+        why = "As for an origin, with the way from the origin before to the mass centre."
+        values = _carried(context, joint, body.center)
+    else:
+        why = "From the origin of the frame to the mass centre, which is fixed in the link."
+        at_origin, w, dw = (context.values[f"{stem}{body.link}"] for stem in ("al", "wl", "wdl"))
+        values = (at_origin, *recursions.turning_parts(w, dw, body.center))
+    title = f"Body {body.name}, outwards: acceleration of its mass centre"
+    parts = list(zip(terms, values, strict=True))
+    return _sum(context, f"acl{body.name}", title, (why,), link("{ac}"), parts)
+
+
+# -- inwards: what each link is held with by the link before, a force and a moment -----------------
+
+
+def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
+    """The steps of one link, of what is asked for and what that is derived from."""
+    i, wanted, follows = joint.index, context.wanted, context.robot.links_after(joint.index)
+    nothing = "" if follows else " No link follows, so nothing is passed on."
+    if f"fl{i}" in wanted:
+        title = f"Link {i}, inwards: the force in its joint"
+        why = say(
+            "Newton's law: what the mass needs{own}{next}.{nothing}"
+            if context.robot.bodies_on(i)
+            else "The link has no mass: it passes on the force that the next link needs.{nothing}",
+            own=" beside its weight" if _is_heavy(context) else "",
+            next=", and what the next link needs" if follows else "",
+            nothing=nothing,
+        )
+        yield _sum(context, f"fl{i}", title, why, letters.in_link("f", i), list(_forces(context, i)))
+    if f"nl{i}" in wanted:
+        title = f"Link {i}, inwards: the moment in its joint"
+        why = say(
+            "Euler's law about the mass centre, and the moments of the forces about {o}.{nothing}",
+            o=letters.o(i - 1 if context.standard else i),
+            nothing=nothing,
+        )
+        yield _sum(context, f"nl{i}", title, why, letters.in_link("n", i), list(_moments(context, i)))
+
+
+def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:
+    """m (a_c - g_0) of a body."""
+    H, acceleration = context.values[f"H{body.link}"], context.values[f"acl{body.name}"]
+    name = _inertial_force(Names.of(context.robot, body.link, body), context.mass(body), _is_heavy(context))
+    return name, recursions.inertial_force(context.robot, body, H, acceleration)
+
+
+def _forces(context: Context, i: int) -> Iterator[Part]:
+    """The terms of f_i, each with its value."""
+    robot, values = context.robot, context.values
+    for j in robot.links_after(i):
+        yield Names.of(robot, j)("{R} 𝐟_{i}^{i}"), rotation(values[f"A{j}"]) @ values[f"fl{j}"]
+    for body in robot.bodies_on(i):
+        yield _inertial(context, body)
+
+
+def _moments(context: Context, i: int) -> Iterator[Part]:
+    """The terms of n_i, each with its value."""
+    robot, values = context.robot, context.values
+    start = recursions.start_of_moments(robot, values[f"A{i}"])
+    for j in robot.links_after(i):
+        A: Matrix = values[f"A{j}"]
+        reach = start if context.standard else origin(A)
+        found = [rotation(A) @ values[f"nl{j}"], cross(reach, rotation(A) @ values[f"fl{j}"])]
+        yield from zip(_moment_of_next(Names.of(robot, i), Names.of(robot, j)), found, strict=True)
+    for body in robot.bodies_on(i):
+        name, inertial = _inertial(context, body)
+        found = [cross(start + body.center, inertial)]
+        if not body.is_point:
+            tensor, w, dw = _tensor(context, body), values[f"wl{i}"], values[f"wdl{i}"]
+            found += [tensor @ dw, cross(w, tensor @ w)]
+        yield from zip(_moment_of_body(Names.of(robot, i, body), name, body.is_point), found, strict=True)
+    yield from rotor_moments(context, i)
+
+
+# -- the forces of the motors ----------------------------------------------------------------------
+
+
+def _ends(context: Context) -> Iterator[Step]:
+    """The forces of the motors as the recursions give them, where what the joints hold is told."""
+    told = [
+        q
+        for q in context.robot.coordinates
+        if all(
+            f"{'nl' if joint.type is JointType.REVOLUTE else 'fl'}{joint.index}" in context.wanted
+            for joint, _ in context.robot.joints_of(q)
+        )
+    ]
+    if told:
+        yield Step(
+            id="tau_held",
+            title="The forces and torques of the motors",
+            why=say(
+                "A motor gives the component of what its joint holds along the joint's axis; the bearings "
+                "hold the others. The result is that of the Euler-Lagrange equations."
+            ),
+            source=context.by_convention("7.6", "6.5"),
+            result=tuple(form for q in told if (form := _torque(context, q).formula) is not None),
+            listed=True,
+            uses=tuple(f"tau{q.index}" for q in told),
+            is_task=False,
+        )
+
+
+def _torque(context: Context, q: Coordinate) -> Step:
+    terms: list[Node] = []
+    for joint, rate in context.robot.joints_of(q):
+        held = letters.in_link("n" if joint.type is JointType.REVOLUTE else "f", joint.index)
+        axis = Names.of(context.robot, joint.index)("{z}")
+        terms.append(_rated(rate, Product((Transpose(held), axis))))
+    kind, what = ("torque", "moment") if turns(q) else ("force", "force")
+    beside, added = in_recursions(context, q)
+    return Step(
+        id=f"tau{q.index}",
+        title=f"Coordinate {q.index}: the {kind}",
+        why=say(
+            "The motor gives the component of the {what} along the axis of the joint; the bearings hold "
+            "the others.{beside}",
+            what=what,
+            beside=beside,
+        ),
+        said="" if beside else f"the {kind} of a motor",
+        formula=equation(driving_row(context, q), sum_of([*terms, *added])),
+        source=context.by_convention("7.6", "6.5"),
+        result=(equation(driving_row(context, q), context.form(f"tau{q.index}")),),
+        detail=Detail.BRIEF,
+    )
+
+
+def _lagrange(context: Context) -> Step:
+    forces = listed([letters.force(q) for q in context.robot.coordinates])
+    why = say("The Euler-Lagrange equations of the same robot give the same {forces}.", forces=forces)
+    return Step(
+        id="lagrange",
+        title="The same by the Lagrangian",
+        why=why,
+        outcome=why,
+        detail=Detail.FULL,
+        source=spong("7.6"),
+        uses=tuple(f"tau{q.index}" for q in context.robot.coordinates),
+        is_task=False,
+    )
+
+
+# -- the recursions said once for all links, of arms of which nobody reads them link by link -------
+
+
+def general_steps(context: Context) -> Iterator[Step]:
+    """Outwards for each kind of joint, then inwards, link i standing for all."""
+    link = Names.general(context.standard)
+    for kind, name in ((JointType.REVOLUTE, "revolute"), (JointType.PRISMATIC, "prismatic")):
+        if any(joint.type is kind for joint in context.robot.joints):
+            variable = "theta" if kind is JointType.REVOLUTE else "d"
+            rates = Letter(variable, letters.COUNT, dots=1), Letter(variable, letters.COUNT, dots=2)
+            spin, slide = (rates, None) if kind is JointType.REVOLUTE else (None, rates)
+            yield _general(
+                context,
+                f"outwards_{name}",
+                f"Outwards over a {name} joint",
+                "From the first link to the last, the motion of each follows from that of the one before.",
+                {
+                    "{w}": _angular_velocity(link, spin),
+                    "{dw}": _angular_acceleration(link, spin),
+                    "{a}": _acceleration(link, slide),
+                    "{ac}": _center_acceleration(link, slide),
+                },
+            )
+    after = Names(letters.AFTER, letters.COUNT, context.standard)
+    inertial = _inertial_force(link, formula("m_i"), _is_heavy(context))
+    yield _general(
+        context,
+        "inwards",
+        "Inwards: the forces and moments in the joints",
+        "From the last link, which holds nothing, to the first: Newton's law and Euler's for each link.",
+        {
+            "𝐟_{i}^{i}": [after("{R} 𝐟_{i}^{i}"), inertial],
+            "𝐧_{i}^{i}": [*_moment_of_next(link, after), *_moment_of_body(link, inertial, is_point=False)],
+        },
+    )
+
+
+def _general(context: Context, key: str, title: str, why: str, sums: dict[str, list[Node]]) -> Step:
+    """Recursions of link i, each the sum of its terms."""
+    link = Names.general(context.standard)
+    return Step(
+        id=key,
+        title=title,
+        why=(why,),
+        source=context.by_convention("7.6", "6.5"),
+        result=tuple(equation(link(name), sum_of(terms)) for name, terms in sums.items()),
+        listed=True,
+        uses=("links",),
+    )

@@ -1,0 +1,68 @@
+"""The equations of motion, linear in the parameters: τ = Y a."""
+
+from __future__ import annotations
+
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, of_robot
+from dynsolve.quantities.stages import Stage
+
+A = Family(
+    name="a",
+    stage=Stage.PARAMETERS,
+    shape=("any", 1),
+    letter=of_robot(letters.PARAMETERS),
+    spellings=("pi", "avec"),
+)
+
+
+Y = Family(
+    name="Y",
+    stage=Stage.PARAMETERS,
+    shape=("n", "any"),
+    letter=of_robot(letters.REGRESSOR),
+    spellings=("W",),
+)
+
+
+A_INERTIA = Family(
+    name="aM", stage=Stage.PARAMETERS, shape=("any", 1), letter=of_robot(letters.of_part("a", "M"))
+)
+
+
+Y_INERTIA = Family(
+    name="YM", stage=Stage.PARAMETERS, shape=("n", "any"), letter=of_robot(letters.of_part("Y", "M"))
+)
+
+
+A_GRAVITY = Family(
+    name="ag", stage=Stage.PARAMETERS, shape=("any", 1), letter=of_robot(letters.of_part("a", "g"))
+)
+
+
+Y_GRAVITY = Family(
+    name="Yg", stage=Stage.PARAMETERS, shape=("n", "any"), letter=of_robot(letters.of_part("Y", "g"))
+)
+
+
+Y_REFERENCE = Family(
+    name="Yr",
+    stage=Stage.PARAMETERS,
+    shape=("n", "any"),
+    letter=of_robot(letters.of_part("Y", "r")),
+    needs="references",
+)
+
+
+PARAMETERS = {Y.name: A.name, Y_INERTIA.name: A_INERTIA.name, Y_GRAVITY.name: A_GRAVITY.name}
+"""The parameters that each regressor belongs to, by name."""
+
+
+REFERENCE = Y_REFERENCE.name
+"""The regressor with reference rates, which belongs to the parameters of all forces."""
+
+
+REGRESSORS = {a: Y for Y, a in PARAMETERS.items()}
+"""The regressor that each column of parameters belongs to, by name."""
+
+FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
+"""The records above, in their order."""

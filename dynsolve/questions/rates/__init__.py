@@ -1,0 +1,58 @@
+"""Joint rates and accelerations for those of the task, and what the joints and the task can do."""
+
+from __future__ import annotations
+
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, Kind, of_robot
+from dynsolve.quantities.stages import Stage
+
+QD = Family(
+    name="qd",
+    stage=Stage.RATES,
+    shape=("n", 1),
+    letter=of_robot(letters.QD),
+    spellings=("qdot", "dq"),
+    needs="velocity",
+)
+
+
+QDD = Family(
+    name="qdd",
+    stage=Stage.RATES,
+    shape=("n", 1),
+    letter=of_robot(letters.QDD),
+    spellings=("qddot", "ddq"),
+    needs="acceleration",
+)
+
+
+NULLSPACE = Family(
+    name="nullspace",
+    stage=Stage.RATES,
+    kind=Kind.SPAN,
+    shape=("n", "any"),
+    letter=of_robot(letters.NULLSPACE),
+    spellings=("N", "null", "kernel", "ker"),
+)
+
+
+RANGESPACE = Family(
+    name="rangespace",
+    stage=Stage.RATES,
+    kind=Kind.SPAN,
+    shape=("m", "any"),
+    letter=of_robot(letters.RANGESPACE),
+    spellings=("range", "image", "R"),
+)
+
+
+LOST = Family(
+    name="lost",
+    stage=Stage.RATES,
+    kind=Kind.SPAN,
+    shape=("m", "any"),
+    letter=of_robot(letters.LOST),
+)
+
+FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
+"""The records above, in their order."""

@@ -1,0 +1,234 @@
+"""Steps of the singular configurations: what vanishes, taken apart, and each alternative."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from msgspec.structs import replace
+
+from dynsolve.derivation.singular.sets import SingularSet
+from dynsolve.document import Prose
+from dynsolve.document.figures import ArmArrow, ArmFigure
+from dynsolve.document.sentences import say
+from dynsolve.explain.context import Context
+from dynsolve.explain.set_forms import vanishing
+from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
+from dynsolve.explain.working.identities import SILENT
+from dynsolve.explain.writing import agreeing, listed, spong
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, equation
+from dynsolve.quantities import letters
+from dynsolve.questions.singular.forms import SingularForms
+from dynsolve.questions.task.explain import determinant_way
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import TIP
+
+_LOST = spong("4.10")
+
+_TITLE = "The singular configurations"
+_SETS = Group("singular", _TITLE)
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """The minors of the Jacobian as products, and where all of them are 0."""
+    if "singular" not in context.wanted:
+        return
+    forms = SingularForms(context.robot, context.values)
+    found = forms.singular_set
+    if found is None:
+        why = "The Jacobian and its minors are too long to be taken apart into factors. "
+        yield not_derived("singular", why + "At given values of q its rank shows whether the arm is singular")
+        return
+    yield replace(_rank(context, forms, found), group=_SETS)
+    yield replace(_alternatives(forms, found), group=_SETS, normal=NOTED)
+    lost = Group("singular_lost", "What is lost", (), _in_general(context), _LOST)
+    for case in range(len(found.losses)):
+        yield replace(_loss(context, forms, found, case), group=lost if all(forms.lost) else None)
+
+
+def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
+    """The minors of J, or of what is left of it where rows and columns are cleared, as products."""
+    name, J, size = _matrix(context), _letter(context), found.rank - found.pivots
+    rows, columns = context.values[name].shape
+    minors = [forms.product(minor) for minor in found.minors]
+    results = tuple(formula("minor {k} = {minor}", k=k, minor=minor) for k, minor in enumerate(minors, 1))
+    working: tuple[Node, ...] = ()
+    way = SILENT
+    text = "${J}$ is {rows}×{columns}, and its rank is {rank} almost everywhere. "
+    if found.core is not None:
+        text += (
+            "Its rows may be turned among each other, as by other axes, and multiples of rows and columns "
+            "added to others: that leaves the rank as it is. Where an entry is never 0, its row and column "
+            "can so be cleared and count 1. "
+        )
+        if size:
+            text += "The rank of ${J}$ is {more} that of this matrix. It is less where {of_all}"
+            working = (forms.matrix(found.core),)
+        else:
+            text += "{pivots} rows and columns are cleared so, and only zeros, or nothing, are left."
+    elif rows == columns == found.rank:
+        text = "${J}$ is square: it has an inverse unless its determinant is 0."
+        results = (formula("det {J} = {minor}", J=J, minor=minors[0]),)
+        if "det" not in context.wanted:
+            way = determinant_way(context, formula("det {J}", J=J), context.values[name], minors[0])
+    else:
+        text += "It is less where {of_all}"
+    return Step(
+        id="singular_minors",
+        title="What must vanish",
+        why=say(
+            text,
+            J=J,
+            rows=rows,
+            columns=columns,
+            rank=found.rank,
+            pivots=found.pivots,
+            more=f"{found.pivots} more than" if found.pivots else "as great as",
+            of_all=f"the determinants of all its parts of {size} rows and columns are 0."
+            if size > 1
+            else "all its entries are 0.",
+        ),
+        source=spong("4.9"),
+        working=working,
+        lines=way.lines,
+        concluding=way.concluding,
+        result=results,
+        listed=len(results) > 1,
+        normal=TOLD & ~Part.RESULT if len(results) == 1 and "det" in context.wanted else TOLD,
+        uses=(name,),
+    )
+
+
+def _alternatives(forms: SingularForms, found: SingularSet) -> Step:
+    cases = forms.singular
+    none = ", as no factor of the minors becomes 0" if found.rank > found.pivots else ""
+    step = Step(
+        id="singular",
+        title="No singular configuration",
+        why=(f"The rank is {found.rank} in every configuration{none}.",),
+        detail=Detail.BRIEF,
+        hint=("A product is 0 where one of its factors is. Constant lengths are not 0.",),
+        hint_title=_TITLE,
+    )
+    if not cases:
+        return step
+    at_once = ", and all the minors have to be 0 at once" if len(found.minors) > 1 else ""
+    product = f"A product is 0 where one of its factors is{at_once}."
+    one = f"{product} Constant lengths are not 0, so one case is left."
+    several = (
+        "A product is 0 where one of its factors is; each of these cases is enough. "
+        "Constant lengths are not 0."
+    )
+    return replace(
+        step,
+        title=_TITLE,
+        why=(one if len(cases) == 1 else several,),
+        result=tuple(map(vanishing, cases)),
+        notes=tuple(forms.existence("singular", found.exist)),
+        uses=("singular_minors",),
+    )
+
+
+def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int) -> Step:
+    """The rank at one of the alternatives, the matrix there, and what is lost."""
+    loss, lost, J = found.losses[case], forms.lost[case], _letter(context)
+    several = [formula("𝐰_{k}", k=k) for k in range(1, len(lost) + 1)]
+    names = [formula("𝐰")] if len(lost) == 1 else several
+    told: Prose = ()
+    if lost and not any(forms.lost[:case]):
+        task = context.robot.questions.task
+        is_force = _matrix(context) != "J" and (task is None or task.is_default)
+        told = say(
+            " Every velocity that the joints can give is orthogonal to {w}: {lost} lost. A force"
+            "{moment} along {it} no torque of the joints.",
+            w=listed(names),
+            lost="that motion is" if len(names) == 1 else "these motions are",
+            moment="" if is_force else " and a moment",
+            it=f"{'it' if len(names) == 1 else 'them'} {'needs' if is_force else 'need'}",
+        )
+    if not loss.are_independent:
+        told += say(
+            " In general {w} are independent." if len(names) > 1 else " In general {w} is not 0.",
+            w=listed(names),
+        )
+    exact = all(condition.keeps_values for condition in found.alternatives[case])
+    what = "What is lost" if lost else "The rank"
+    return Step(
+        id=f"singular_{case + 1}",
+        title=f"{what} in case {case + 1}" if len(found.losses) > 1 else f"{what} there",
+        why=say(
+            "Where {these}, the rank is {general}{rank} instead of {most}.{told}",
+            these=vanishing(forms.singular[case]),
+            general="" if loss.rank_holds else "in general ",
+            rank=loss.rank,
+            most=found.rank,
+            told=told,
+        ),
+        formula=_in_general(context) if lost else None,
+        source=_LOST if lost else "",
+        working=(equation(J, forms.matrix(loss.jacobian)),) if lost and exact else (),
+        result=tuple(equation(name, value) for name, value in zip(names, lost, strict=True)),
+        figure=_figure(context.robot, _matrix(context), forms.singular[case], names, lost),
+        uses=(_matrix(context), f"singular#{case + 1}"),
+        hint=(
+            "In each case: how great is the rank, and which w is orthogonal to every velocity that the "
+            "joints can give?",
+        ),
+        hint_title="What is lost there",
+        task=_in_general(context),
+        is_task=case == 0,
+    )
+
+
+def _in_general(context: Context) -> Node:
+    J, w = _letter(context), letters.bold("w")
+    still, unloaded = Row((Transpose(w), J)), Row((Transpose(J), w))
+    return formula("{still} = 𝟎 ⇒ 𝛕 = {unloaded} = 𝟎", still=still, unloaded=unloaded)
+
+
+def _letter(context: Context) -> Node:
+    """J of the whole arm, or of the task."""
+    return letters.J if _matrix(context) == "J" else letters.J_TASK
+
+
+def _matrix(context: Context) -> str:
+    return context.values.rules["singular"].inputs[0]
+
+
+# -- the arm there, and the directions that are lost at its tip -------------------------------------
+
+MOST_ARROWS = 3
+
+
+def _figure(
+    robot: Robot, matrix: str, zeros: Sequence[Node], names: Sequence[Node], lost: Sequence[Matrix]
+) -> ArmFigure | None:
+    """The arm where the conditions hold; None without links, or where no motion of the tip is lost.
+
+    `matrix` is the Jacobian that loses rank, `lost` the columns w with wᵀ J = 0; a row of it is a velocity of
+    the tip along one of the `axes` of the world, or something else.
+    """
+    if not robot.has_table:
+        return None
+    task = robot.questions.task
+    axes: tuple[int | None, ...] = (0, 1, 2, None, None, None)
+    if matrix != "J" and task is not None and not task.is_twist:
+        entries = [e if isinstance(e, Reference) and e.quantity == TIP else None for e in task.entries]
+        axes = tuple(entry.row - 1 if entry and entry.row is not None else None for entry in entries)
+    motions = [(name, _motion(w, axes)) for name, w in zip(names, lost, strict=True)]
+    arrows = tuple(ArmArrow(name, direction) for name, direction in motions if direction is not None)
+    if not arrows or len(arrows) > MOST_ARROWS:
+        return None
+    those = agreeing("the arrow|arrows", len(arrows))
+    return ArmFigure(f"The arm in this case: its tip cannot move along {those}.", tuple(zeros), arrows)
+
+
+def _motion(w: Matrix, axes: Sequence[int | None]) -> tuple[Node, Node, Node] | None:
+    """A lost direction as a motion of the tip; None where something else takes part in it."""
+    found: list[Node] = [ZERO, ZERO, ZERO]
+    for (component,), axis in zip(w.rows, axes, strict=True):
+        if axis is not None:
+            found[axis] = component
+        elif component != ZERO:
+            return None
+    return (found[0], found[1], found[2]) if any(part != ZERO for part in found) else None

@@ -1,0 +1,70 @@
+"""Forces from outside, and the torques that hold them."""
+
+from __future__ import annotations
+
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, Owner, of_robot
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.units import ENERGY
+
+LOAD = Family(
+    name="load{i}",
+    owner=Owner.LOAD,
+    stage=Stage.STATICS,
+    shape=("n", 1),
+    letter=lambda robot, i: letters.of_load(i),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    is_answer=False,
+)
+
+
+Q = Family(
+    name="Q",
+    stage=Stage.STATICS,
+    shape=("n", 1),
+    letter=of_robot(letters.Q_FORCES),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    dimension_is_told=False,
+    spellings=("Qext", "tauext"),
+)
+
+
+TAU_STATIC = Family(
+    name="tau_static",
+    stage=Stage.STATICS,
+    shape=("n", 1),
+    letter=of_robot(letters.TAU_STATIC),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    dimension_is_told=False,
+    spellings=("taus", "taust", "tau0", "tau"),
+)
+
+
+Q_ENTRY = Family(
+    name="Q{i}",
+    rule="Q",
+    owner=Owner.COORDINATE,
+    stage=Stage.STATICS,
+    letter=lambda robot, i: letters.entry("Q", i),
+    part_of="Q",
+)
+
+
+TAU_STATIC_ENTRY = Family(
+    name="tau_static{i}",
+    rule="tau_static",
+    owner=Owner.COORDINATE,
+    stage=Stage.STATICS,
+    letter=letters.static_torque,
+    spellings=("taus{i}", "tau{i}", "tau{q}", "{force}"),
+    part_of="tau_static",
+)
+
+FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
+"""The records above, in their order."""

@@ -1,0 +1,120 @@
+"""Steps of the forces from outside: Q of each, their sum, and the torques that hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from dynsolve.derivation.kinematics import frame_names
+from dynsolve.document import Prose
+from dynsolve.document.sentences import say
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import NOTED, Detail, Group, Step
+from dynsolve.explain.writing import is_small, spong, sum_of
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Node, Number, equation
+from dynsolve.quantities import letters
+from dynsolve.questions.rates.explain import state_prose
+from dynsolve.questions.statics import derive as statics
+from dynsolve.questions.statics.derive import jacobians
+from dynsolve.robot.questions import TIP, Load
+
+HELD = Group("Q", "The sum, and the torques that hold it")
+
+
+_FORCES = spong("4.10")
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """Force by force what it does to the joints, the sum, and what holds it at rest."""
+    wanted = context.wanted
+    for index, load in enumerate(context.robot.questions.loads, 1):
+        if f"load{index}" in wanted:
+            yield _load(context, index, load)
+    if "Q" in wanted:
+        yield replace(_total(context), group=HELD)
+    if "tau_static" in wanted:
+        yield replace(_holding(context), group=HELD)
+
+
+def _load(context: Context, index: int, load: Load) -> Step:
+    """Q_F = J_vᵀ F + J_ωᵀ M, of which one may be absent, from the power Fᵀ v + Mᵀ ω."""
+    frames = tuple(context.values[name] for name in frame_names(load.link))
+    wrench, of_point = statics.wrench(load, frames[load.link]), jacobians(context.robot, load, frames)
+    parts = []
+    for letter, velocity, value, jacobian in zip("FM", ("v", "omega"), wrench, of_point, strict=True):
+        J = letters.JV if velocity == "v" else letters.JW
+        if load.point and load.point != TIP:
+            J = letters.j_of_point(velocity, load.point)
+        parts.append((letters.bold(letter, Number(index)), letters.bold(velocity), J, value, jacobian))
+    if load.moment.is_zero:
+        del parts[1]
+    elif load.force.is_zero:
+        del parts[0]
+    Q, working, put_in = letters.of_load(index), list[Node](), list[Node]()
+    for F, _, J, value, jacobian in parts:
+        if not value.is_zero:
+            put_in += [context.show(jacobian), context.show(value)]
+            working += [equation(F, put_in[-1]), *([] if load.point else [equation(J, put_in[-2])])]
+    if put_in and is_small(*put_in):
+        pairs = zip(put_in[::2], put_in[1::2], strict=True)
+        working.append(equation(Q, sum_of([formula("{J}ᵀ {F}", J=J, F=F) for J, F in pairs])))
+    notes: tuple[Prose, ...] = ()
+    if load.by_robot:
+        notes = (("The robot exerts it, so what acts on the robot is its opposite.",),)
+    if load.axes is not None:
+        notes += (("It is given along axes of its link, and turned into the world.",),)
+    return Step(
+        id=f"load{index}",
+        title=f"What force {index} does to the joints",
+        why=say(
+            "In every motion its power is {power}, and that of its generalized forces ${Q}ᵀ 𝐪̇$: so the "
+            "transpose of the Jacobian of {where} gives its effect on the joints.",
+            power=sum_of([formula("{F}ᵀ {v}", F=F, v=v) for F, v, *_ in parts]),
+            Q=Q,
+            where="the tip" if load.point == TIP else load.point or "its point",
+        ),
+        formula=equation(Q, sum_of([formula("{J}ᵀ {F}", J=J, F=F) for F, _, J, *_ in parts])),
+        source=_FORCES,
+        working=tuple(working),
+        result=(equation(Q, context.form(f"load{index}")),),
+        notes=notes,
+        normal=NOTED,
+    )
+
+
+def _total(context: Context) -> Step:
+    numbers = range(1, len(context.robot.questions.loads) + 1)
+    general = statics.total(context.robot, tuple(context.values[f"load{i}"] for i in numbers))
+    at, several = state_prose(context), len(numbers) > 1
+    return Step(
+        id="Q",
+        title="The generalized forces from outside",
+        why=("The sum over the forces. " if several else "There is only one force. ", *at),
+        formula=equation(letters.Q_FORCES, sum_of([*map(letters.of_load, numbers)])),
+        source=_FORCES,
+        working=(equation(letters.Q_FORCES, context.show(general)),) if at and several else (),
+        result=(equation(letters.Q_FORCES, context.form("Q")),),
+        detail=Detail.BRIEF,
+    )
+
+
+def _holding(context: Context) -> Step:
+    heavy = bool(context.robot.bodies) and not context.robot.gravity.is_zero
+    g = context.form("g") if heavy else None
+    return Step(
+        id="tau_static",
+        title="The torques that hold it at rest",
+        why=say(
+            "At rest{free} only {left} left in the equations of motion. {at}",
+            free="" if heavy else ", and without gravity,",
+            left="gravity and these forces are" if heavy else "these forces are",
+            at=state_prose(context),
+        ),
+        formula=formula("𝛕_static = 𝐠 - 𝐐" if heavy else "𝛕_static = -𝐐"),
+        source=_FORCES,
+        working=(equation(letters.G, g),) if g is not None and is_small(g) else (),
+        result=(equation(letters.TAU_STATIC, context.form("tau_static")),),
+        detail=Detail.BRIEF,
+    )

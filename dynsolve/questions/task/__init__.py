@@ -1,0 +1,135 @@
+"""Points by name, a task r(q), its Jacobian, and how Jacobians change in time."""
+
+from __future__ import annotations
+
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, Owner, of_point, of_robot
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.units import LENGTH, NONE, PER_SECOND, VELOCITY
+
+P_POINT = Family(
+    name="p{p}",
+    owner=Owner.POINT,
+    stage=Stage.TASK,
+    shape=(3, 1),
+    letter=of_point(lambda point: letters.of_point("p", point.name)),
+    dimension=LENGTH,
+    spellings=("r{p}", "o{p}"),
+)
+
+
+JV_POINT = Family(
+    name="Jv{p}",
+    owner=Owner.POINT,
+    stage=Stage.TASK,
+    shape=(3, "n"),
+    letter=of_point(lambda point: letters.j_of_point("v", point.name, point.axes)),
+    dimension=LENGTH,
+    per=("column",),
+    dimension_is_told=False,
+    spellings=("J{p}",),
+)
+
+
+JW_POINT = Family(
+    name="Jw{p}",
+    owner=Owner.POINT,
+    stage=Stage.TASK,
+    shape=(3, "n"),
+    letter=of_point(lambda point: letters.j_of_point("omega", point.name, point.axes)),
+    dimension=NONE,
+    dimension_is_told=False,
+    spellings=("Jomega{p}",),
+)
+
+
+V_POINT = Family(
+    name="v{p}",
+    owner=Owner.POINT,
+    stage=Stage.TASK,
+    shape=(3, 1),
+    letter=of_point(lambda point: letters.of_point("v", point.name, point.axes)),
+    dimension=VELOCITY,
+    spellings=("p{p}dot", "r{p}dot", "o{p}dot"),
+)
+
+
+JV_DOT = Family(
+    name="Jv_dot",
+    stage=Stage.TASK,
+    shape=(3, "n"),
+    letter=of_robot(letters.rate(letters.JV)),
+    dimension=VELOCITY,
+    per=("column",),
+    dimension_is_told=False,
+    spellings=("dJv",),
+    part_of="J_dot",
+)
+
+
+JW_DOT = Family(
+    name="Jw_dot",
+    stage=Stage.TASK,
+    shape=(3, "n"),
+    letter=of_robot(letters.rate(letters.JW)),
+    dimension=PER_SECOND,
+    dimension_is_told=False,
+    spellings=("Jomegadot", "dJw"),
+    part_of="J_dot",
+)
+
+
+J_DOT = Family(
+    name="J_dot",
+    stage=Stage.TASK,
+    shape=(6, "n"),
+    letter=of_robot(letters.rate(letters.J)),
+    spellings=("dJ",),
+)
+
+
+R = Family(
+    name="r",
+    stage=Stage.TASK,
+    shape=("m", 1),
+    letter=of_robot(letters.TASK),
+    spellings=("p", "pe", "ptip"),
+    needs="function",
+)
+
+
+R_ENTRY = Family(
+    name="r{i}",
+    rule="r",
+    owner=Owner.TASK,
+    stage=Stage.TASK,
+    letter=lambda robot, i: letters.entry("r", i),
+    spellings=("{name}",),
+    part_of="r",
+    needs="function",
+)
+
+
+JR = Family(
+    name="Jr", stage=Stage.TASK, shape=("m", "n"), letter=of_robot(letters.J_TASK), spellings=("J", "Ja")
+)
+
+
+JR_DOT = Family(
+    name="Jr_dot",
+    stage=Stage.TASK,
+    shape=("m", "n"),
+    letter=of_robot(letters.rate(letters.J_TASK)),
+    spellings=("dJr", "Jdot", "dJ"),
+)
+
+
+DET = Family(
+    name="det",
+    stage=Stage.TASK,
+    letter=of_robot(letters.DET),
+    spellings=("detJ", "detJr", "detJJT", "Delta"),
+)
+
+FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
+"""The records above, in their order."""

@@ -1,0 +1,66 @@
+"""The inertia that a force at the task meets: Λ = (J_r D⁻¹ J_rᵀ)⁻¹ (Khatib 1987)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.linear_systems import FractionMatrix, part, quotient
+from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.derivation.graph import Rule, Skipped
+from dynsolve.questions.equilibria.linearization import MOST_PRODUCTS, TOO_LARGE
+from dynsolve.questions.forward_dynamics.derive import SINGULAR as SINGULAR_INERTIA
+from dynsolve.robot.model import Robot
+
+_Indices = tuple[int, ...]
+
+
+RANK = "the Jacobian of the task has dependent rows"
+
+
+def rules(robot: Robot) -> Iterator[Rule]:
+    """Λ, of a robot with masses and a table."""
+    if robot.has_dynamics and robot.has_table:
+        yield Rule("Lambda", ("Jr", "D"), task_inertia)
+
+
+def task_inertia(jacobian: Matrix, D: Matrix) -> Matrix | FractionMatrix | Skipped:
+    """Λ, m×m, for a Jacobian J_r (m×n) of full row rank."""
+    m, n = jacobian.shape
+    if m > n:
+        return Skipped(RANK)
+    if work(D) > MOST_PRODUCTS or work(jacobian @ jacobian.T) > MOST_PRODUCTS:
+        return Skipped(TOO_LARGE)
+    if determinant(D).is_zero:
+        return Skipped(SINGULAR_INERTIA)
+    every = tuple(range(m))
+    size = _sum(jacobian, D, every, every)
+    if size.is_zero:
+        return Skipped(RANK)
+
+    def entry(i: int, j: int) -> Expr:
+        value = _sum(jacobian, D, tuple(k for k in every if k != j), tuple(k for k in every if k != i))
+        return value if (i + j) % 2 == 0 else -value
+
+    return quotient(Matrix.of(D.ring, ([entry(i, j) for j in every] for i in every)), size)
+
+
+def _sum(jacobian: Matrix, D: Matrix, A: _Indices, B: _Indices) -> Expr:
+    """S(A, B)"""
+    columns = tuple(range(len(D.rows)))
+    total = D.ring.zero
+    for across in combinations(columns, len(A)):
+        left = determinant(part(jacobian, A, across))
+        for other in () if left.is_zero else combinations(columns, len(B)):
+            right = determinant(part(jacobian, B, other))
+            if not right.is_zero:
+                term = (
+                    left * determinant(part(D, _without(columns, other), _without(columns, across))) * right
+                )
+                total += term if (sum(across) + sum(other)) % 2 == 0 else -term
+    return total
+
+
+def _without(every: _Indices, some: _Indices) -> _Indices:
+    return tuple(k for k in every if k not in some)

@@ -1,0 +1,45 @@
+"""The step of Λ, the inertia that a force at the task meets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dynsolve.algebra.matrix import determinant
+from dynsolve.derivation.graph import Skipped
+from dynsolve.document.sentences import say
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Detail, Step, not_derived
+from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Negative, Number, Power, equation
+from dynsolve.quantities import letters
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """Λ, where it is asked for."""
+    if "Lambda" not in context.wanted:
+        return
+    value = context.values["Lambda"]
+    if isinstance(value, Skipped):
+        yield not_derived("Lambda", value.why)
+        return
+    rows, columns = context.values["Jr"].shape
+    size = context.show(determinant(context.values["D"]))
+    transposed = Power(letters.J_TASK, as_row((Negative(Number(1)), "T")))
+    square = " = {transposed} 𝐃 𝐉_r⁻¹" if rows == columns else ""
+    yield Step(
+        id="Lambda",
+        title="The inertia matrix of the task",
+        why=say(
+            "A force $𝐅$ at the task acts on the joints as $𝐉_rᵀ 𝐅$, $𝐃⁻¹$ makes accelerations of that, and "
+            "$𝐉_r$ the acceleration of the task. The matrix between force and acceleration, inverted, is the "
+            "inertia. {square}",
+            square="The Jacobian is square, and has an inverse itself." if rows == columns else "",
+        ),
+        formula=formula(f"𝚲 = (𝐉_r 𝐃⁻¹ 𝐉_rᵀ)⁻¹{square}", transposed=transposed),
+        source=LYNCH_PARK.section("8.6"),
+        working=(formula("det 𝐃 = {size}", size=size),) if is_small(size) else (),
+        result=(equation(letters.TASK_INERTIA, context.form("Lambda")),),
+        notes=(("It exists where the rows of the Jacobian are independent.",),),
+        detail=Detail.BRIEF,
+    )

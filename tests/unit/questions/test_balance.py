@@ -1,0 +1,82 @@
+"""Parameters that balance gravity: by hand, judged in other forms, and held in numbers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import ProblemError, VerificationError
+from dynsolve.explain.forms import Forms
+from dynsolve.problem import read_problem
+from dynsolve.questions.equilibria.check import verify_balance
+from dynsolve.questions.equilibria.forms import EquilibriaForms
+
+ARM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: {near: [d1, 0, 0]}}
+  - {mass: m2, link: 2, center: {near: [d2, 0, 0]}}
+find: [balance]
+"""
+FRACTIONS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1, center: {along: dc1}}, {mass: m2, link: 2, center: {along: dc2}}]
+find: [balance]
+"""
+RIGID = ARM.replace("[d1, 0, 0]", "[l1/2, 0, 0]")
+
+
+@pytest.mark.parametrize(
+    ("problem", "conditions"),
+    [
+        (ARM, {"d2 = 0", "m1*d1 + m2*l1 = 0"}),
+        (ARM.replace("[0, -g, 0]", "[0, 0, -g]"), set()),
+        (FRACTIONS, {"dc2 = 0", "m1*dc1 + m2 = 0"}),
+        (RIGID, {"d2 = 0", "l1 = 0"}),
+        (ARM.replace("find:", "balance: {g: [m1*g*d1*cos(q1), 0]}\nfind:"), {"d2 = 0", "l1 = 0"}),
+    ],
+)
+def test_by_hand(problem: str, conditions: set[str]) -> None:
+    assert set(dynsolve.solve(problem).to_json()["results"]["balance"]) == conditions
+
+
+@pytest.mark.parametrize(
+    ("problem", "written", "code"),
+    [
+        (FRACTIONS, "[dc2 = 0, m1*dc1 + m2 = 0]", ""),
+        (FRACTIONS, "[l2*dc2 = 0, l1*(m1*dc1 + m2) = 0]", ""),
+        (FRACTIONS, "[l2 = 0, m1*dc1 + m2 = 0]", "condition_too_much"),
+        (RIGID, "[d2 = 0, l1 = 0]", ""),
+        (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0"]', ""),
+        (ARM, '["m2*d2 = 0 and d1 = -m2*l1/m1"]', ""),
+        (ARM, "[d2 = 0]", "not_balanced"),
+        (ARM, "[d2^2 + 1 = 0]", "balance_never_holds"),
+        (ARM, "[d2 = 0, d1 = 0]", "not_balanced"),
+        (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0", "l2 = 1"]', "condition_too_much"),
+    ],
+)
+def test_verdicts(problem: str, written: str, code: str, tmp_path: Path) -> None:
+    (tmp_path / "problem.yaml").write_text(problem, encoding="utf-8")
+    (tmp_path / "answer.yaml").write_text(f"answers:\n  balance: {written}\n", encoding="utf-8")
+    (found,) = dynsolve.check(tmp_path / "problem.yaml", tmp_path / "answer.yaml").answers
+    assert [one.code for one in found.diagnosis] == ([code] if code else [])
+    assert str(found.verdict) == ("wrong" if code else "correct")
+
+
+def test_the_check_finds_a_condition_that_is_missing() -> None:
+    robot = read_problem(ARM).robot
+    values = derive(robot)
+    g, conditions = Forms(robot, values)("g"), EquilibriaForms(robot, values).balance
+    verify_balance(robot, g, conditions)
+    with pytest.raises(VerificationError):
+        verify_balance(robot, g, conditions[:1])
+
+
+def test_the_wanted_g_has_an_entry_for_each_coordinate() -> None:
+    with pytest.raises(ProblemError, match="1 entries, for 2 coordinates"):
+        read_problem(ARM.replace("find:", "balance: {g: [0]}\nfind:"))

@@ -1,0 +1,105 @@
+"""Constraints: what is refused, dependent ones, what acts beside them, and that a wrong result is found."""
+
+from __future__ import annotations
+
+import unicodedata
+
+import pytest
+
+import dynsolve
+from dynsolve.errors import ProblemError, VerificationError
+from dynsolve.notation.tree import Matrix, Negative
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.questions.constraints.check import verify_constraints
+from tests.support import numbers
+
+ELBOW = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+"""
+EVERYTHING = """
+friction: {q1: fv}
+springs: [{stiffness: k, of: q2}]
+passive: [q2]
+forces: [{link: 2, at: tip, force: [F, 0, 0]}]
+points: {P: {link: 1, at: tip}}
+constraints: [tip.y + P.x, {rates: q1' - cos(q2)*q2'}]
+find: [Ac, Ac_dot, lambda]
+"""
+LINE = "constraints: [tip.x - k]\nfind: [Ac, Ac_dot, lambda]\n"
+
+
+def test_everything_that_acts_stands_in_the_multipliers() -> None:
+    solution = dynsolve.solve(ELBOW + EVERYTHING)
+    found = solution.to_json()["results"]
+    assert found["Ac"][1] == ["1", "-cos(q2)"]
+    assert {name for name in ("fv", "k", "F", "g", "tau1") if name in str(found["lambda"])} == {
+        "fv", "k", "F", "g", "tau1",
+    }  # fmt: skip
+    assert "tau2" not in str(found["lambda"])
+
+
+@pytest.mark.parametrize("name", ["hc", "Ac", "Ac_dot", "lambda"])
+def test_a_wrong_result_is_found(name: str) -> None:
+    solution = dynsolve.solve(ELBOW + LINE)
+    right = {n: solution.forms(n) for n in ("hc", "Ac", "Ac_dot", "lambda", "D", "Cqd", "g")}
+    verify_constraints(solution.robot, right)
+    form = right[name]
+    assert isinstance(form, Matrix)
+    wrong = Matrix(tuple(tuple(map(Negative, row)) for row in form.rows))
+    with pytest.raises(VerificationError):
+        verify_constraints(solution.robot, {**right, name: wrong})
+
+
+def test_dependent_constraints_are_told_and_the_model_stands() -> None:
+    text = ELBOW + "constraints: [q1 + q2 - a, 2*q1 + 2*q2 - b]\nfind: [D, lambda]\n"
+    solution = dynsolve.solve(text)
+    results = solution.to_json()["results"]
+    assert "follows from the others" in results["lambda"]["skipped"]
+    assert results["D"][1][1] == "m2*l2**2"
+    assert any("lambda" in str(warning) for warning in solution.warnings)
+
+
+def test_only_what_is_asked_is_worked_out() -> None:
+    results = dynsolve.solve(ELBOW + "constraints: [tip.x - k]\nfind: [D]\n").to_json()["results"]
+    assert "Ac" in results
+    assert "lambda" not in results
+
+
+@pytest.mark.parametrize(
+    ("constraint", "message"),
+    [
+        ("k - l1", "no coordinate occurs"),
+        ("tip.w", "has no meaning here"),
+        ("Q.x - k", "there is no point Q"),
+        ("1/q1", "in a denominator"),
+        ("{rates: q1}", "no rate occurs"),
+        ("{rates: q1'^2}", "not linear in the rates"),
+        ("{rates: q1' + k}", "not linear in the rates"),
+        ("{rates: q3'}", "q3"),
+        ("{speed: q1'}", "rates"),
+    ],
+)
+def test_what_is_no_constraint_is_refused(constraint: str, message: str) -> None:
+    with pytest.raises(ProblemError, match=message):
+        dynsolve.solve(ELBOW + f"constraints: [{constraint}]\n")
+
+
+def test_it_does_not_matter_when_the_numbers_are_put_in() -> None:
+    values = {"m1": "2", "m2": "1", "l1": "1/2", "l2": "1", "k": "3/4", "g": "10"}
+    late = dynsolve.solve(ELBOW + LINE).with_values(**values)
+    text = ELBOW + LINE
+    for name, value in values.items():
+        text = text.replace(f"mass: {name}", f"mass: {value}").replace(f"a: {name}", f"a: {value}")
+    early = dynsolve.solve(text.replace("- k]", "- 3/4]").replace("-g", "-10")).to_json()["results"]["lambda"]
+    state = {"q1": 0.3, "q2": 0.8, "q1_dot": 0.5, "q2_dot": -0.7, "tau1": 0.2, "tau2": 1.1}
+    (found,) = late.to_json()["results"]["lambda"]
+    assert numbers([found], state)[0] == pytest.approx(numbers(early, state)[0])
+
+
+def test_the_equations_without_multipliers_are_written_out() -> None:
+    """m v̇ along the blade, with what drives it in this direction (by hand)."""
+    (step,) = (step for step in dynsolve.solve("knife-edge").steps if step.id == "reduced")
+    rows = [unicodedata.normalize("NFC", to_unicode(row)) for row in step.result]
+    assert rows == ["m (cos(φ) ẍ + sin(φ) ÿ) = f₂ sin(φ) + f₁ cos(φ)", "J φ̈ = τ₃"]

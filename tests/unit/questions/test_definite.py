@@ -1,0 +1,131 @@
+"""Whether a matrix can be an inertia matrix, and what of its parameters that needs."""
+
+from __future__ import annotations
+
+import pytest
+from msgspec.structs import replace
+
+import dynsolve
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import VerificationError
+from dynsolve.problem import read_problem
+from dynsolve.questions.definite.check import verify_definite
+from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
+from tests.support import ROOT, solve_json
+
+EXAM = ROOT / "problems" / "inertia-candidates.yaml"
+
+
+def file(matrix: str, assume: str = "[]", more: str = "") -> str:
+    types = "{q1: revolute, q2: revolute, d: prismatic}"
+    return f"candidates: {{M: {matrix}}}\ncoordinates: {types}\nassume: {assume}\n{more}\n"
+
+
+def found(text: str) -> Definiteness:
+    (one,) = derive(read_problem(text).robot)["definite"]
+    assert isinstance(one, Definiteness)
+    return one
+
+
+def of_three(first: str, off: str = "0", assume: str = "[]") -> str:
+    return file(f"[[{first}, {off}, 0], [{off}, 1, 0], [0, 0, 1]]", assume)
+
+
+def test_the_exam_s_verdicts_come_out() -> None:
+    """Sapienza Robotics 2, midterm 29 April 2019, exercise 1."""
+    verdicts = solve_json(EXAM)["results"]["definite"]
+    assert {name: one["verdict"] for name, one in verdicts.items()} == {
+        "Ma": "no", "Mb": "yes", "Mc": "no", "Md": "yes",
+    }  # fmt: skip
+
+
+CONDITIONS = {
+    "a constant": (of_three("a"), ["a > 0"]),
+    "a cosine": (of_three("a + b*cos(q2)"), ["a + b > 0", "a - b > 0"]),
+    "its square": (of_three("a + b*cos(q2)^2"), ["a > 0", "a + b > 0"]),
+    "cosine and sine": (of_three("a + b*cos(q2) + c*sin(q2)"), ["a > 0", "a**2 - b**2 - c**2 > 0"]),
+    "twice the angle": (of_three("a + b*sin(q2)*cos(q2)"), ["a > 0", "4*a**2 - b**2 > 0"]),
+    "two angles": (
+        of_three("a + b*cos(q1) + c*sin(q2)"),
+        ["a + b + c > 0", "a + b - c > 0", "a - b + c > 0", "a - b - c > 0"],
+    ),
+    "a length": (of_three("a + b*d^2"), ["a > 0", "b >= 0"]),
+    "a length from elsewhere": (of_three("a + b*d + c*d^2"), ["c > 0", "4*a*c - b**2 > 0"]),
+    "off the diagonal": (of_three("a", "b*cos(q2)"), ["a - b**2 > 0"]),
+}
+
+
+@pytest.mark.parametrize("name", CONDITIONS)
+def test_conditions(name: str) -> None:
+    text, conditions = CONDITIONS[name]
+    result = solve_json(text)["results"]["definite"]["M"]
+    assert result["verdict"] == "if"
+    assert {_sorted(one) for one in result["conditions"]} == {_sorted(one) for one in conditions}
+
+
+def _sorted(inequality: str) -> str:
+    import sympy
+
+    left, sign, _ = inequality.split(" ")[:-2], inequality.split(" ")[-2], ""
+    return f"{sympy.expand(sympy.sympify(' '.join(left)))} {sign}"
+
+
+YES = {
+    "a square in what is assumed": of_three("a + b", "b*sin(q2)", "[a > 0, b > 0, b < 1]"),
+    "a chain of inequalities": of_three("a + b*cos(q2)", "0", "[a > b > 0]"),
+    "a bound from below": of_three("a + b*cos(q1)*cos(q2)", "0", "[a + b > 0, a - b > 0]"),
+}
+
+
+@pytest.mark.parametrize("name", YES)
+def test_what_is_assumed_is_enough(name: str) -> None:
+    assert found(YES[name]).answer is Answer.YES
+
+
+REFUSED = {
+    "not symmetric": (file("[[1, 0, 0], [a, 1, 0], [0, 0, 1]]"), Refusal.ASYMMETRIC),
+    "an angle in a power": (of_three("1 + q2^2"), Refusal.NOT_PERIODIC),
+    "a length in a sine": (of_three("2 + sin(d)"), Refusal.LENGTH_IN_SINE),
+    "a length to the fourth": (of_three("1 + d^4"), Refusal.DEGREE),
+    "the coordinate of the base": (
+        file("[[2 + cos(q1), 0, 0], [0, 1, 0], [0, 0, 1]]", more="chain: relative"), Refusal.BASE,
+    ),
+    "a negative determinant": (of_three("1", "2"), Refusal.INDEFINITE),
+    "never positive": (of_three("-a", "0", "[a > 0]"), Refusal.INDEFINITE),
+    "a length that grows": (of_three("1 + d"), Refusal.INDEFINITE),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_refusal_has_its_reason(name: str) -> None:
+    text, refusal = REFUSED[name]
+    one = found(text)
+    assert (one.answer, one.refusal) == (Answer.NO, refusal)
+    assert solve_json(text)["results"]["definite"]["M"]["why"]
+
+
+def test_a_model_s_matrix_is_judged_by_itself() -> None:
+    text = (
+        "model:\n  coordinates: {q: revolute}\n  D: [[a + b*cos(q)]]\nassume: [b > 0]\nfind: [definite, C]\n"
+    )
+    result = solve_json(text)["results"]["definite"]
+    assert result["verdict"] == "if"
+    assert result["conditions"] == ["a - b > 0"]
+
+
+def test_a_wrong_verdict_is_found() -> None:
+    robot = read_problem(of_three("a + b*cos(q2)", "0", "[a > b, b > 0]")).robot
+    (candidate,) = robot.questions.candidates
+    right = found(of_three("a + b*cos(q2)", "0", "[a > b, b > 0]"))
+    verify_definite(robot, candidate, right, 5)
+    wrong = replace(right, answer=Answer.NO, refusal=Refusal.INDEFINITE)
+    with pytest.raises(VerificationError, match="comes out otherwise"):
+        verify_definite(robot, candidate, wrong, 5)
+
+
+def test_a_report_is_made_in_every_form() -> None:
+    solution = dynsolve.solve(EXAM)
+    for form in (Format.TEXT, Format.HTML, Format.LATEX, Format.MARKDOWN):
+        assert b"positive definite" in report(solution, form)

@@ -1,0 +1,141 @@
+"""Equilibria and their stability: by hand, from exams, and against numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from msgspec.structs import replace
+
+import dynsolve
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import VerificationError
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Symbol
+from dynsolve.problem import read_problem
+from dynsolve.questions.equilibria.check import Case, verify_equilibria
+from dynsolve.questions.equilibria.forms import EquilibriaForms
+from dynsolve.questions.equilibria.solving import Stability
+from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
+
+
+@pytest.mark.parametrize(
+    ("problem", "equilibria"),
+    [
+        (ARM, [["cos(q1) = 0", "sin(q2) = 0"]]),
+        (POLE, [["sin(theta) = 0"]]),
+        (MASSES, [["q1 - q3 = 0", "q2 - q3 = 0"]]),  # Sapienza, Robotics 2, 28 October 2016: q1 = q2 = q3
+        (ELASTIC, [["sin(q1) = 0", "q1 - q2 = 0"]]),
+        (HELD, [["k*(q1 - q2) + m*g*l*sin(q1) = 0"]]),
+        (LIFT, []),
+        (FLAT, [[]]),
+    ],
+)
+def test_by_hand(problem: str, equilibria: list[list[str]]) -> None:
+    assert dynsolve.solve(problem).to_json()["results"]["equilibria"] == equilibria
+
+
+def test_a_hanging_arm_is_stable_and_no_other() -> None:
+    (points,) = dynsolve.solve(ARM).to_json()["results"]["equilibria_stability"]
+    stable = [point for point in points if point["stability"] == "stable"]
+    assert stable == [{"q1": "-pi/2", "q2": "0", "stability": "stable"}]
+    assert len(points) == 4 and all(p["stability"] == "unstable" for p in points if p not in stable)
+
+
+def test_a_pole_is_stable_below_wherever_the_cart_is() -> None:
+    solution = dynsolve.solve(POLE)
+    (points,) = solution.to_json()["results"]["equilibria_stability"]
+    assert points == [
+        {"theta": "0", "stability": "unstable"}, {"theta": "pi", "stability": "stable"},
+    ]  # fmt: skip
+    (step,) = (step for step in solution.steps if step.id == "equilibria_stability")
+    assert "along which nothing changes" in str(step.concluding)
+
+
+def test_an_elastic_joint_holds_below() -> None:
+    (points,) = dynsolve.solve(ELASTIC).to_json()["results"]["equilibria_stability"]
+    assert [point["stability"] for point in points] == ["stable", "unstable"]
+
+
+def test_the_check_finds_what_is_wrong() -> None:
+    robot = read_problem(ARM).robot
+    values = derive(robot)
+    g, shown = Forms(robot, values)("g"), EquilibriaForms(robot, values).equilibria
+    (points,) = values["equilibria"].points
+    right = Case(shown[0], points)
+    verify_equilibria(robot, g, [right])
+    with pytest.raises(VerificationError, match="missing"):
+        verify_equilibria(robot, g, [])
+    with pytest.raises(VerificationError, match="moves"):
+        verify_equilibria(robot, g, [Case((shown[0][0],), ())])
+    turned = tuple(replace(point, stability=Stability.STABLE) for point in points)
+    with pytest.raises(VerificationError, match="stability"):
+        verify_equilibria(robot, g, [Case(shown[0], turned)])
+    assert Symbol("q1") not in shown[0]
+
+
+SEESAW = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  bodies:
+    - {mass: m1, at: [l1*cos(q1), l1*sin(q1), 0]}
+    - {mass: m2, at: [l3*cos(q2) - l2*cos(q1), l3*sin(q2) - l2*sin(q1), 0]}
+find: [equilibria]
+"""
+
+
+def of_energy(energy: str, names: str = "xyz") -> dict[str, Any]:
+    """What is told of unit masses on lines in this potential energy."""
+    kinds = ", ".join(f"{name}: prismatic" for name in names)
+    D = [[int(i == j) for j in names] for i in names]
+    model = f"model: {{coordinates: {{{kinds}}}, D: {D}, P: '{energy}'}}"
+    return dynsolve.solve(f"gravity: none\n{model}\nfind: [equilibria]\n").to_json()["results"]
+
+
+def test_a_factor_that_may_be_0_is_told_with_the_equilibria_there() -> None:
+    solution = dynsolve.solve(SEESAW)
+    results = solution.to_json()["results"]
+    assert results["equilibria"] == [["cos(q1) = 0", "cos(q2) = 0"]]
+    assert results["equilibria_special"] == [{"where": "m1*l1 = m2*l2", "equilibria": [["cos(q2) = 0"]]}]
+    (step,) = (step for step in solution.steps if step.id == "equilibria")
+    assert [str(note[0]) for note in step.notes] == ["These are the equilibria where ", "Where "]
+    assert "≠" in str(step.notes[0]) and "equilibria_special" not in dynsolve.solve(ARM).to_json()["results"]
+
+
+def test_an_answer_for_parameters_that_are_special_is_judged_by_the_forces() -> None:
+    values = "values: {m1: 2, l1: 1, m2: 1, l2: 2}\n"
+    for written, verdict in (("cos(q2) = 0", "correct"), ("cos(q1) = 0 and cos(q2) = 0", "wrong")):
+        report = dynsolve.check(SEESAW + values, f"answers:\n  equilibria: ['{written}']\n")
+        assert str(report.answers[0].verdict) == verdict
+
+
+@pytest.mark.parametrize(
+    ("energy", "special"),
+    [
+        ("a*x*y + b*x^2/2 + c*y^2/2 - d*x - e*y",
+         [{"where": "a**2 = b*c", "equilibria": [["a*y + b*x - d = 0", "a*x + c*y - e = 0"]]}]),
+        ("(a - b)*x^2 + (a - b)*y^2", [{"where": "a = b", "equilibria": [[]]}]),
+        ("(a - b)*x^2*y^2/2 + (a - b)*x*y", [{"where": "a = b", "equilibria": [[]]}]),
+        ("(a - b)*x^2 + c*y^2 + d*x", [{"where": "a = b", "equilibria": []}]),
+    ],
+)  # fmt: skip
+def test_what_is_multiplied_by_counts_too(energy: str, special: list[dict[str, Any]]) -> None:
+    assert of_energy(energy, "xy").get("equilibria_special", []) == special
+
+
+def test_a_negative_minor_of_any_size_decides() -> None:
+    """The minors of sizes 1 and 2 are positive, and x + y + z falls (by hand: 1 - 2·3/4 < 0)."""
+    energy = "x^2 + y^2 + z^2 - 3*(x*y + y*z + x*z)/2"
+    assert of_energy(energy)["equilibria_stability"] == [[{"stability": "unstable"}]]
+
+
+def test_only_where_both_sides_are_equal_nothing_is_decided() -> None:
+    (points,) = of_energy("a*x^2/2 - b*x^2/2 + (c - d)*y^2/2", "xy")["equilibria_stability"]
+    (point,) = points
+    assert point["stability"] == "undecided" and len(point["stable_if"]) == len(point["unstable_if"]) == 2
+
+
+def test_a_row_that_is_0_at_a_point_alone_leaves_nothing_neutral() -> None:
+    """P = y²/2 - x⁴ falls along x, where its second derivatives are 0."""
+    assert of_energy("c*y^2/2 - b*x^4", "xy")["equilibria_stability"] == [[{"stability": "undecided"}]]

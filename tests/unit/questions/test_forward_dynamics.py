@@ -1,0 +1,122 @@
+"""Forward dynamics: published accelerations, what acts in them, when there are none, and judged answers."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Matrix, Negative, walk
+from dynsolve.quantities import letters
+from dynsolve.questions.forward_dynamics.check import COMPARED, verify_forward
+from tests.support import numbers, solve_json
+
+CART = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies:
+    - {mass: mc, at: [x, 0, 0]}
+    - {mass: mp, at: [x + l*sin(theta), -l*cos(theta), 0]}
+passive: [theta]
+find: [qdd_forward]
+"""
+PUBLISHED = [
+    "(f1 + mp*sin(theta)*(l*theta_dot**2 + g*cos(theta)))/(mc + mp*sin(theta)**2)",
+    "(-f1*cos(theta) - mp*l*theta_dot**2*cos(theta)*sin(theta) - (mc + mp)*g*sin(theta))"
+    "/(l*(mc + mp*sin(theta)**2))",
+]
+"""R. Tedrake, Underactuated Robotics, section 3.2.1, cart and pole, the angle from hanging."""
+
+ELBOW = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+friction: {q1: {viscous: fv, coulomb: fc}}
+springs: [{stiffness: k, of: q2}]
+passive: [q2]
+forces: [{link: 2, at: tip, force: [F, 0, 0]}]
+find: [qdd_forward]
+"""
+LARGE = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}, {theta: q4*, a: l4}]
+masses: [{mass: m2, link: 2}, {mass: m3, link: 3}, {mass: m4, link: 4}]
+find: [qdd_forward]
+"""
+
+
+def test_the_published_accelerations_come_out() -> None:
+    ours = solve_json(CART)["results"]["qdd_forward"]
+    draw = random.Random("Tedrake")
+    for _ in range(3):
+        names = ("f1", "mc", "mp", "l", "g", "theta", "theta_dot")
+        at = {name: draw.uniform(0.5, 2.0) for name in names}
+        assert numbers(ours, at) == pytest.approx([numbers(entry, at) for entry in PUBLISHED])
+
+
+def test_everything_that_acts_stands_in_them() -> None:
+    found = str(solve_json(ELBOW)["results"]["qdd_forward"])
+    assert all(name in found for name in ("fv", "sgn", "k*q2", "F", "g", "tau1"))
+    assert "tau2" not in found
+
+
+@pytest.mark.parametrize("text", [CART, ELBOW])
+def test_a_wrong_result_is_found(text: str) -> None:
+    solution = dynsolve.solve(text)
+    right = {name: solution.forms(name) for name in COMPARED if name != "Q" or "forces" in text}
+    verify_forward(solution.robot, right)
+    shown = right["qdd_forward"]
+    assert isinstance(shown, Matrix)
+    wrong = Matrix((shown.rows[0], tuple(map(Negative, shown.rows[1]))))
+    with pytest.raises(VerificationError):
+        verify_forward(solution.robot, {**right, "qdd_forward": wrong})
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (ELBOW + "constraints: [tip.x - c]\n", "constraints act, too"),
+        (LARGE, "too large"),
+        (CART.replace("l*sin(theta)", "l").replace("l*cos(theta)", "l"), "no inverse"),
+    ],
+)
+def test_where_there_are_none_it_is_told_why(text: str, why: str) -> None:
+    solution = dynsolve.solve(text)
+    assert why in solution.to_json()["results"]["qdd_forward"]["skipped"]
+    assert any("qdd_forward" in str(warning) for warning in solution.warnings)
+
+
+def test_the_step_has_the_letters_of_the_forces_and_the_book() -> None:
+    solution = dynsolve.solve(CART)
+    (step,) = (step for step in solution.steps if step.stage == "forward_dynamics")
+    assert "Lynch and Park" in step.source
+    assert letters.force(solution.robot.coordinates[0]) in list(walk(step.result[0]))
+
+
+def test_its_hint_says_what_there_is_and_what_to_do() -> None:
+    said = str(dynsolve.solve(CART).hint("forward_dynamics"))
+    assert "matrices of the equations of motion" in said
+    assert "its force is 0" in said
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "verdict"),
+    [
+        ("qdd_forward", ("", ""), "correct"),
+        ("forward_dynamics", ("", ""), "correct"),
+        ("qdd", ("", ""), "correct"),
+        ("qdd_forward", ("(-f1*", "(tau2/mp-f1*"), "correct"),
+        ("qdd_forward", ("(mc + mp)", "(mc - mp)"), "wrong"),
+        ("qdd_forward", ("-f1", "f1"), "wrong"),
+    ],
+)
+def test_an_answer_is_judged(name: str, change: tuple[str, str], verdict: str, tmp_path: Path) -> None:
+    entries = ", ".join(entry.replace(*change, 1) if change[0] else entry for entry in PUBLISHED)
+    hand_in = tmp_path / "answers.yaml"
+    hand_in.write_text(f"answers: {{{name}: [{entries}]}}\n", encoding="utf-8")
+    (answer,) = dynsolve.check(CART, hand_in).answers
+    assert (answer.name, str(answer.verdict)) == ("qdd_forward", verdict)

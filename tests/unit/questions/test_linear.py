@@ -1,0 +1,105 @@
+"""Linearization and the inertia of the task: against SymPy, exams, and the checks on numbers."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import sympy
+
+import dynsolve
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import VerificationError
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Matrix, Symbol
+from dynsolve.problem import read_problem
+from dynsolve.questions.equilibria.linearization import verify_linear
+
+ARM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+friction: {q1: {viscous: f1, coulomb: c1}, q2: f2}
+passive: [q2]
+linearize: {q1: 60deg, q2: 30deg}
+find: [linear_A, linear_B]
+"""
+RODS = """
+gravity: none
+dh: [{theta: q1*, a: L}, {theta: q2*, a: L}, {theta: q3*, a: L}]
+masses:
+  - {mass: m, link: 1, shape: {rod: {length: L, axis: x}}, center: midpoint}
+  - {mass: m, link: 2, shape: {rod: {length: L, axis: x}}, center: midpoint}
+  - {mass: m, link: 3, shape: {rod: {length: L, axis: x}}, center: midpoint}
+task: [tip.x, tip.y]
+find: [Lambda]
+"""
+
+
+def results(text: str) -> dict[str, list[list[str]]]:
+    return dynsolve.solve(text).to_json()["results"]
+
+
+def test_linearization_is_that_of_sympy() -> None:
+    found = results(ARM)
+    q, rates, tau = sympy.symbols("q1 q2"), sympy.symbols("q1_dot q2_dot"), sympy.symbols("tau1 tau2")
+    names = {str(s): s for s in (*q, *rates)} | {"sgn": lambda x: 0}
+    D = sympy.Matrix(sympy.sympify(found["D"], names))
+    left = sympy.Matrix(sympy.sympify(found["tau"], {**names, "q1_ddot": 0, "q2_ddot": 0}))
+    at = {q[0]: sympy.pi / 3, q[1]: sympy.pi / 6, rates[0]: 0, rates[1]: 0}
+    accelerations = D.inv() * (sympy.Matrix(tau) - left)
+    held = dict(zip(tau, left.subs(at), strict=True))
+    theirs = accelerations.jacobian([*q, *rates]).subs(at).subs(held)
+    ours = sympy.Matrix(sympy.sympify(found["linear_A"]))[2:, :]
+    assert sympy.simplify(ours - theirs) == sympy.zeros(2, 4)
+    inputs = D.inv().subs(at)[:, 0]
+    assert sympy.simplify(sympy.Matrix(sympy.sympify(found["linear_B"]))[2:, :] - inputs) == sympy.zeros(2, 1)
+
+
+def test_no_equilibrium_is_told() -> None:
+    found = results(ARM.replace("q1: 60deg, q2: 30deg", "q1: 60deg, q2: 0"))
+    assert found["linear_A"] == {"skipped": "this is no equilibrium: no motor holds q2"}
+
+
+def test_the_inertia_of_the_task_of_the_exam() -> None:
+    """Sapienza, Robotics 2, 10 September 2021: 35/3 and 35/24 at (90°, 90°, 0), m = 5, L = 0.5."""
+    found = results(RODS)["Lambda"]
+    at = {"q1": math.pi / 2, "q2": math.pi / 2, "q3": 0.0, "m": 5.0, "L": 0.5}
+    names = {"sin": math.sin, "cos": math.cos, **at}
+    numbers = [[eval(entry, {"__builtins__": {}}, names) for entry in row] for row in found]  # noqa: S307
+    assert numbers[0][0] == pytest.approx(35 / 3)
+    assert numbers[1][1] == pytest.approx(35 / 24)
+    assert numbers[0][1] == pytest.approx(0, abs=1e-12) == numbers[1][0]
+
+
+def test_of_a_square_jacobian() -> None:
+    text = "dh: [{d: d1*, alpha: 90deg}, {d: d2*}]\nmasses: [{mass: m1, link: 1, center: origin}, "
+    text += "{mass: m2, link: 2, center: origin}]\ntask: [tip.z, tip.y]\nfind: [Lambda]\n"
+    assert results(text)["Lambda"] == [["m1 + m2", "0"], ["0", "m2"]]
+    dependent = text.replace("[tip.z, tip.y]", "[tip.z, 2*tip.z]")
+    assert results(dependent)["Lambda"] == {"skipped": "the Jacobian of the task has dependent rows"}
+
+
+@pytest.mark.parametrize(("text", "name"), [(ARM, "linear_A"), (ARM, "linear_B"), (RODS, "Lambda")])
+def test_the_check_finds_a_wrong_entry(text: str, name: str) -> None:
+    robot = read_problem(text).robot
+    forms = Forms(robot, derive(robot))
+    right = {one: forms(one) for one in ((name, "Jr", "D") if name == "Lambda" else (name, "D", "tau"))}
+    verify_linear(robot, right)
+    shown = right[name]
+    assert isinstance(shown, Matrix)
+    last = (*shown.rows[-1][:-1], Symbol(robot.parameters[0]))
+    with pytest.raises(VerificationError, match=name):
+        verify_linear(robot, {**right, name: Matrix((*shown.rows[:-1], last))})
+
+
+def test_the_steps_name_the_book() -> None:
+    steps = {step.id: step for step in dynsolve.solve(ARM).steps if step.stage == "equilibria"}
+    assert list(steps) == ["linear_A", "linear_B"]
+    assert all("Slotine" in step.source for step in steps.values())
+    assert "Coulomb" in str(steps["linear_A"].notes)
+
+
+def test_the_inertia_of_the_task_may_be_singular_where_the_equations_are_linearized() -> None:
+    stretched = ARM.replace("q2: 30deg", "q2: 0").replace("find: [", "task: [tip.x, tip.y]\nfind: [Lambda, ")
+    assert "linear_A" in results(stretched)

@@ -1,0 +1,182 @@
+"""Determinants and rates: by hand, and against elimination on numbers."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import simplify, sympify
+
+import dynsolve
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import VerificationError
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Matrix, Negative, Node
+from dynsolve.problem import read_problem
+from dynsolve.questions.rates.check import rate_names, verify_rates
+
+ELBOW = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\n"
+THREE = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
+ROBOTS = {
+    "square": ELBOW + "velocity: [vx, vy]\nacceleration: [ax, 0]\n",
+    "redundant": THREE + "velocity: [vx, q1*vy]\nacceleration: [0, 0]\n",
+    "weighted": THREE + "velocity: [vx, vy]\nacceleration: [0, 0]\nweights: {q1: w1, q3: 3}\n",
+    "weighted by a matrix, singular": THREE + "velocity: [vx, vy]\nacceleration: [ax, ay]\n"
+    "weights: [[2, 1, 0], [1, 3, 0], [0, 0, w]]\nstate: {q2: 0, q3: 0}\n",
+    "weighted by inertia": "gravity: none\n" + THREE + "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, "
+    "{mass: m3, link: 3}]\nvelocity: [vx, vy]\nacceleration: [0, 0]\nweights: D\n"
+    "state: {q2: 90deg, q3: 0}\n",
+    "too few joints": "dh: [{theta: q1*, a: l1}]\nvelocity: [vx, vy]\nacceleration: [ax, 0]\n",
+    "singular": ELBOW + "velocity: [vx, vy]\nacceleration: [ax, 0]\nstate: {q2: 0}\n",
+    "twist": "dh: [{theta: q1*, alpha: 90deg}, {d: d2*}]\ntask: twist\nvelocity: [0, 0, v, 0, 0, w]\n",
+}
+
+
+def forms(text: str) -> tuple[object, dict[str, Node]]:
+    asked = [name for key, name in (("velocity", "qd"), ("acceleration", "qdd")) if key in text]
+    spaces = "nullspace, rangespace, lost"
+    robot = read_problem(f"{text}find: [det, {spaces}, {', '.join(asked)}]").robot
+    values = derive(robot)
+    made = Forms(robot, values)
+    return robot, {n: made(n) for n in rate_names(robot, values.leading_to(robot.questions.asked))}
+
+
+@pytest.mark.parametrize("text", ROBOTS.values(), ids=ROBOTS)
+def test_what_is_derived_agrees(text: str) -> None:
+    robot, results = forms(text)
+    verify_rates(robot, results)
+    for name in results.keys() & {"det", "qd", "qdd"}:
+        with pytest.raises(VerificationError, match="differs from elimination"):
+            verify_rates(robot, {**results, name: negative(results[name])})
+
+
+def negative(node: Node) -> Node:
+    if isinstance(node, Matrix):
+        return Matrix(tuple(tuple(map(Negative, row)) for row in node.rows))
+    return Negative(node)
+
+
+@pytest.mark.parametrize("name", ["nullspace", "rangespace", "lost"])
+def test_a_space_with_a_wrong_vector_is_found(name: str) -> None:
+    robot, results = forms(ROBOTS["singular"])
+    (first, *rest) = results[name].rows
+    wrong = Matrix(((Negative(first[0]), *first[1:]), *rest))
+    with pytest.raises(VerificationError, match="differs from elimination"):
+        verify_rates(robot, {**results, name: wrong})
+
+
+@pytest.mark.parametrize(
+    ("text", "det"),
+    [
+        (ELBOW, "l1*l2*sin(q2)"),
+        (THREE + "task: [tip.x, tip.y, q1 + q2 + q3]\n", "l1*l2*sin(q2)"),
+        (ELBOW + "task: [tip.x]\n", "(l1*sin(q1) + l2*sin(q1 + q2))**2 + l2**2*sin(q1 + q2)**2"),
+        ("dh: [{theta: q1*, a: l1}]\n", "l1**2"),
+        ("dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: d3*}]\n",
+         "d3**2*sin(q2)"),
+    ],
+)  # fmt: skip
+def test_determinants_are_written_in_factors(text: str, det: str) -> None:
+    found = dynsolve.solve(text + "find: [det]\n").to_json()["results"]["det"]
+    assert simplify(sympify(found) - sympify(det)) == 0
+    assert len(found) <= 1.3 * len(det)
+
+
+def test_of_six_joints_without_a_task_it_is_that_of_all_of_j() -> None:
+    wrist = "{theta: q4*, alpha: -90deg}, {theta: q5*, alpha: 90deg}, {theta: q6*, d: d6}"
+    gantry = f"dh: [{{d: d1*, alpha: 90deg}}, {{d: d2*, theta: 90deg, alpha: 90deg}}, {{d: d3*}}, {wrist}]\n"
+    assert dynsolve.solve(gantry + "find: [det]\n").to_json()["results"]["det"].strip("-") == "sin(q5)"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (ROBOTS["square"], "has one solution"),
+        (ROBOTS["redundant"], "of least norm"),
+        (ROBOTS["too few joints"], "least squares"),
+        (ROBOTS["singular"], "least squares"),
+    ],
+)
+def test_the_step_says_how_it_is_solved(text: str, words: str) -> None:
+    steps = {step.id: step for step in dynsolve.solve(text + "find: [qd]\n").steps}
+    assert words in "".join(part for part in steps["qd"].why if isinstance(part, str))
+
+
+LONG = "dh:\n" + "".join(
+    f"  - {{theta: q{i}*, d: d{i}, a: a{i}, alpha: {'-' * (i % 2)}90deg}}\n" for i in range(1, 7)
+)
+"""Six joints with every length; its J Jᵀ for the position alone has entries of hundreds of terms."""
+
+
+def test_what_nobody_could_read_is_left_out_and_said_to_be() -> None:
+    text = LONG + "task: [tip.x, tip.y, tip.z]\nvelocity: [vx, 0, 0]\nfind: [Jr, det, qd]\n"
+    solution = dynsolve.solve(text)
+    results = solution.to_json()["results"]
+    assert results["det"] == results["qd"] == {"skipped": "multiplied out it is too large to be read"}
+    assert [w.message.split()[0] for w in solution.warnings] == ["det", "qd"]
+    problem = read_problem(text, "own.yaml")
+    submission = FileReader(problem)(b"answers:\n  det: a1*a2\n", "answers.yaml")
+    assert [a.verdict for a in check(problem, submission).answers if a.given] == ["unreadable"]
+
+
+def test_spaces_whose_vectors_are_too_long_are_left_out() -> None:
+    solution = dynsolve.solve(LONG + "task: twist\nfind: [nullspace, lost]\n")
+    results = solution.to_json()["results"]
+    why = "multiplied out it is too large to be read; it is found at a `state` in numbers"
+    assert results["nullspace"] == results["lost"] == {"skipped": why}
+    assert [step.id for step in solution.steps if step.stage == "rates"] == ["nullspace", "lost"]
+
+
+def test_at_a_state_it_is_not_too_large() -> None:
+    state = "state: {q1: 0, q2: 90deg, q3: 0, q4: 90deg, q5: 0, q6: 0}\n"
+    text = LONG + "task: [tip.x, tip.y, tip.z]\nvelocity: [v, 0, 0]\n" + state + "find: [qd]\n"
+    assert len(dynsolve.solve(text).to_json()["results"]["qd"]) == 6
+
+
+TWO_SLIDES = """
+gravity: none
+dh: [{d: d1*}, {d: d2*}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+velocity: [v]
+find: [qd]
+"""
+# (the weights, the rates of two slides on one line): by hand, from d1' + d2' = v
+WEIGHTED = [
+    ("", ["v/2", "v/2"]),
+    ("weights: {d2: 4}", ["4*v/5", "v/5"]),
+    ("weights: {d1: a, d2: b}", ["b*v/(a + b)", "a*v/(a + b)"]),
+    ("weights: [[2, 1], [1, 2]]", ["v/2", "v/2"]),
+    ("weights: D", ["0", "v"]),  # the energy m1 d1'^2/2 + m2 v^2/2 is least where d1 rests
+]
+
+
+@pytest.mark.parametrize(("weights", "rates"), WEIGHTED)
+def test_the_least_of_a_weighted_sum_of_squares(weights: str, rates: list[str]) -> None:
+    found = dynsolve.solve(TWO_SLIDES + weights).to_json()["results"]["qd"]
+    assert [simplify(sympify(f"{a} - ({b})")) for a, b in zip(found, rates, strict=True)] == [0, 0]
+
+
+def test_rates_of_other_weights_are_right_with_a_note() -> None:
+    problem = read_problem(TWO_SLIDES + "weights: {d2: 4}", "own.yaml")
+    for value, notes in (("[4*v/5, v/5]", 0), ("[v/2, v/2]", 1)):
+        (answer,) = check(problem, FileReader(problem)(f"answers:\n  qd: {value}\n", "answer.yaml")).answers
+        assert (answer.verdict, len(answer.notes)) == ("correct", notes)
+
+
+def test_the_space_of_a_long_arm_is_found_at_a_state() -> None:
+    """A Franka arm with its forearm upright: joints 1 and 3 have one axis (q2 = 0)."""
+    arm = """
+gravity: none
+dh:
+  - {theta: q1*, d: 0.333, alpha: -90deg}
+  - {theta: q2*, alpha: 90deg}
+  - {theta: q3*, d: 0.316, a: 0.0825, alpha: 90deg}
+  - {theta: q4*, a: -0.0825, alpha: -90deg}
+  - {theta: q5*, d: 0.384, alpha: 90deg}
+  - {theta: q6*, a: 0.088, alpha: 90deg}
+  - {theta: q7*, d: 0.107}
+task: twist
+state: {q1: 0, q2: 0, q3: 0, q4: -90deg, q5: 0, q6: 90deg, q7: 0}
+find: [nullspace]
+"""
+    assert dynsolve.solve(arm).to_json()["results"]["nullspace"] == [["1", "0", "-1", "0", "0", "0", "0"]]
