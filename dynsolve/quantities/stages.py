@@ -53,19 +53,17 @@ class Stage(StrEnum):
         stage.asked_for = asked_for
         return stage
 
-    def part(self, file: str) -> Any:
-        """A file of the folder `questions/<value>`, imported when it is asked for; None where it has none.
+    def part(self, file: str = "") -> Any:
+        """A file of the folder `questions/<value>`, or the folder itself, imported when it is asked for.
 
-        This is how rooms below and beside the questions reach them: by path, so that a question that
-        nobody asks costs nothing, and nobody has a list of them.
+        None where there is none.  This is how rooms below and beside the questions reach them: by path, so
+        that a question that nobody asks costs nothing, and nobody has a list of them.
 
         >>> Stage.SINGULAR.part("derive").__name__
         'dynsolve.questions.singular.derive'
         """
-        name = f"dynsolve.questions.{self}"
-        if not self.asked_for or find_spec(f"{name}.{file}") is None:
-            return None
-        return import_module(f"{name}.{file}")
+        name = ".".join(filter(None, ("dynsolve.questions", self, file)))
+        return import_module(name) if self.asked_for and find_spec(name) is not None else None
 
     @property
     def needs_masses(self) -> bool:

@@ -87,8 +87,7 @@ _OF_THE_COURSE = (
 def _asked_for() -> Iterator[Family]:
     """Those of the questions, each in its own folder."""
     for stage in ASKED_FOR:
-        question = stage.part("__init__")
-        yield from getattr(question, "FAMILIES", ())
+        yield from getattr(stage.part(), "FAMILIES", ())
 
 
 FAMILIES: tuple[Family, ...] = tuple(
