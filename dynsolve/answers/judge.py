@@ -234,7 +234,7 @@ class Checker:
             problem = with_reached_state(problem)
         self.problem = problem
         self.key = key if key is not None else derive(problem.robot)
-        self.answer_ring = AnswerRing(problem.robot, self.key)
+        self.graph = AnswerGraph(AnswerRing(problem.robot, self.key))
         self.compare_entry = EntryComparer(problem.values, problem.decimals)
 
     @cached_property
@@ -250,12 +250,12 @@ class Checker:
     @cached_property
     def derivation_slips(self) -> DerivationSlips:
         """The derivations with a rule changed, in the problem's own ring."""
-        return DerivationSlips(AnswerGraph(self.answer_ring))
+        return DerivationSlips(self.graph)
 
     @cached_property
     def factors(self) -> FactorPairs:
         """The factors that are mistaken for one another, in the problem's own ring."""
-        return FactorPairs(self.answer_ring.ring)
+        return FactorPairs(self.graph.answer_ring.ring)
 
     @cached_property
     def configurations(self) -> ConfigurationKey:
@@ -296,7 +296,7 @@ class Judge:
         general = list(general_formulas(submission, self._asked, quantities(self.problem.robot)))
         self._general = {answer.name for answer in general}
         others += general
-        self.hand_in = ComparedHandIn(checker.answer_ring, checker.compare_entry, others)
+        self.hand_in = ComparedHandIn(checker.graph, checker.compare_entry, others)
         self.graph = self.hand_in.graph
 
     @cached_property
@@ -307,7 +307,7 @@ class Judge:
     @cached_property
     def _diagnoser(self) -> Diagnoser:
         checker, ring = self.checker, self.hand_in.answer_ring
-        is_shared = ring.same and self.graph.zero_potential is None and not self.graph.parameters
+        is_shared = self.graph is checker.graph
         changed = checker.derivation_slips if is_shared else DerivationSlips(self.graph)
         factors = checker.factors if ring.same else FactorPairs(ring.ring)
         return Diagnoser(self.problem, self.graph, self.explanations.values, changed, factors)

@@ -63,8 +63,8 @@ def _key_pages(checker: Checker) -> dict[str, str]:
     found = {}
     for name in checker.problem.marks:
         target = compare.target(name)
-        node, entry = (name, ()) if name in checker.answer_ring.rules else (target.node, target.entry)
-        if node in checker.answer_ring.rules:
+        node, entry = (name, ()) if name in checker.graph.answer_ring.rules else (target.node, target.entry)
+        if node in checker.graph.answer_ring.rules:
             page = render(Document((Formula(_entry(forms(node), entry)),)), style)
             found[name] = page.partition("<main>")[2].partition("</main>")[0].strip()
     return {name: page for name, page in found.items() if len(page) <= _LONGEST}

@@ -108,7 +108,8 @@ class AnswerRing:
 
     def refined(self, plan: AnswerRingPlan) -> AnswerRing:
         """The ring of another plan: this one where it holds everything."""
-        return self if plan is self.plan else AnswerRing(self._robot, self._key, plan)
+        is_held = plan is self.plan or plan.is_the_problems
+        return self if is_held else AnswerRing(self._robot, self._key, plan)
 
     @cached_property
     def known(self) -> Known:

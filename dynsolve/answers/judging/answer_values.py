@@ -409,11 +409,11 @@ class AnswerValue(Struct, frozen=True):
 
 
 class AnswerValues:
-    """All answers of one hand-in, valued in a ring that refines `base`, the problem's."""
+    """All answers of one hand-in, valued in a ring that refines that of `key`, the problem's graph."""
 
-    def __init__(self, base: AnswerRing, answers: Sequence[Answer]) -> None:
+    def __init__(self, key: AnswerGraph, answers: Sequence[Answer]) -> None:
+        base, named = key.answer_ring, key.quantities
         builder = AnswerRingBuilder(base)
-        named = quantities(base.robot)
         self._nodes: dict[int, Node] = {}
         self._faults: dict[int, tuple[str, str]] = {}
         for place, answer in enumerate(answers):
@@ -428,7 +428,7 @@ class AnswerValues:
             except AlgebraError as error:
                 self._faults[place] = error.message, error.help
         self.answer_ring: AnswerRing = builder.build()
-        self.graph = AnswerGraph(self.answer_ring)
+        self.graph = key if self.answer_ring is base else AnswerGraph(self.answer_ring)
         self.answers = tuple(answers)
         self._values: dict[int, AnswerValue] = {}
         self._busy: set[int] = set()

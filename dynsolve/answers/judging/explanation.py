@@ -35,9 +35,12 @@ class Explanations:
 
     def __init__(self, hand_in: ComparedHandIn) -> None:
         self.hand_in = hand_in
-        self._content = Content(hand_in.answer_ring.dimensions, hand_in.compare_entry.values)
         self._students = student_values(hand_in.graph, hand_in.comparisons)
         self.direction = self._direction(self._students)
+
+    @cached_property
+    def _content(self) -> Content:
+        return Content(self.hand_in.answer_ring.dimensions, self.hand_in.compare_entry.values)
 
     def _keeps(self, compared: KeyComparison) -> bool:
         """Whether an answer is right, or keeps some of what is."""

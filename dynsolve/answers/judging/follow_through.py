@@ -11,6 +11,7 @@ everywhere else there is one value, the key's.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from heapq import heappop, heappush
 from itertools import islice
 from typing import Any
@@ -72,17 +73,20 @@ class FollowThrough(Struct, dict=True):
 
     def touched(self, node: str) -> bool:
         """Whether an answer that is not correct lies before a node."""
+        if not self._wrong:
+            return False
         if node not in self._touched:
             self._touched[node] = any(
-                self._wrong(name) or self.touched(name)
+                name in self._wrong or self.touched(name)
                 for route in self.routes(node)
                 for name in route.inputs
             )
         return self._touched[node]
 
-    def _wrong(self, node: str) -> bool:
-        value = self.students.get(node)
-        return value is not None and not value.correct
+    @cached_property
+    def _wrong(self) -> frozenset[str]:
+        """The nodes of the answers that are not correct."""
+        return frozenset(node for node, value in self.students.items() if not value.correct)
 
     def choices(self, node: str) -> tuple[PossibleValue, ...]:
         """What may stand for a node where it is an input: the student's own answer first."""

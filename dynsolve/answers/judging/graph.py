@@ -199,6 +199,7 @@ class AnswerGraph:
     ) -> None:
         self.parameters = parameters or {}
         self._regressors: dict[str, Any] = {}
+        self._routes: dict[tuple[str, bool], Sequence[Route]] = {}
         self.answer_ring = answer_ring
         self.robot: Robot = answer_ring.robot
         self.zero_potential = zero_potential
@@ -263,6 +264,12 @@ class AnswerGraph:
 
         `assembled`: τ from D, C and g too, and none of these from τ.
         """
+        found = self._routes.get((node, assembled))
+        if found is None:
+            found = self._routes[node, assembled] = self._routes_to(node, assembled)
+        return found
+
+    def _routes_to(self, node: str, assembled: bool) -> Sequence[Route]:
         quantity = self.quantities.of_rule(node)
         if node not in self.answer_ring.rules or quantity is None or quantity.family in _STATED:
             return ()

@@ -25,7 +25,7 @@ Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -221,16 +221,14 @@ Chain = list[AnswerValue]
 class ComparedHandIn:
     """The answers of one hand-in, compared with the key.
 
-    `answer_ring` is the problem's, extended by what the answers need; `compare_entry` compares
-    scalars, by the numbers of the problem file too.  `chains` has the equations of each quantity,
-    `comparisons` the comparison of the answer that counts; `definitions` has the equations that
-    need what is given nowhere, which are none of the answers.
+    `key` is the problem's graph, `compare_entry` compares scalars, by the numbers of the problem file
+    too.  `answer_ring` is the problem's ring, extended by what the answers need; `chains` has the
+    equations of each quantity, `comparisons` the comparison of the answer that counts; `definitions`
+    has the equations that need what is given nowhere, which are none of the answers.
     """
 
-    def __init__(
-        self, answer_ring: AnswerRing, compare_entry: EntryComparer, answers: Sequence[Answer]
-    ) -> None:
-        values = AnswerValues(answer_ring, answers)
+    def __init__(self, key: AnswerGraph, compare_entry: EntryComparer, answers: Sequence[Answer]) -> None:
+        values = AnswerValues(key, answers)
         self.answer_ring = values.answer_ring
         self.compare_entry = compare_entry
         at_keys_height = KeyComparer(values.graph, self.compare_entry, values.changed)
@@ -239,7 +237,9 @@ class ComparedHandIn:
         self.definitions = _by_quantity([v for v in found if v.is_definition], at_keys_height)
         energies = dict(self._energies())
         potential = potential_at_zero_height(self.answer_ring, energies, self.answer_ring.dimensions)
-        self.graph = AnswerGraph(self.answer_ring, potential, self._own_parameters())
+        parameters = self._own_parameters()
+        is_the_keys = potential is None and not parameters
+        self.graph = values.graph if is_the_keys else AnswerGraph(self.answer_ring, potential, parameters)
         self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
         compared = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
         self.comparisons = (
@@ -250,17 +250,16 @@ class ComparedHandIn:
     def _without_repetitions(self, values: Sequence[AnswerValue]) -> list[AnswerValue]:
         """The values, those set aside that repeat an answer with numbers which the problem does not give."""
         parameters = set(self.answer_ring.robot.parameters)
-        held = [names_in(*(node for row in value.nodes for node in row)) & parameters for value in values]
-        unknown = {
-            value.answer.name
-            for value, names in zip(values, held, strict=True)
-            if not names <= self.compare_entry.values.keys()
-        }
+        in_numbers = [value for value in values if _has_measured_number(value, parameters)]
+        if not in_numbers:
+            return list(values)
+        given = self.compare_entry.values.keys()
+        unknown = {v.answer.name for v in values if not names_in(*_nodes(v)) & parameters <= given}
         return [
             replace(value, is_definition=True, fault=IN_NUMBERS)
-            if value.answer.name in unknown and not names and _has_measured_number(value)
+            if value in in_numbers and value.answer.name in unknown
             else value
-            for value, names in zip(values, held, strict=True)
+            for value in values
         ]
 
     def _on_constraint(self, compared: Mapping[str, KeyComparison]) -> dict[str, KeyComparison]:
@@ -313,10 +312,18 @@ class ComparedHandIn:
         return self.compare("C", AnswerValue(answer, values, node.rows))
 
 
-def _has_measured_number(value: AnswerValue) -> bool:
-    """Whether a number stands in a value that no formula of mechanics has of itself, as 9.81 and 3.5."""
-    parts = (part for row in value.nodes for node in row for part in walk(node))
-    return any(isinstance(p, tree.Number) and (abs(p.p) > LARGEST or p.q > LARGEST) for p in parts)
+def _nodes(value: AnswerValue) -> Iterator[Node]:
+    return (node for row in value.nodes for node in row)
+
+
+def _has_measured_number(value: AnswerValue, parameters: Container[str]) -> bool:
+    """Whether a value without parameters has a number that no formula has of itself, as 9.81 and 3.5."""
+    found = False
+    for part in walk(*_nodes(value)):
+        if isinstance(part, Symbol) and part.name in parameters:
+            return False
+        found = found or (isinstance(part, Number) and (abs(part.p) > LARGEST or part.q > LARGEST))
+    return found
 
 
 def last(chains: Sequence[Chain]) -> AnswerValue:
