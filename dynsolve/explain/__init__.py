@@ -47,7 +47,6 @@ from msgspec.structs import replace
 
 from dynsolve.errors import attempted
 from dynsolve.explain.context import Context
-from dynsolve.explain.matrix_factors import with_factors_in_front
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Words, equation
 from dynsolve.quantities.family import FORMED
@@ -56,10 +55,6 @@ from dynsolve.quantities.owners import stages_of
 from dynsolve.quantities.stages import Stage
 
 __all__ = ["Detail", "Step", "explain"]
-
-_OF_BODIES = (Stage.INERTIA, Stage.ENERGY)
-"""The stages whose matrices have the factors that their entries share, masses and lengths, in front."""
-
 
 _BESIDE = {
     Stage.LAGRANGIAN: ("torque", "lagrangian_steps"),
@@ -80,8 +75,7 @@ def _of_stage(stage: Stage, context: Context) -> Iterator[Step]:
     shown: list[Step] = []
 
     def explained() -> None:
-        steps = _steps(stage)(context)
-        for step in with_factors_in_front(steps, context) if stage in _OF_BODIES else steps:
+        for step in _steps(stage)(context):
             stays = replace(step, stage=step.stage or stage)
             shown.append(stays)  # though a later one may fail
 

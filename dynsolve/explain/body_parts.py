@@ -10,6 +10,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.identities import (
@@ -71,8 +72,8 @@ def _step(context: Context, body: Body) -> Step:
         why = "Its rotational part alone: its mass centre does not move."
     elif not turns:
         why = "Its linear part alone: it does not turn."
-    linear = (equation(linear_name(context, body), context.form(f"Dv{b}")),)
-    angular = (equation(angular_name(body), context.form(f"Dw{b}")),) if turns else ()
+    linear = (equation(linear_name(context, body), factored(context, context.form(f"Dv{b}"))),)
+    angular = (equation(angular_name(body), factored(context, context.form(f"Dw{b}"))),) if turns else ()
     both = turns and not (along_own_axes(context, body) or _is_in_two(context, body))
     return Step(
         id=f"D_direct{b}",
@@ -109,7 +110,7 @@ def _worked_out(context: Context, body: Body, step: Step, turns: bool) -> Step:
     angular = tuple(_angular_lines(context, body)) if turns else ()
     angular_used = _angular_used(context, body) if turns else ()
     shown = Product((context.mass(body), letters.transposed_product(context.show(J))))
-    step = replace(step, working=(equation(linear_name(context, body), shown),))
+    step = replace(step, working=(equation(linear_name(context, body), factored(context, shown)),))
     products = of_columns(context, body)
     if products is None:
         used = dict.fromkeys((*used_in_product(context, J.T, J, J.T @ J), *angular_used))
@@ -204,7 +205,7 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     name = angular_name(body)
     if not along_own_axes(context, body):
         product = _with_tensor(context, J, tensor)
-        yield Line((), (equation(name, product),))
+        yield Line((), (equation(name, factored(context, product)),))
         return
     own = turned(context, body, "Jw", letters.jw(body))
     first, *others = own.lines
@@ -214,7 +215,7 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     product = letters.transposed_product(context.show(own.value), context.show(given))
     yield Line(
         ("The tensor along the body's own axes put in:",),
-        (equation(name, in_letters, product),),
+        (equation(name, in_letters, factored(context, product)),),
         (f"I_body{b}",),
     )
 

@@ -21,6 +21,7 @@ from dynsolve.explain.jacobian import (
     read_off,
     told_read_off,
 )
+from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
 from dynsolve.explain.working.derivatives import summed
@@ -138,8 +139,8 @@ def _jacobians(context: Context, body: Body) -> Step:
     turning = () if body.is_point else (equation(J_w, Matrix((tuple(w for _, w in columns),))),)
     beside = robot.n <= BESIDE and not any(isinstance(v, Sum) for v, _ in columns)
     working, named = crosses(context, body.link, letters.rc(body), center, context.matrix(f"Jv{b}"))
-    results = [equation(J_v, context.form(f"Jv{b}"))]
-    results += [] if body.is_point else [equation(J_w, context.form(f"Jw{b}"))]
+    results = [equation(J_v, factored(context, context.form(f"Jv{b}")))]
+    results += [] if body.is_point else [equation(J_w, factored(context, context.form(f"Jw{b}")))]
     step = Step(
         id=f"Jv{b}",
         title=f"Jacobian{'s' * bool(turning)} of the mass centre of {name_of(body)}",
@@ -213,10 +214,10 @@ def _is_at_the_end(context: Context, body: Body) -> bool:
 def _velocities(context: Context, body: Body) -> Step:
     b = body.name
     v, w = letters.of_body("v", body, "bold"), letters.of_body("omega", body, "bold")
-    results = [equation(v, written_velocity(context, body))]
+    results = [equation(v, factored(context, written_velocity(context, body)))]
     formulas: list[Node] = [equation(v, Product((letters.jv(body), letters.QD)))]
     if not body.is_point:
-        results.append(equation(w, context.form(f"w{b}")))
+        results.append(equation(w, factored(context, context.form(f"w{b}"))))
         formulas.append(equation(w, Product((letters.jw(body), letters.QD))))
     J, qd = context.form(f"Jv{b}"), column(*(letters.velocity(q) for q in context.robot.coordinates))
     moves = not context.values[f"Jv{b}"].is_zero
@@ -226,7 +227,7 @@ def _velocities(context: Context, body: Body) -> Step:
         why=(f"The Jacobian{'s' * (not body.is_point)} times the rates of the coordinates.",),
         formula=side_by_side(formulas),
         source=spong("7.2.2"),
-        working=(equation(v, Product((J, qd))),) if moves and is_small(J, qd) else (),
+        working=(equation(v, factored(context, Product((J, qd)))),) if moves and is_small(J, qd) else (),
         result=tuple(results),
         together=context.robot.n <= BESIDE,
         also=(f"w{b}",),

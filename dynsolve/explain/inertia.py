@@ -17,6 +17,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.kinematics import product_of_axes, why_axes
 from dynsolve.explain.mass_centers import density_step, mass_center_step, turning_of
+from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.parameter_meanings import SHAPES, letters_of, shape_letters
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import TOLD, Detail, Group, Part, Step
@@ -125,7 +126,7 @@ def _tensor(context: Context, body: Body) -> Step:
         formula=moments,
         source=spong("7.2.1") if moments is None or body.shape is None else _SOURCES[body.shape.kind],
         working=working,
-        result=(equation(tensor, context.show(body.inertia)),),
+        result=(equation(tensor, factored(context, context.show(body.inertia))),),
         said=said,
         uses=(),
     )
@@ -265,10 +266,10 @@ def _parallel_axis(context: Context, body: Body) -> Step:
         formula=formula("{I} = 𝐈_({i},'given') - {shift}", I=tensor, i=letters.index_of(b), shift=shift),
         source="parallel-axis theorem; Craig 6.3",
         working=(
-            formula("𝐝 = {d}", d=context.show(offset)),
-            equation(shift, context.show(link_frame.steiner(body.mass, offset))),
+            formula("𝐝 = {d}", d=factored(context, context.show(offset))),
+            equation(shift, factored(context, context.show(link_frame.steiner(body.mass, offset)))),
         ),
-        result=(equation(tensor, context.form(f"I_body{b}")),),
+        result=(equation(tensor, factored(context, context.form(f"I_body{b}"))),),
         uses=(),
     )
 
@@ -380,9 +381,9 @@ def _base_tensor(context: Context, body: Body) -> Step:
         ),
         formula=equation(name, Product((R, tensor, Transpose(R))), *same),
         source=spong("7.2.1"),
-        working=tuple(equation(name, line) for line in turning.lines),
+        working=tuple(equation(name, factored(context, line)) for line in turning.lines),
         concluding=turning.concluding,
-        result=(equation(name, *same, base),),
+        result=(equation(name, *same, factored(context, base)),),
         normal=Part.WHY | Part.FORMULA if same else TOLD,
         notes=turning.notes,
         said=f"turned tensor {turning.axis}" if turning.axis else "",

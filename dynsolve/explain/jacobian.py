@@ -17,7 +17,7 @@ from dynsolve.derivation.kinematics import axis, joint_frame, origin
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.matrix_factors import matrix_width
+from dynsolve.explain.matrix_factors import factored, matrix_width
 from dynsolve.explain.step import Detail, Group, Part, Step
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, said, used_in_product
@@ -429,7 +429,7 @@ def crosses(
         if not all(_is_fixed(context, joint) for joint in turning):
             in_letters = coordinate_column(context, k, link, name)
             assert in_letters is not None
-            shown += column_shown(context, moved, point, in_letters[0], column_of(J, k))
+            shown += column_shown(context, moved, point, in_letters[0], column_of(J, k), of_body=True)
     turning = [joint for joint in context.robot.path(link) if joint.type is JointType.REVOLUTE]
     used = dict.fromkeys(each for joint in turning for each in used_in_cross(context, joint, point))
     words = "With " if shown else "The cross products, with "
@@ -448,11 +448,13 @@ def column_shown(
     point: algebra.Matrix,
     in_letters: Node,
     linear: Matrix,
+    *,
+    of_body: bool = False,
 ) -> tuple[Node, ...]:
     """A column of J_v with this robot's axes and levers put in, where there is anything to work out.
 
     Its value stands at the end, behind the products where terms of them add up; where an identity leads
-    to it, the product as it is multiplied out.
+    to it, the product as it is multiplied out.  What its entries share stands in front of that `of_body`.
     """
     turning = [joint for _, joint in moved if joint.type is JointType.REVOLUTE]
     if not turning:
@@ -476,8 +478,12 @@ def column_shown(
         values = [_multiplied_out(context, alone, point)] if alone else []
     elif alone and any(map(_adds_up, _products(context, alone, point))):
         values.insert(0, _multiplied_out(context, alone, point))
-    difference = _difference(context, alone, point, in_letters) if alone else ()
-    return (*difference, equation(in_letters, _total(parts), *values))
+    shown = [equation(in_letters, _total(parts), *values)]
+    if alone and (difference := _difference(context, alone, point, in_letters)):
+        shown.insert(0, equation(*difference))
+    if of_body:
+        return tuple(equation(*(factored(context, part) for part in each.parts)) for each in shown)
+    return tuple(shown)
 
 
 def _difference_in(in_letters: Node) -> Sum:
@@ -488,7 +494,7 @@ def _difference_in(in_letters: Node) -> Sum:
 
 
 def _difference(context: Context, joint: Joint, point: algebra.Matrix, in_letters: Node) -> tuple[Node, ...]:
-    """p - o with both put in, where it is more than leaving out the terms of o."""
+    """The members of p - o with both put in, where it is more than leaving out the terms of o."""
     start = frame_parts(context, joint_frame(context.robot, joint))[1]
     end, lever = context.show(point), context.show(_axis_and_lever(context, joint, point)[1])
     assert isinstance(end, Matrix) and isinstance(lever, Matrix)
@@ -497,9 +503,9 @@ def _difference(context: Context, joint: Joint, point: algebra.Matrix, in_letter
         return ()
     between = _difference_in(in_letters)
     if (before := _same_origin(context, joint)) is not None:
-        return (equation(between, Sum((between.terms[0], Negative(letters.o(before))))),)
+        return between, Sum((between.terms[0], Negative(letters.o(before))))
     both = (Sum((end, Negative(start))),) if is_small(end, start) else ()
-    return (equation(between, *both, lever),)
+    return between, *both, lever
 
 
 def _same_origin(context: Context, joint: Joint) -> int | None:

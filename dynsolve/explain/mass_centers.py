@@ -13,6 +13,7 @@ from dynsolve.document.sentences import say
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import told_frames
+from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.parameter_meanings import SHAPES
 from dynsolve.explain.step import TOLD, WORKED, Detail, Line, Part, Step
 from dynsolve.explain.working.identities import product_named
@@ -63,7 +64,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         source=way.source,
         further=way.given,
         working=(equation(r, way.values),) if way.values else (),
-        result=(equation(r, context.form(f"rc{body.name}")),),
+        result=(equation(r, factored(context, context.form(f"rc{body.name}"))),),
         notes=(not_the_origin,) if tells else (),
         detail=Detail.BRIEF,
         normal=WORKED & ~Part.FURTHER | Part.WHY if way.values else TOLD,

@@ -1,19 +1,16 @@
-"""Steps whose matrices have what all entries share in front: J_v = ½ L [...], I = (1/12) m l² [...].
+"""Matrices of bodies with what all entries share in front: J_v = ½ L [...], I = (1/12) m l² [...].
 
 Only where the matrix, with it in front, fits every page: a wider one is given entry by entry.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-
-from msgspec.structs import replace
+from collections.abc import Iterator
 
 from dynsolve.algebra.compact.collect import matrix_factor
 from dynsolve.explain.context import Context, style_of
-from dynsolve.explain.step import Step
 from dynsolve.notation.build import factors_of, number_in_front
-from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Relation, Transpose
+from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Transpose
 from dynsolve.notation.unicode import UnicodePrinter, width
 
 
@@ -28,23 +25,9 @@ WIDEST = 50
 """The characters up to which a matrix has its factor in front."""
 
 
-def with_factors_in_front(steps: Iterable[Step], context: Context) -> Iterator[Step]:
-    """The steps, the matrices of their working and results with common factors in front."""
-    for step in steps:
-        lines = (
-            replace(line, formulas=tuple(_written(context, node) for node in line.formulas))
-            for line in step.lines
-        )
-        working = (_written(context, node) for node in step.working)
-        result = (_written(context, node) for node in step.result)
-        yield replace(step, lines=tuple(lines), working=tuple(working), result=tuple(result))
-
-
-def _written(context: Context, node: Node) -> Node:
-    """An equation whose members have their factors in front."""
+def factored(context: Context, node: Node) -> Node:
+    """A matrix, or a product of matrices, with what their entries share in front of it."""
     match node:
-        case Relation(parts):
-            return replace(node, parts=tuple(_written(context, part) for part in parts))
         case Matrix():
             found = _factored(context, node)
             return node if found is None else Product((*factors_of(found[0]), found[1]))

@@ -14,6 +14,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
+from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import is_small, listed, name_of, spong, sum_of
 from dynsolve.notation import tree
@@ -41,7 +42,7 @@ def center_step(context: Context, body: Body) -> Step:
         id=f"rc{body.name}",
         title=f"Mass centre of {name_of(body)}",
         why=(f"The position of {name_of(body)} is given{how}",),
-        result=(equation(letters.rc(body), context.form(f"rc{body.name}")),),
+        result=(equation(letters.rc(body), factored(context, context.form(f"rc{body.name}"))),),
         said="given position" if moves else "",
         uses=(),
         detail=Detail.BRIEF,
@@ -103,9 +104,9 @@ def _factors(body: Body) -> tuple[Node, ...]:
 def jacobians_step(context: Context, body: Body) -> Step:
     """J_v = ∂r_c/∂q, and the sum of the axes of the turns, each times the rates of its angle."""
     b, jv, is_point = body.name, letters.jv(body), body.is_point and not body.turns
-    results = [equation(jv, context.form(f"Jv{b}"))]
+    results = [equation(jv, factored(context, context.form(f"Jv{b}")))]
     if not is_point:
-        results.append(equation(letters.jw(body), context.form(f"Jw{b}")))
+        results.append(equation(letters.jw(body), factored(context, context.form(f"Jw{b}"))))
     return Step(
         id=f"Jv{b}",
         title=f"Jacobian of {name_of(body)}" if is_point else f"Jacobians of {name_of(body)}",

@@ -10,7 +10,6 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
 from dynsolve.explain.context import Context
-from dynsolve.explain.matrix_factors import with_factors_in_front
 from dynsolve.explain.placed_bodies import inertia_step
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import STATED, Detail, Part, Step
@@ -44,8 +43,7 @@ def steps(context: Context) -> Iterator[Step]:
         given = context.robot.given
         direct = [_inertia_direct(context) if given is None else inertia_step(context, given)]
         if _is_short(context):
-            parts = (step for body in context.robot.bodies for step in part_steps(context, body))
-            direct += with_factors_in_front(parts, context)
+            direct += (step for body in context.robot.bodies for step in part_steps(context, body))
         if context.robot.actions:
             from dynsolve.explain.actions import rotor_part_step
 

@@ -19,7 +19,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.matrix_factors import matrix_width
+from dynsolve.explain.matrix_factors import factored, matrix_width
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.differentiation import is_trigonometric
@@ -98,7 +98,7 @@ def _begun_along(context: Context, body: Body, i: int) -> Iterator[Line]:
     mass, name = context.mass(body), Parenthesized(turned_name(context, i, J))
     products = ((mass, J), (mass, name), (context.show(body.mass), turned))
     members = dict.fromkeys(Product((m, letters.transposed_product(columns))) for m, columns in products)
-    yield Line(("Their products:",), (equation(*members),))
+    yield Line(("Their products:",), (equation(*(factored(context, member) for member in members)),))
 
 
 def _along(context: Context, body: Body, velocity: Matrix) -> Way | None:

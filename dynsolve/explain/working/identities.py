@@ -25,6 +25,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
+from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import sums_of_rates
 from dynsolve.explain.writing import is_small, listed, sum_of
@@ -245,8 +246,9 @@ def product_line(
     (R, R_form), (x, x_form) = turn, turned
     cancelled = cancelled_in_product(context, R.T, x) if tells_what_cancels else ()
     words = by(operation, used_in_product(context, R.T, x, R.T @ x), cancelled)
-    shown = [Product((Transpose(R_form), x_form))] if is_small(R_form, x_form) else []
-    return Line(words, (equation(*names, *shown, context.show(R.T @ x)),), uses, label)
+    shown: list[Node] = [Product((Transpose(R_form), x_form))] if is_small(R_form, x_form) else []
+    members = (factored(context, node) for node in (*shown, context.show(R.T @ x)))
+    return Line(words, (equation(*names, *members),), uses, label)
 
 
 # -- the value of a tree as a polynomial before any relation is used: s² + c² is not yet 1 ---------

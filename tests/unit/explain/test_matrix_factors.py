@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.explain.matrix_factors import with_factors_in_front
-from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Node, equation
+from dynsolve.explain.matrix_factors import factored
+from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.quantities import letters
-from dynsolve.quantities.stages import Stage
 from tests.support import solved
 
 FACTORS = [
@@ -29,10 +26,7 @@ FACTORS = [
 @pytest.mark.parametrize(("problem", "name", "wanted"), FACTORS)
 def test_fractions_that_all_entries_share_stand_in_front(problem: str, name: str, wanted: str) -> None:
     solution = solved(problem)
-    step = Step("x", Stage.ENERGY, "", result=(equation(letters.TAU, solution.forms(name)),))
-    (changed,) = with_factors_in_front([step], solution._context)
-    (result,) = changed.result
-    assert to_unicode(last(result), solution.style) == wanted
+    assert to_unicode(factored(solution._context, solution.forms(name)), solution.style) == wanted
 
 
 def last(node: Node) -> Node:
