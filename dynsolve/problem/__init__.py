@@ -18,8 +18,9 @@
                      questions      what is asked: `points`, `task`, `reach`, `limits`, `parameters`
                      constraints    `constraints`
                      state          `state`
-                     actions        `friction`, `springs`, `dampers`, `motors`, `passive`, `forces`,
-                                    `weights`
+                     actions        `forces`, `weights`
+                     decoder        mappings and lists whose keys and items the specification says the kinds of
+                     acting         `friction`, `springs`, `dampers`, `motors`, `passive`, up to the robot
                      exercise       `find`, `marks`, `values`, `units`
                      answer_names   what the field calls the answers; `remarks`
       -> checked     symbols        one name is one thing
@@ -28,7 +29,6 @@
                      build          joints and bodies
                      questions_build
                                     points, the task, forces, `reach` and `limits` with numbers
-                     actions_build  friction, springs, dampers, motors
       -> Problem     model          the robot, and what the exercise says about it: `also`, `strict`
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.

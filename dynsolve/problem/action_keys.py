@@ -10,12 +10,16 @@ The keys of `model`: a mechanism by positions, or given energies; see `specifica
 from __future__ import annotations
 
 from dynsolve.problem.kinds import (
+    COORDINATE,
     EXPRESSION,
     LINK,
     NAME,
     VECTOR,
+    Coordinate,
+    Expression,
     Key,
     Keyed,
+    Link,
     ListOf,
     MapOf,
     OneOf,
@@ -30,19 +34,34 @@ from dynsolve.robot.shapes import AXES
 MOST_ACTIONS = 20
 """The most springs, dampers and motors that are read, of each."""
 
+_CONSTANT = "it is a constant of the problem"
+VISCOUS = Expression("a coefficient of viscous friction", _CONSTANT)
+PARAMETER = Expression(constant=_CONSTANT)
+
 FRICTION = Keyed(
     (
-        Key("viscous", EXPRESSION, "f_v of viscous friction: f_v q̇.", "fv1", "0"),
-        Key("coulomb", EXPRESSION, "f_c of Coulomb friction: f_c sgn(q̇).", "fc1", "0"),
+        Key("viscous", VISCOUS, "f_v of viscous friction: f_v q̇.", "fv1", "0"),
+        Key(
+            "coulomb",
+            Expression("a coefficient of Coulomb friction", _CONSTANT),
+            "f_c of Coulomb friction: f_c sgn(q̇).",
+            "fc1",
+            "0",
+        ),
     ),
     least=1,
 )
 
 SPRING = Keyed(
     (
-        Key("stiffness", EXPRESSION, "k of a linear spring, of the energy ½ k (x - rest)².", "k"),
+        Key(
+            "stiffness",
+            Expression("a stiffness", _CONSTANT),
+            "k of a linear spring, of the energy ½ k (x - rest)².",
+            "k",
+        ),
         Key("of", EXPRESSION, "x, linear in the coordinates.", "q2 - q1"),
-        Key("rest", EXPRESSION, "Where the spring is relaxed.", "delta", "0"),
+        Key("rest", PARAMETER, "Where the spring is relaxed.", "delta", "0"),
         Key(
             "energy",
             EXPRESSION,
@@ -55,18 +74,16 @@ SPRING = Keyed(
 
 DAMPER = Keyed(
     (
-        Key("damping", EXPRESSION, "b of the force b ẋ.", "b", required=True),
+        Key("damping", VISCOUS, "b of the force b ẋ.", "b", required=True),
         Key("of", EXPRESSION, "x, linear in the coordinates.", "q2 - q1", required=True),
     )
 )
-
-ROTOR_AXIS = Word(AXES)
 
 MOTOR = Keyed(
     (
         Key(
             "turns",
-            NAME,
+            Coordinate("a name", {"type": "string"}, new=True),
             "The coordinate that it turns; with a star, a new angle that it turns alone, as in an elastic "
             "joint.",
             "q1",
@@ -74,11 +91,28 @@ MOTOR = Keyed(
             remedy="write turns: q1, a coordinate of the table, or turns: thm1*, a new angle",
         ),
         Key(
-            "inertia", EXPRESSION, "The moment of inertia of the rotor about its axis.", "Im1", required=True
+            "inertia",
+            Expression("a moment of inertia", _CONSTANT),
+            "The moment of inertia of the rotor about its axis.",
+            "Im1",
+            required=True,
         ),
-        Key("ratio", EXPRESSION, "The ratio of its gear: it turns so much faster.", "kr1", "1"),
-        Key("carrier", LINK, "The link that carries the motor round.", "1", "the ground"),
-        Key("axis", ROTOR_AXIS, "The axis of frame `carrier` that it spins about.", "z", "z"),
+        Key("ratio", PARAMETER, "The ratio of its gear: it turns so much faster.", "kr1", "1"),
+        Key(
+            "carrier",
+            Link(LINK.called, LINK.json, "which carries a motor that has no `carrier`"),
+            "The link that carries the motor round.",
+            "1",
+            "the ground",
+        ),
+        Key(
+            "axis",
+            Word(AXES),
+            "The axis of frame `carrier` that it spins about.",
+            "z",
+            "z",
+            called="axis of {of}",
+        ),
     )
 )
 
@@ -86,7 +120,7 @@ ACTION_KEYS = (
     Key(
         "friction",
         MapOf(
-            OneOf((EXPRESSION, Shared("friction", FRICTION, "`{viscous, coulomb}`"))),
+            OneOf((VISCOUS, Shared("friction", FRICTION, "`{viscous, coulomb}`"))),
             "friction by coordinate",
         ),
         "Friction of the joints, f_v q̇ + f_c sgn(q̇); a bare value is f_v.",
@@ -120,7 +154,7 @@ ACTION_KEYS = (
     ),
     Key(
         "passive",
-        ListOf(NAME, "a list of names"),
+        ListOf(COORDINATE, "a list of names"),
         "Coordinates without a motor: their generalized force is 0.",
         "[L2]",
         "none",

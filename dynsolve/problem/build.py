@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.problem.actions import NO_ACTIONS
 from dynsolve.problem.bodies import ParsedBody, ParsedShape
 from dynsolve.problem.model import ParsedFile
 from dynsolve.problem.questions_build import load, named_point, with_questions
@@ -73,10 +72,10 @@ def build_robot(
         parameters=tuple(name for name in ring.parameters if name not in ("pi", *inputs)),
         inputs=inputs,
     )
-    if parsed.actions is not NO_ACTIONS:
-        from dynsolve.problem.actions_build import actions
+    if parsed.acting is not None:
+        from dynsolve.problem.acting import actions
 
-        robot = replace(robot, actions=actions(values, parsed.actions))
+        robot = replace(robot, actions=actions(values, parsed.acting))
     known_loads = [one for one in loads if one]
     is_drawn = parsed.normals is not None
     robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)

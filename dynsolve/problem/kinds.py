@@ -14,7 +14,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, ClassVar
 
 from msgspec import Struct
 
@@ -35,6 +35,31 @@ class Plain(Struct, frozen=True):
     json: Mapping[str, Any]
 
 
+class Expression(Struct, frozen=True):
+    """A formula.
+
+    `role` is what a symbol is that stands alone in it, in the words of a message.  `constant` says why no
+    coordinate may stand in it, and is empty where one may.
+    """
+
+    role: str = ""
+    constant: str = ""
+    called: ClassVar[str] = "an expression"
+    meaning: ClassVar[str] = "A number, a name or a formula: m1*lc1^2, 9.81, sqrt(3)/2, 90deg."
+
+
+class Coordinate(Plain, frozen=True):
+    """A coordinate by its name; `new` where a star after it makes one."""
+
+    new: bool = False
+
+
+class Link(Plain, frozen=True):
+    """A row of the table by its number; `ground` says what row 0, the ground, is none for."""
+
+    ground: str = ""
+
+
 class Word(Struct, frozen=True):
     """One of a few words."""
 
@@ -42,12 +67,19 @@ class Word(Struct, frozen=True):
 
 
 class ListOf(Struct, frozen=True):
-    """A list of at least `least` and at most `most` values of one kind."""
+    """A list of at least `least` and at most `most` values of one kind.
+
+    `told` is what an error about another value says before the help of the key, `empty` what is wrong with a
+    list without values, where that is an error.  These are reported at the key where `at_key` says so.
+    """
 
     items: ValueKind
     called: str
     least: int = 0
     most: int | None = None
+    told: str = ""
+    empty: str = ""
+    at_key: bool = False
 
 
 class MapOf(Struct, frozen=True):
@@ -94,7 +126,7 @@ class Shared(Struct, frozen=True):
     meaning: str = ""
 
 
-ValueKind = Plain | Word | ListOf | MapOf | Keyed | OneOf | Shared
+ValueKind = Plain | Expression | Word | ListOf | MapOf | Keyed | OneOf | Shared
 
 
 class Key(Struct, frozen=True):
@@ -104,7 +136,7 @@ class Key(Struct, frozen=True):
     value in YAML; one that is `active` stands in the file of `dynsolve new` as it is,
     others as a comment.  `default` is the value where the key is not given, or words
     about it.  `remedy` is the help of an error about the value, where it is not simply
-    the example.
+    the example.  `called` is what an error calls the value, with {of} for the mapping.
     """
 
     name: str
@@ -116,11 +148,12 @@ class Key(Struct, frozen=True):
     more: str = ""
     active: bool = False
     remedy: str = ""
+    called: str = ""
 
     @property
     def described(self) -> str:
         """Its meaning: its own, or else that of its kind."""
-        return self.meaning or (self.kind.meaning if isinstance(self.kind, Shared) else "")
+        return self.meaning or (self.kind.meaning if isinstance(self.kind, Shared | Expression) else "")
 
     @property
     def help(self) -> str:
@@ -160,13 +193,16 @@ def either(names: Iterable[str]) -> str:
 TEXT = Plain("a line of text", {"type": ["string", "number"]})
 NUMBER = Plain("a number", {"type": ["string", "number"]})
 NAME = Plain("a name", {"type": "string"})
-EXPRESSION = Shared(
-    "expression",
-    Plain("an expression", {"type": ["string", "number"]}),
-    "an expression",
-    "A number, a name or a formula: m1*lc1^2, 9.81, sqrt(3)/2, 90deg.",
-)
-VECTOR = Shared("vector", ListOf(EXPRESSION, "", 3, 3), "`[x, y, z]`")
+COORDINATE = Coordinate("a name", {"type": "string"})
+EXPRESSION = Expression()
+
+
+def vector(role: str = "", constant: str = "") -> Shared:
+    """Three expressions [x, y, z]; see `Expression`."""
+    return Shared("vector", ListOf(Expression(role, constant), "", 3, 3), "`[x, y, z]`")
+
+
+VECTOR = vector()
 MATRIX = Shared("matrix", ListOf(VECTOR, "", 3, 3), "a 3×3 list")
 ROTATION = Shared(
     "rotation",

@@ -19,7 +19,6 @@ from msgspec import Struct, field
 from dynsolve.algebra.angles import Angle
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
-from dynsolve.problem.actions import NO_ACTIONS, ParsedActions
 from dynsolve.problem.answer_names import Remark
 from dynsolve.problem.base import ParsedBase, ParsedRotation
 from dynsolve.problem.bodies import ParsedBody
@@ -34,6 +33,7 @@ from dynsolve.quantities.stages import ASKED_FOR
 from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType, Robot
 
 if TYPE_CHECKING:
+    from dynsolve.problem.acting import Acting
     from dynsolve.problem.candidates import ParsedCandidates
     from dynsolve.problem.mechanism import ParsedModel
     from dynsolve.robot.drawing.normals import Normals
@@ -178,7 +178,7 @@ class ParsedFile(Struct, frozen=True):
     questions: ParsedQuestions
     normals: Normals | None = None
     """Of a drawing, the normals that its table was made from."""
-    actions: ParsedActions = NO_ACTIONS
+    acting: Acting | None = None
     model: ParsedModel | None = None
     """In the place of a table and its bodies: a mechanism by positions, or given energies."""
     candidates: ParsedCandidates | None = None
@@ -236,10 +236,15 @@ class ParsedFile(Struct, frozen=True):
                 )
                 if there
             ),
-            actions=self.actions.kinds,
+            actions=self.acting.kinds if self.acting else frozenset(),
             has_matrices=self.has_matrices,
             has_robot=not self.is_of_matrices,
         )
+
+    @property
+    def decoded(self) -> tuple[Cell, ...]:
+        """What the decoder read."""
+        return self.acting.cells if self.acting else ()
 
     @property
     def rotations(self) -> Iterator[ParsedRotation]:
@@ -265,7 +270,7 @@ class ParsedFile(Struct, frozen=True):
         if self.candidates:
             yield from self.candidates.moving
         yield from self.questions.moving
-        yield from self.actions.moving
+        yield from (cell for cell in self.decoded if cell.moves)
 
     @property
     def constant(self) -> Iterator[Cell]:
@@ -284,7 +289,7 @@ class ParsedFile(Struct, frozen=True):
         if self.base.rotation:
             yield from self.base.rotation.entries
         yield from self.questions.constant
-        yield from self.actions.constant
+        yield from (cell for cell in self.decoded if not cell.moves)
 
     @property
     def angles(self) -> Iterator[tuple[Cell, Angle]]:
@@ -314,5 +319,4 @@ class ParsedFile(Struct, frozen=True):
         yield from self.base.move or ()
         yield from self.questions.constant
         yield from self.questions.moving
-        yield from self.actions.constant
-        yield from self.actions.moving
+        yield from self.decoded

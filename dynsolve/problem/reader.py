@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from dynsolve.errors import Finding, ProblemError
-from dynsolve.problem.actions import KEYS as ACTING
-from dynsolve.problem.actions import NO_ACTIONS, check_bodies, read_actions
+from dynsolve.problem.action_keys import ACTION_KEYS
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, Framed, read_base, read_gravity
 from dynsolve.problem.bodies import DrawnFrames, read_bodies
 from dynsolve.problem.build import build_robot
 from dynsolve.problem.cells import Cell
+from dynsolve.problem.decoder import Decoder
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.kinds import Fields, describe, free_text, word
 from dynsolve.problem.model import FilePlace, ParsedFile, Problem, read_accepted_tables
@@ -172,11 +172,13 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     rows = len(table.rows)
     drawn = DrawnFrames.of(framed.normals, table.coordinates)
     bodies = read_bodies(faults, fields.get("masses"), rows, coordinates, drawn)
-    acts = any(key in fields for key in ACTING)
-    actions = read_actions(faults, fields, rows, coordinates) if acts else NO_ACTIONS
-    if acts:
+    acting = None
+    if any(key.name in fields for key in ACTION_KEYS):
+        from dynsolve.problem.acting import check_bodies, read_actions
+
+        acting = read_actions(Decoder(faults, coordinates, rows), fields)
         has_mass = bool(bodies) or model is not None
-        check_bodies(faults, fields, actions, [body.name for body in bodies], has_mass)
+        check_bodies(faults, fields, acting, [body.name for body in bodies], has_mass)
     return ParsedFile(
         convention=convention,
         table=table,
@@ -186,7 +188,7 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
         questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies], drawn),
         normals=framed.normals,
         model=model,
-        actions=actions,
+        acting=acting,
         candidates=candidates,
     )
 

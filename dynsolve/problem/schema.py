@@ -25,6 +25,7 @@ from typing import Any
 
 from dynsolve.problem.kinds import (
     BRACKETS,
+    Expression,
     Key,
     Keyed,
     ListOf,
@@ -46,6 +47,10 @@ Schema = dict[str, Any]
 
 _PLAIN = {"true": True, "false": False, "1": 1, "2": 2}
 """What an editor makes of these words before it looks at the schema."""
+
+_FORMULA = Shared(
+    "expression", Plain("", {"type": ["string", "number"]}), Expression.called, Expression.meaning
+)
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -72,6 +77,8 @@ def _schema_of(kind: ValueKind, shared: dict[str, Schema]) -> Schema:
     match kind:
         case Plain(_, json):
             return dict(json)
+        case Expression():
+            return _schema_of(_FORMULA, shared)
         case Word((only,)):
             return {"const": only}
         case Word(choices):

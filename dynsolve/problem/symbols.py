@@ -73,7 +73,7 @@ def _kinds(parsed: ParsedFile) -> Iterator[tuple[str, Cell]]:
     for point in parsed.questions.points:
         if point.place and point.place.kind != "along":
             yield from (("a length", cell) for cell in point.place.cells)
-    yield from parsed.actions.kinds_of_values
+    yield from ((cell.role, cell) for cell in parsed.decoded if cell.role)
     yield from (("a length", cell) for cell in parsed.base.move or ())
     yield from (("an acceleration", cell) for cell in parsed.gravity or ())
 

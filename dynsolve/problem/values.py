@@ -130,7 +130,7 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
     trees: list[Node] = [cell.tree for cell in cells]
     if parsed.model:
         trees += (*parsed.model.rates, *parsed.model.slopes)
-    trees += [Function("sgn", Symbol(name, 1)) for name in parsed.actions.signs]
+    trees += [Function("sgn", Symbol(name, 1)) for name in parsed.acting.signs] if parsed.acting else []
     angles = [angle for _, angle in parsed.angles]
     states = [state for state in (parsed.questions.state, parsed.questions.model.linearize) if state]
     for state in states:

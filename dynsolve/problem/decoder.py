@@ -1,0 +1,139 @@
+"""Nodes -> values, by what the specification says of their keys.
+
+A `Record` is a mapping of the file: the value of each key as its kind has it, and where it stands.  An
+expression is a `Cell`, a vector three of them, a word or the name of a coordinate a string, a link a number,
+a rotation a `ParsedRotation`.  A value that was reported is None, as one that is not given; what a kind does
+not say (a name of a body, a tensor) is read by the file of its part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from msgspec.structs import replace
+
+from dynsolve.problem.base import read_rotation
+from dynsolve.problem.cells import Cell, forbid, read_cell, read_vector
+from dynsolve.problem.kinds import (
+    ROTATION,
+    Coordinate,
+    Expression,
+    Fields,
+    Key,
+    Keyed,
+    Link,
+    ListOf,
+    Shared,
+    ValueKind,
+    Word,
+    describe,
+    items,
+    word,
+)
+from dynsolve.problem.table import STARRED, coordinate_name, known_coordinate
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, YamlNode
+
+
+class Record(Fields):
+    """A mapping of the file with the values of its keys; what is wrong with one is reported."""
+
+    def __init__(self, decoder: Decoder, node: MappingNode, kind: Keyed, what: str) -> None:
+        super().__init__(decoder.faults, node, kind.names, what)
+        for key in kind.required:
+            if self.lacks(key.name):
+                self.faults.error(self.span, f"{what} has no `{key.name}`", f"add {key.help}")
+        self._decoded = {
+            key.name: decoder.value(key, self.get(key.name), what) for key in kind.keys if key.name in self
+        }
+
+    def __getitem__(self, key: str) -> Any:
+        """The value of a key, None where it is not given or was reported."""
+        return self._decoded.get(key)
+
+
+class Decoder:
+    """Decodes the values of one file: `coordinates` are their types by name, `rows` those of the table.
+
+    `cells` gathers the expressions that were decoded, in the order of the keys.
+    """
+
+    def __init__(self, faults: Faults, coordinates: Mapping[str, str], rows: int) -> None:
+        self.faults, self.coordinates, self.rows = faults, coordinates, rows
+        self.cells: list[Cell] = []
+
+    def value(self, key: Key, node: YamlNode | None, of: str) -> Any:
+        """The value of a key of the mapping `of`; None where it was reported, or nothing is decoded."""
+        what = (key.called or "`{key}` of {of}").format(key=key.name, of=of)
+        return self._value(key.kind, node, what, key)
+
+    def _value(self, kind: ValueKind, node: YamlNode | None, what: str, key: Key) -> Any:
+        if kind is ROTATION:
+            return read_rotation(self.faults, node, what)
+        match kind:
+            case Shared():
+                return self._value(kind.kind, node, what, key)
+            case Expression():
+                return self.cell(kind, read_cell(self.faults, node, what))
+            case ListOf(Expression() as entry, _, 3, 3):
+                cells = read_vector(self.faults, node, what)
+                return cells and tuple(self.cell(entry, cell) for cell in cells)
+            case Word(choices):
+                return word(self.faults, node, choices, what, key.remedy)
+            case Coordinate():
+                return node and self._coordinate(kind, node, key.help)
+            case Link():
+                from dynsolve.problem.bodies import read_link
+
+                return read_link(self.faults, node, self.rows, kind.ground)
+        return None
+
+    def cell(self, kind: Expression, cell: Cell | None) -> Cell | None:
+        """A cell as one of this kind; a coordinate that may not stand in it is reported."""
+        if cell is None:
+            return None
+        if kind.constant:
+            forbid(self.faults, [cell], self.coordinates, kind.constant)
+        cell = replace(cell, role=kind.role, moves=not kind.constant)
+        self.cells.append(cell)
+        return cell
+
+    def _coordinate(self, kind: Coordinate, node: YamlNode, help: str) -> str | None:
+        starred = STARRED.fullmatch(node.text.strip()) if isinstance(node, ScalarNode) else None
+        if not (kind.new and starred):
+            return known_coordinate(self.faults, node, self.coordinates, help)
+        name = coordinate_name(self.faults, node, help)
+        if name is not None and name not in self.coordinates:
+            self.faults.error(node.span, f"`{starred[1]}` cannot be a coordinate", help)
+        return name
+
+    def entries(self, fields: Fields, key: Key) -> list[Record]:
+        """The mappings in the list under a key; what is none is reported."""
+        kind = key.kind
+        assert isinstance(kind, ListOf) and isinstance(kind.items, Shared)
+        record = kind.items.kind
+        assert isinstance(record, Keyed)
+        found = []
+        for index, node in enumerate(self.listed(fields, key), 1):
+            what = f"{kind.items.called.partition(' ')[2]} {index}"
+            if isinstance(node, MappingNode):
+                found.append(Record(self, node, record, what))
+            elif not isinstance(node, FaultyNode):
+                self.faults.error(node.span, f"{what} is not a mapping but {describe(node)}", key.help)
+        return found
+
+    def listed(self, fields: Fields, key: Key) -> Sequence[YamlNode]:
+        """The items of the list under a key, no more of them than are read."""
+        kind, node = key.kind, fields.get(key.name)
+        assert isinstance(kind, ListOf)
+        found = items(self.faults, node, key.name, kind.told + key.help)
+        if node is None:
+            return found
+        span = fields.key_span(key.name) if kind.at_key else node.span
+        if kind.most is not None and len(found) > kind.most:
+            message = f"{len(found)} {kind.called.rpartition(' ')[2]}; at most {kind.most} are read"
+            self.faults.error(span, message, "leave some out")
+            return found[: kind.most]
+        if kind.empty and isinstance(node, ListNode) and not found:
+            self.faults.error(span, kind.empty, key.help)
+        return found
