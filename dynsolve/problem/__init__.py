@@ -19,7 +19,7 @@
                      constraints    `constraints`
                      state          `state`
                      actions        `forces`, `weights`
-                     decoder        mappings and lists whose keys and items the specification says the kinds of
+                     decoder        mappings and lists, by the kinds of their keys and items
                      acting         `friction`, `springs`, `dampers`, `motors`, `passive`, up to the robot
                      exercise       `find`, `marks`, `values`, `units`
                      answer_names   what the field calls the answers; `remarks`
