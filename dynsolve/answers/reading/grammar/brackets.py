@@ -34,7 +34,7 @@ SYMMETRIC_NOTE = "a mark in a symmetric matrix is read as the entry across the d
 def read(reader: Reader) -> Value:
     """A parenthesis or a matrix, whose bracket is looked at."""
     start, symbols = reader.position, dict(reader.symbols)
-    found = _read(reader)
+    found = {"begin": environment, "(": parenthesis, "⟨": _angular, "[": square}[reader.token.kind](reader)
     if reader.naming or not isinstance(found, Grid) or not isinstance(found.rows[0][0], Reference):
         return found
     whole = _named(reader, reader.tokens[start : reader.position])
@@ -55,17 +55,7 @@ def _named(reader: Reader, tokens: list[Token]) -> str:
     return names[0] if names else ""
 
 
-def _read(reader: Reader) -> Value:
-    if reader.token.kind == "begin":
-        return environment(reader)
-    if reader.token.kind == "(":
-        return parenthesis(reader)
-    if reader.token.kind == "⟨":
-        return angular(reader)
-    return square(reader)
-
-
-def angular(reader: Reader) -> Value:
+def _angular(reader: Reader) -> Value:
     """Maple's `<a, b>`, a column, and `<<a | b>, <c | d>>`."""
     opening = reader.take()
     before, reader.bars_separate = reader.bars_separate, True
@@ -91,21 +81,16 @@ def parenthesis(reader: Reader) -> Value:
 def _parenthesis(reader: Reader) -> Value:
     opening = reader.take()
     if reader.token.kind == ")":
-        raise ReadError(
-            "there is nothing between these parentheses", opening.start, 2, "write what belongs there"
-        )
+        raise opening.fault("there is nothing between these parentheses", "write what belongs there", 2)
     first = reader.sum()
-    if reader.token.kind == ",":
-        rows = [[first]]
-        while reader.token.kind == ",":
-            reader.take()
-            rows.append([reader.sum()])
-        reader.expect(")", opening)
-        return finished(reader, rows, opening)
     if reader.token.kind == "end" and isinstance(first, Grid) and opening.text in ("\\{", "\\lbrace"):
         return first  # the brace at the side of a column
+    rows = [[first]]
+    while reader.token.kind == ",":
+        reader.take()
+        rows.append([reader.sum()])
     reader.expect(")", opening)
-    return first
+    return finished(reader, rows, opening)
 
 
 def listed(reader: Reader, first: Value, opening: Token) -> Value:
@@ -153,7 +138,7 @@ def _square(reader: Reader) -> Value:
     opening = reader.take()
     rows: list[list[Value]] = [[]]
     if reader.token.kind == "]":
-        raise ReadError("there is nothing between these brackets", opening.start, 2, "write the entries")
+        raise opening.fault("there is nothing between these brackets", "write the entries", 2)
     count = 0
     while True:
         while reader.token.kind in (";", "\\\\"):
@@ -165,9 +150,7 @@ def _square(reader: Reader) -> Value:
         rows[-1].append(entry(reader))
         count += 1
         if count > MAX_ENTRIES:
-            raise ReadError(
-                f"a matrix of more than {MAX_ENTRIES} entries", opening.start, 1, "check the brackets"
-            )
+            raise opening.fault(f"a matrix of more than {MAX_ENTRIES} entries", "check the brackets", 1)
         kind = reader.token.kind
         if kind == "," or kind == "&":
             reader.take()
@@ -215,10 +198,7 @@ def environment(reader: Reader) -> Value:
     opening = reader.take()
     name = opening.text.rstrip("*")
     if name not in _MATRICES:
-        message = f"the environment `{name[:40]}` is not read"
-        raise ReadError(
-            message, opening.start, opening.end - opening.start, "matrices are written in bmatrix"
-        )
+        raise opening.fault(f"the environment `{name[:40]}` is not read", "matrices are written in bmatrix")
     rows: list[list[Value]] = [[]]
     blanks: list[Token] = []
     while reader.token.kind not in ("close", "end"):
@@ -241,18 +221,13 @@ def environment(reader: Reader) -> Value:
                 blanks.append(sign)
                 rows[-1].append(EMPTY)
     if reader.token.kind == "end":
-        message = f"this `\\begin{{{name}}}` is never closed"
-        raise ReadError(message, opening.start, opening.end - opening.start, f"add \\end{{{name}}}")
+        raise opening.fault(f"this `\\begin{{{name}}}` is never closed", f"add \\end{{{name}}}")
     reader.take()
     rows = [row for row in rows if row]
     if not rows:
-        raise ReadError(
-            "this matrix is empty", opening.start, opening.end - opening.start, "write its entries"
-        )
+        raise opening.fault("this matrix is empty", "write its entries")
     if blanks and not _are_zeros(rows):
-        raise ReadError(
-            "an entry of this matrix is empty", blanks[0].start, 1, "write 0 where nothing stands"
-        )
+        raise blanks[0].fault("an entry of this matrix is empty", "write 0 where nothing stands", 1)
     return finished(reader, [[ZERO if entry is EMPTY else entry for entry in row] for row in rows], opening)
 
 

@@ -30,10 +30,7 @@ def is_call(reader: Reader) -> bool:
     if token.text in _MADE | _MATRICES | _DERIVATIVES | _OTHERS or token.text in _DOTS:
         return True
     if references.is_elsewhere(token) and references.name_of(token, reader.vocabulary) is None:
-        length = token.end - token.start
-        raise ReadError(
-            f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt"
-        )
+        raise token.fault(f"unknown function `{token.text}`", "functions are sin, cos, tan and sqrt")
     return False
 
 
@@ -60,9 +57,7 @@ def read(reader: Reader) -> Value:
         if name.text in _DOTS:
             dotted = rate(first, reader.vocabulary, _DOTS[name.text])
             if dotted is None:
-                raise ReadError(
-                    "this has no derivative here", opening.start, 1, "write dot(q1) of a coordinate"
-                )
+                raise opening.fault("this has no derivative here", "write dot(q1) of a coordinate", 1)
             first = dotted
         if name.text == "Rational" and reader.token.kind == ",":
             reader.take()
@@ -105,9 +100,7 @@ def _diagonal(reader: Reader, opening: Token) -> Value:
     if len(entries) == 1 and isinstance(entries[0], Grid) and 1 in entries[0].shape:
         entries = [entry for row in entries[0].rows for entry in row]
     if len(entries) ** 2 > MAX_ENTRIES:
-        raise ReadError(
-            f"a matrix of more than {MAX_ENTRIES} entries", opening.start, 1, "check the brackets"
-        )
+        raise opening.fault(f"a matrix of more than {MAX_ENTRIES} entries", "check the brackets", 1)
     rows: list[list[Value]] = [
         [entry if i == j else ZERO for j in range(len(entries))] for i, entry in enumerate(entries)
     ]
@@ -118,7 +111,7 @@ def _zeros(reader: Reader, opening: Token) -> Value:
     """zeros(2, 1)"""
     numbers = [int(t.text) for t in reader.until(")", opening) if t.kind == "number" and t.text.isdecimal()]
     if not 0 < len(numbers) < 3 or max(numbers) > 9 or min(numbers) < 1:
-        raise ReadError("this size is not read", opening.start, 1, "write zeros(2, 1)")
+        raise opening.fault("this size is not read", "write zeros(2, 1)", 1)
     return brackets.finished(reader, [[ZERO] * numbers[-1] for _ in range(numbers[0])], opening)
 
 
@@ -160,7 +153,7 @@ def _mathematica_derivative(reader: Reader, opening: Token) -> Value:
     """Derivative[1][q1][t]"""
     order = reader.until("]", opening)
     if len(order) != 1 or order[0].text not in ("1", "2") or reader.token.kind != "[":
-        raise ReadError("this derivative is not read", opening.start, 1, "write Derivative[1][q1][t]")
+        raise opening.fault("this derivative is not read", "write Derivative[1][q1][t]", 1)
     bracket = reader.take()
     of = reader.inner(reader.until("]", bracket))
     if reader.token.kind == "[" and reader.peek().text == "t":
@@ -169,10 +162,9 @@ def _mathematica_derivative(reader: Reader, opening: Token) -> Value:
 
 
 def _partial(reader: Reader, of: Value, tokens: list[Token], opening: Token) -> Value:
-    if tokens and tokens[0].kind == ",":
-        tokens = tokens[1:]
+    tokens = tokens[bool(tokens and tokens[0].kind == ",") :]
     if not tokens:
-        raise ReadError("this derivative says not by what", opening.start, 1, "write diff(q1(t), t)")
+        raise opening.fault("this derivative says not by what", "write diff(q1(t), t)", 1)
     return derivatives.partial(reader, of, derivatives.variable_of(reader, tokens))
 
 

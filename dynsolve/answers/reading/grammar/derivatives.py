@@ -17,12 +17,8 @@ class UnknownVariable(ReadError):
 
     def __init__(self, token: Token, shown: str, family: tuple[str, ...]) -> None:
         help = "derivatives are taken with respect to a coordinate or its velocity"
-        super().__init__(
-            f"`{shown[:40]}` is no coordinate of the problem",
-            token.start,
-            max(token.end - token.start, 1),
-            help,
-        )
+        length = max(token.end - token.start, 1)
+        super().__init__(f"`{shown[:40]}` is no coordinate of the problem", token.start, length, help)
         self.family = family
 
 
@@ -48,9 +44,8 @@ def quotient(reader: Reader, above: list[Token], below: list[Token], start: int)
     if time:
         return total_rate(reader, of, order)
     if not bottom:
-        raise ReadError(
-            "this derivative says not by what", start, 1, "write \\frac{\\partial L}{\\partial q_1}"
-        )
+        help = "write \\frac{\\partial L}{\\partial q_1}"
+        raise ReadError("this derivative says not by what", start, 1, help)
     return _by(reader, of, bottom)
 
 
@@ -77,12 +72,8 @@ def _order(tokens: list[Token]) -> tuple[int, list[Token]]:
 
 
 def _is_time(tokens: list[Token]) -> bool:
-    return (
-        bool(tokens)
-        and tokens[0].kind == "name"
-        and tokens[0].text == "t"
-        and all(t.kind in ("^", "number", "raised", "{", "}") for t in tokens[1:])
-    )
+    is_t = [(t.kind, t.text) for t in tokens[:1]] == [("name", "t")]
+    return is_t and all(t.kind in ("^", "number", "raised", "{", "}") for t in tokens[1:])
 
 
 def _operand(reader: Reader, written: list[Token]) -> Value:
@@ -166,7 +157,7 @@ def total_rate(reader: Reader, of: Value, order: int = 1) -> Value:
     """d/dt of an answer is one; of an expression it is taken."""
     if isinstance(of, Reference):
         if not of.quantity.startswith("dLdqd"):
-            return Abstract("a derivative that is not carried out")
+            return _NOT_CARRIED_OUT
         name = "ddt" + of.quantity[5:]
         if of.quantity in reader.references:
             reader.references.pop(of.quantity)
@@ -176,7 +167,7 @@ def total_rate(reader: Reader, of: Value, order: int = 1) -> Value:
     if found is not None:
         return found
     for _ in range(order):
-        of = _carried_out(of, by_time(reader.vocabulary)) or Abstract("a derivative that is not carried out")
+        of = _carried_out(of, by_time(reader.vocabulary)) or _NOT_CARRIED_OUT
     return of
 
 
@@ -192,7 +183,7 @@ def _by(reader: Reader, of: Value, variable: list[Token]) -> Value:
             kind = "dLdqd" if dotted else "dLdq"
             family = tuple(f"{kind}{q.index}" for q in reader.vocabulary.coordinates)
             raise UnknownVariable(variable[0], shown, family) from None
-        return Abstract("a derivative that is not carried out")
+        return _NOT_CARRIED_OUT
     return partial(reader, of, by)
 
 
@@ -212,25 +203,25 @@ def partial(reader: Reader, of: Value, by: Value) -> Value:
         reader.references.pop(letter, None)
     if isinstance(by, Grid):
         return Abstract("a derivative by a vector")
-    q = reader.vocabulary.coordinate(by) if isinstance(by, Symbol) else None
-    if q is not None and isinstance(by, Symbol) and not isinstance(of, Reference):
-        return _carried_out(of, by_symbol(by)) or Abstract("a derivative that is not carried out")
-    if q is None or not isinstance(by, Symbol) or not letter:
-        return Abstract("a derivative that is not carried out")
-    if letter in ("L", "K") and by.dots == 1:
-        return _named(reader, f"dLdqd{q.index}")
-    if letter == "L" and by.dots == 0:
-        return _named(reader, f"dLdq{q.index}")
-    if letter == "P" and by.dots == 0:
-        return _named(reader, f"g{q.index}")
-    return Abstract("a derivative that is not carried out")
-
-
-def _named(reader: Reader, name: str) -> Reference:
+    q = reader.vocabulary.coordinate(by)
+    if q is None or not isinstance(by, Symbol):
+        return _NOT_CARRIED_OUT
+    if not isinstance(of, Reference):
+        return _carried_out(of, by_symbol(by)) or _NOT_CARRIED_OUT
+    name = _DERIVED.get((letter, by.dots))
+    if name is None:
+        return _NOT_CARRIED_OUT
+    name = f"{name}{q.index}"
     reader.references.setdefault(name)
     reader.candidates = (name,)
     reader.names_used += 1
     return Reference(name)
+
+
+_DERIVED = {("L", 1): "dLdqd", ("K", 1): "dLdqd", ("L", 0): "dLdq", ("P", 0): "g"}
+"""What the derivatives of L, K and P by a velocity, or by a coordinate, are called."""
+
+_NOT_CARRIED_OUT = Abstract("a derivative that is not carried out")
 
 
 # In plain text: dL/dtheta1_dot, ∂L/∂q1, d/dt(dL/dq1')
@@ -257,17 +248,12 @@ def _slash(reader: Reader) -> int | None:
     """How far ahead the `/` of the derivative stands, None where there is none."""
     level = 0
     for ahead in range(1, 40):
-        token = reader.peek(ahead)
-        if token.kind in ("(", "{"):
-            level += 1
-        elif token.kind in (")", "}"):
-            level -= 1
-        elif token.kind in ("+", "-", "=", "end", ",", "*"):
+        kind = reader.peek(ahead).kind
+        level += _LEVELS.get(kind, 0)
+        if level < 0 or kind in ("+", "-", "=", "end", ",", "*"):
             return None
-        elif token.kind == "/" and level == 0:
+        if kind == "/" and level == 0:
             return ahead if _begins_with_d(reader.peek(ahead + 1)) else None
-        if level < 0:
-            return None
     return None
 
 
@@ -275,7 +261,7 @@ def read(reader: Reader) -> Value:
     """The derivative in plain text that begins here."""
     reader.enter()
     above: list[Token] = []
-    while reader.token.kind != "/" or _depth(above):
+    while reader.token.kind != "/" or sum(_LEVELS.get(token.kind, 0) for token in above):
         if reader.token.kind == "end":
             raise reader.unexpected()
         above.append(reader.take())
@@ -283,11 +269,10 @@ def read(reader: Reader) -> Value:
     below = _variable(reader)
     found = quotient(reader, above, below, above[0].start)
     reader.nesting -= 1
-    return found if found is not None else Abstract("a derivative that is not carried out")
+    return found if found is not None else _NOT_CARRIED_OUT
 
 
-def _depth(tokens: list[Token]) -> int:
-    return sum((t.kind in ("(", "{")) - (t.kind in (")", "}")) for t in tokens)
+_LEVELS = {"(": 1, "{": 1, ")": -1, "}": -1}
 
 
 def _variable(reader: Reader) -> list[Token]:

@@ -11,7 +11,6 @@ from fractions import Fraction
 from dynsolve.answers.reading.grids import MAX_EXPONENT, scaled
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
-from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import (
     ONE,
@@ -38,24 +37,15 @@ def raised_number(token: Token) -> int:
     """The number that raised digits spell."""
     digits = token.text.translate(_RAISED)
     if len(digits) > 4:
-        raise ReadError("an exponent is a small whole number", token.start, token.end - token.start, "")
+        raise token.fault("an exponent is a small whole number")
     return int(digits)
 
 
 def bounded(value: Fraction, sign: Token) -> Fraction:
     """The exponent, if it is one that is read."""
-    if (
-        value != Fraction(1, 2)
-        and value != Fraction(-1, 2)
-        and (value.denominator != 1 or abs(value) > MAX_EXPONENT)
-    ):
+    if abs(value) != Fraction(1, 2) and (value.denominator != 1 or abs(value) > MAX_EXPONENT):
         message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
-        raise ReadError(
-            message,
-            sign.start,
-            max(sign.end - sign.start, 1),
-            "a square root is written \\sqrt{x} or sqrt(x)",
-        )
+        raise sign.fault(message, "a square root is written \\sqrt{x} or sqrt(x)")
     return value
 
 

@@ -19,14 +19,7 @@ from fractions import Fraction
 from dynsolve.answers.reading.grammar import brackets, calls, derivatives, names, references
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS, MARKS, Form, Scripts
-from dynsolve.answers.reading.grids import (
-    Grid,
-    Value,
-    divided,
-    negative,
-    times,
-    total,
-)
+from dynsolve.answers.reading.grids import Grid, Value, divided, negative, times, total
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation import tokens as plain
@@ -56,14 +49,12 @@ def read(reader: Reader) -> Value:
 
 def _circle(reader: Reader) -> bool:
     r"""Take `^\circ`, if that is what stands here."""
-    ahead = [reader.peek(1), reader.peek(2), reader.peek(3)]
-    if ahead[0].text == "circ":
-        reader.take(), reader.take()
-        return True
-    if ahead[0].kind == "{" and ahead[1].text == "circ" and ahead[2].kind == "}":
-        reader.take(), reader.take(), reader.take(), reader.take()
-        return True
-    return False
+    is_braced = (reader.peek(1).kind, reader.peek(3).kind) == ("{", "}")
+    is_one = reader.peek(2 if is_braced else 1).text == "circ"
+    if is_one:
+        for _ in range(4 if is_braced else 2):
+            reader.take()
+    return is_one
 
 
 def _written(value: Fraction, text: str) -> Number:
@@ -79,26 +70,7 @@ _SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
 _NOT_BARE = _SCRIPTS | {"(", "{", "["}
 """What keeps a power from being the end of its factor: L_2^2(t) is the square of L_2(t)."""
 
-_AFTER_BARE_NAME = frozenset(
-    {
-        "+",
-        "-",
-        "cdot",
-        "times",
-        ")",
-        "]",
-        "}",
-        "&",
-        ",",
-        ";",
-        "\\\\",
-        "end",
-        "name",
-        "letter",
-        "number",
-        "command",
-    }
-)
+_AFTER_BARE_NAME = frozenset("+ - cdot times ) ] } & , ; \\\\ end name letter number command".split())
 """What follows a name that is its symbol and no more: no script, no argument, no division."""
 
 
@@ -110,7 +82,7 @@ class FormulaReader(Reader):
     def value(self) -> Value:
         """The value of all tokens; raises ReadError for what cannot be read."""
         if self.token.kind == "end":
-            raise ReadError("there is nothing here", self.token.start, 1, "write the formula")
+            raise self.token.fault("there is nothing here", "write the formula", 1)
         found = self.sum()
         if self.token.kind != "end":
             raise self.unexpected()
@@ -335,9 +307,7 @@ class FormulaReader(Reader):
         if "^" in frames and self.token.text == "hat" and (vector := self.unit_vector()) is not None:
             return vector
         if "^" not in frames or not self.begins_with_name():
-            raise ReadError(
-                f"nothing stands before this `{sign.text}`", sign.start, 1, "a script follows its base"
-            )
+            raise sign.fault(f"nothing stands before this `{sign.text}`", "a script follows its base", 1)
         form = self.form()
         form.scripts.powers.insert(0, Fraction(int(frames["^"])))
         if not form.index and "_" not in form.base:
@@ -358,19 +328,16 @@ class FormulaReader(Reader):
             return self.with_scripts(value, scripts, opening.start)
         if isinstance(value, Node):
             return self.with_scripts(references.applied(self, "abs", value, opening), scripts, opening.start)
-        message = "the length of a vector cannot be read"
-        raise ReadError(message, opening.start, 1, "write it out; |v|^2 is read for a vector v")
+        help = "write it out; |v|^2 is read for a vector v"
+        raise opening.fault("the length of a vector cannot be read", help, 1)
 
     def command(self, token: Token) -> Value:
         """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""
         name = token.text
         if name == "hat" and (vector := self.unit_vector()) is not None:
             return vector
-        if (
-            name in ACCENTS
-            and "(" in (self.peek().kind, self.peek(2).kind)
-            and self.peek().kind in ("(", "{")
-        ):
+        after = self.peek().kind
+        if name in ACCENTS and (after == "(" or (after == "{" and self.peek(2).kind == "(")):
             self.take()
             return self.scripted(derivatives.total_rate(self, self.atom(), ACCENTS[name]))
         if name in ACCENTS or name in MARKS or name == "script":
@@ -389,12 +356,9 @@ class FormulaReader(Reader):
             return self.scripted(brackets.finished(self, [[self.inner(above)], [self.inner(below)]], token))
         if name == "nabla":
             return self.gradient()
-        length = token.end - token.start
         if name in ("cdots", "ldots", "dots", "vdots", "ddots"):
-            message = "dots stand for something that was left out"
-            raise ReadError(message, token.start, length, "write it out")
-        message = f"unknown command `\\{name[:40]}`"
-        raise ReadError(message, token.start, length, "the commands of LaTeX's formulas are read")
+            raise token.fault("dots stand for something that was left out", "write it out")
+        raise token.fault(f"unknown command `\\{name[:40]}`", "the commands of LaTeX's formulas are read")
 
     def fraction(self) -> Value:
         r"""`\frac{a}{b}`, which may be a derivative."""

@@ -22,11 +22,7 @@ from dynsolve.answers.reading.grammar.scripts import MARKS, PSEUDO_INVERSE, Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, grid
 from dynsolve.answers.reading.vocabulary import ZERO_LEVELS, Meaning, is_running
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import (
-    Node,
-    Number,
-    Symbol,
-)
+from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.quantities import families
 from dynsolve.quantities.families import HOLD_FORCES
 from dynsolve.quantities.letters import key
@@ -213,9 +209,8 @@ class UnknownName(ReadError):
     """A name that means nothing here; `family` are the answers of the kind it would be one of."""
 
     def __init__(self, form: Form, help: str, family: tuple[str, ...] = ()) -> None:
-        super().__init__(
-            f"unknown symbol `{form.text[:60]}`", form.start, max(form.end - form.start, 1), help
-        )
+        message, length = f"unknown symbol `{form.text[:60]}`", max(form.end - form.start, 1)
+        super().__init__(message, form.start, length, help)
         self.form, self.family = form, family
 
 

@@ -20,17 +20,7 @@ from dynsolve.answers.reading.grids import MAX_INVERSE, Abstract, Grid, Value, i
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import (
-    ZERO,
-    Degrees,
-    Negative,
-    Node,
-    Number,
-    Product,
-    Quotient,
-    Sum,
-    Symbol,
-)
+from dynsolve.notation.tree import ZERO, Degrees, Negative, Node, Number, Product, Quotient, Sum, Symbol
 
 # Time derivatives of what coordinates are written in: θ̇_1 + θ̇_2 for θ_1 + θ_2
 
@@ -182,9 +172,8 @@ class Reader(ScriptCursor):
                 if dotted is None and scripts.primes == 1:
                     dotted = derivative(value, by_time(self.vocabulary))
                 if dotted is None or dotted == ZERO:
-                    raise ReadError(
-                        "a prime stands here after what has no derivative", start, 1, "theta1' is a velocity"
-                    )
+                    message = "a prime stands here after what has no derivative"
+                    raise ReadError(message, start, 1, "theta1' is a velocity")
                 value = dotted
             else:
                 value = transposed(value)

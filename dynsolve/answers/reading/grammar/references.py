@@ -194,25 +194,22 @@ def only_coordinates(reader: Reader, position: int) -> bool:
         if kind in ("name", "letter"):
             name = key(token.text)
             meaning = vocabulary.symbol(name)
-            is_coordinate = (
-                isinstance(meaning.value, Symbol) and vocabulary.coordinate(meaning.value)
-                if meaning
-                else None
-            )
-            if not (
-                is_coordinate
-                or vocabulary.is_vector(name)
-                or (name in vocabulary.letters and meaning is None)
-                or name in ("t", "qdot", "dq", "qd", "theta", "L", "d", "qr", "r")
-            ):
+            is_coordinate = meaning is not None and vocabulary.coordinate(meaning.value) is not None
+            is_letter = name in _ARGUMENTS or (name in vocabulary.letters and meaning is None)
+            if not (is_coordinate or is_letter or vocabulary.is_vector(name)):
                 return False
             found = True
-        elif not (
-            kind in (",", "_", "number", "{", "}", "^", "*", "'") or token.text in ("dot", "ddot", "star")
-        ) or (kind == "number" and before in ("(", ",")):
+        elif not (kind in _BESIDE_ARGUMENTS or token.text in _ACCENTED):
+            return False
+        if kind == "number" and before in ("(", ","):
             return False
         before = kind
     return False
+
+
+_ARGUMENTS = frozenset("t qdot dq qd theta L d qr r".split())
+_BESIDE_ARGUMENTS = frozenset(", _ number { } ^ * '".split())
+_ACCENTED = frozenset({"dot", "ddot", "star"})
 
 
 # Sines and cosines by their first letter
@@ -236,7 +233,7 @@ def is_short_function(reader: Reader) -> bool:
     if after.kind != "name" or after.dots:
         return False
     meaning = reader.vocabulary.symbol(key(after.text))
-    q = reader.vocabulary.coordinate(meaning.value) if meaning and isinstance(meaning.value, Symbol) else None
+    q = reader.vocabulary.coordinate(meaning.value) if meaning is not None else None
     return q is not None and q.type is JointType.REVOLUTE
 
 
@@ -246,12 +243,8 @@ def short_function(reader: Reader, form: Form) -> Function:
     if angle is None:
         angle = reader.inner(form.angle, naming=False)
     if not isinstance(angle, Node):
-        raise ReadError(
-            "this index is no angle",
-            form.start,
-            form.end - form.start,
-            "write c_1, c_{12} or \\cos(\\theta_1)",
-        )
+        help = "write c_1, c_{12} or \\cos(\\theta_1)"
+        raise ReadError("this index is no angle", form.start, form.end - form.start, help)
     return Function("sin" if form.base in "sS" else "cos", angle)
 
 
@@ -276,11 +269,9 @@ def _digits_angle(vocabulary: Vocabulary, form: Form) -> Node | None:
 
 # Sines, cosines and roots as people write them
 
-_NAMES = {"sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "cot": "cot", "sec": "sec", "csc": "csc"}
-_NAMES |= (
-    {name.capitalize(): name for name in _NAMES} | {name.upper(): name for name in _NAMES} | {"cosec": "csc"}
-)
-_NAMES |= {"sgn": "sgn", "sign": "sgn", "signum": "sgn", "abs": "abs", "Abs": "abs"}
+_USUAL = ("sin", "cos", "tan", "sqrt", "cot", "sec", "csc")
+_NAMES = {spelled: name for name in _USUAL for spelled in (name, name.capitalize(), name.upper())}
+_NAMES |= {"cosec": "csc", "sgn": "sgn", "sign": "sgn", "signum": "sgn", "abs": "abs", "Abs": "abs"}
 _INVERSES = {name: name for name in ("asin", "acos", "atan", "atan2")}
 _INVERSES |= {f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan", "tan2")}
 _INVERSES |= {name.capitalize(): meant for name, meant in _INVERSES.items()}
@@ -313,7 +304,7 @@ def read(reader: Reader, function: str) -> Value:
         function = "atan2"
     scripts = Scripts()
     if function == "sqrt" and reader.token.kind == "[":
-        raise ReadError("only square roots are read", reader.token.start, 1, "write \\sqrt{x}")
+        raise reader.token.fault("only square roots are read", "write \\sqrt{x}", 1)
     if function != "sqrt":
         while reader.script(scripts):
             pass
@@ -321,12 +312,8 @@ def read(reader: Reader, function: str) -> Value:
         function, scripts.powers = f"a{function}", []  # cos⁻¹ is never 1/cos beside arccos
     if scripts.transposed or scripts.primes or scripts.mark or any(power < 1 for power in scripts.powers):
         length = max(reader.token.start - name.start, 1)
-        raise ReadError(
-            f"this exponent of {function} cannot be read",
-            name.start,
-            length,
-            f"write {function}(x)^2 for a square",
-        )
+        help = f"write {function}(x)^2 for a square"
+        raise name.fault(f"this exponent of {function} cannot be read", help, length)
     if function == "atan2":
         found: Value = Function(function, _two_arguments(reader, name))
         reader.nesting -= 1
@@ -345,7 +332,7 @@ def _two_arguments(reader: Reader, name: Token) -> Arguments:
     """(y, x) of atan2."""
     help = f"write {name.text}(y, x)"
     if reader.token.kind != "(":
-        raise ReadError(f"`{name.text}` has no arguments", name.start, name.end - name.start, help)
+        raise name.fault(f"`{name.text}` has no arguments", help)
     opening = reader.take()
     parts = [reader.sum()]
     if reader.token.kind != ",":
@@ -355,7 +342,7 @@ def _two_arguments(reader: Reader, name: Token) -> Arguments:
     reader.expect(")", opening)
     y, x = parts
     if not isinstance(y, Node) or not isinstance(x, Node):
-        raise ReadError(f"`{name.text}` of a matrix or a vector", name.start, name.end - name.start, help)
+        raise name.fault(f"`{name.text}` of a matrix or a vector", help)
     return Arguments((y, x))
 
 
@@ -370,17 +357,14 @@ def _argument(reader: Reader, name: Token) -> tuple[Value, list[Fraction]]:
     if token.kind == "(" or token.kind == "{" or token.kind == "[":
         return _closed(reader), []
     if token.kind == "end":
-        message = f"`{name.text}` has no argument"
-        raise ReadError(message, name.start, name.end - name.start, f"write {name.text}(theta1)")
-    sign = False
+        raise name.fault(f"`{name.text}` has no argument", f"write {name.text}(theta1)")
+    is_negative = False
     while reader.token.kind in ("-", "+"):
-        sign = (reader.take().kind == "-") != sign
+        is_negative = (reader.take().kind == "-") != is_negative
     if name.text.lower() == "sqrt":
         return reader.atom(), []
     value, powers = _open(reader)
-    if sign:
-        value = Negative(value) if isinstance(value, Node) else value
-    return value, powers
+    return Negative(value) if is_negative and isinstance(value, Node) else value, powers
 
 
 def _closed(reader: Reader) -> Value:
@@ -388,7 +372,7 @@ def _closed(reader: Reader) -> Value:
     opening = reader.take()
     closing = {"(": ")", "{": "}", "[": "]"}[opening.kind]
     if reader.token.kind == closing:
-        raise ReadError("there is no argument here", opening.start, 2, "write what the function is of")
+        raise opening.fault("there is no argument here", "write what the function is of", 2)
     value = reader.sum()
     if reader.token.kind == ",":
         raise reader.unexpected("functions take one argument; a decimal is written with a point: 9.81")
@@ -415,12 +399,13 @@ def _open(reader: Reader) -> tuple[Value, list[Fraction]]:
         return factor, []
     powers: list[Fraction] = []
     if isinstance(factor, Power) and isinstance(factor.exponent, Number):
-        reader.notes.setdefault(
-            "a power behind an angle without parentheses is read as the power of the function"
-        )
+        reader.notes.setdefault(_POWER_NOTE)
         powers, factor = [Fraction(factor.exponent.p)], factor.base
     parts.append(factor)
     return (parts[0] if len(parts) == 1 else Product(tuple(parts))), powers
+
+
+_POWER_NOTE = "a power behind an angle without parentheses is read as the power of the function"
 
 
 def _is_numeric_fraction(reader: Reader) -> bool:
@@ -442,8 +427,7 @@ def applied(reader: Reader, function: str, argument: Value, name: Token) -> Valu
     if isinstance(argument, Abstract):
         return argument
     if isinstance(argument, Grid):
-        message = f"`{name.text}` of a matrix or a vector"
-        raise ReadError(message, name.start, name.end - name.start, "write it of one angle")
+        raise name.fault(f"`{name.text}` of a matrix or a vector", "write it of one angle")
     reader.symbols.setdefault("")
     if (degrees := _degrees_meant(argument)) and function != "sqrt":
         reader.notes.setdefault(f"{degrees} is read as {degrees} rad; degrees are written {degrees}°")

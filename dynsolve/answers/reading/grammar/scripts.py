@@ -18,7 +18,7 @@ from dynsolve.answers.reading.grids import MAX_NESTING, Value
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Node
 from dynsolve.quantities import families
 from dynsolve.quantities.letters import key
 
@@ -54,8 +54,7 @@ class Cursor:
         if self.token.kind == kind:
             return self.take()
         if self.token.kind == "end":
-            message = f"this `{opening.text}` is never closed"
-            raise ReadError(message, opening.start, 1, f"add the `{kind}` that it belongs to")
+            raise _unclosed(opening, kind)
         raise self.unexpected(f"`{kind}` is expected here")
 
     def unexpected(self, help: str = "") -> ReadError:
@@ -65,35 +64,29 @@ class Cursor:
             return ReadError("the formula ends here too early", max(token.start - 1, 0), 1, help)
         if token.kind in (")", "]", "}"):
             help = help or "delete it, or add the bracket that it belongs to"
-            return ReadError(f"this `{token.text}` closes nothing", token.start, 1, help)
-        if (
-            token.kind == ","
-            and self.peek().kind == "number"
-            and self.tokens[self.position - 1].kind == "number"
-        ):
+            return token.fault(f"this `{token.text}` closes nothing", help, 1)
+        beside = self.tokens[self.position - 1].kind, self.peek().kind
+        if token.kind == "," and beside == ("number", "number"):
             help = "a decimal is written with a point: 9.81"
         shown = "\\" + token.text if token.kind in ("command", "letter") else token.text
         help = help or "a sum of products of numbers, names and functions is expected"
-        length = max(token.end - token.start, 1)
-        return ReadError(f"`{shown[:40]}` cannot stand here", token.start, length, help)
+        return token.fault(f"`{shown[:40]}` cannot stand here", help)
 
     def enter(self) -> None:
         """One level deeper."""
         self.nesting += 1
         if self.nesting > MAX_NESTING:
             message = f"more than {MAX_NESTING} levels of brackets, fractions and signs"
-            raise ReadError(message, self.token.start, 1, "name a part of it with an abbreviation")
+            raise self.token.fault(message, "name a part of it with an abbreviation", 1)
 
     def group(self) -> list[Token]:
         """The tokens of an argument: those between braces, or one token."""
         opening = self.take()
         if opening.kind == "end":
             raise ReadError("an argument is missing here", max(opening.start - 1, 0), 1, "write it in { }")
-        if opening.kind not in ("{", "("):
-            return [opening]
         if opening.kind == "(":
             return [opening, *self.until(")", opening), Token(")", ")", opening.start, opening.start + 1)]
-        return self.until("}", opening)
+        return self.until("}", opening) if opening.kind == "{" else [opening]
 
     def until(self, closing: str, opening: Token) -> list[Token]:
         """The tokens up to the bracket that closes, which is taken too."""
@@ -105,8 +98,13 @@ class Cursor:
                 self.take()
                 return found
             self.take()
-        message = f"this `{opening.text}` is never closed"
-        raise ReadError(message, opening.start, 1, f"add the `{closing}` that it belongs to")
+        raise _unclosed(opening, closing)
+
+
+def _unclosed(opening: Token, closing: str) -> ReadError:
+    return opening.fault(
+        f"this `{opening.text}` is never closed", f"add the `{closing}` that it belongs to", 1
+    )
 
 
 # A name as it is written, with what stands over, under and beside it: `\dot{L}_2^{\star 2}`
@@ -184,10 +182,8 @@ def index_text(tokens: list[Token]) -> str:
     return key("".join(kept))
 
 
-def is_angle(tokens: list[Token]) -> bool:
-    r"""Whether an index is an angle rather than digits: `\theta_1`, `q_1+q_2`, `1+2`."""
-    return any(t.kind in ("name", "letter", "+", "-", "command") for t in tokens)
-
+_OF_ANGLE = frozenset({"name", "letter", "+", "-", "command"})
+r"""What an index holds that is an angle rather than digits: `\theta_1`, `q_1+q_2`, `1+2`."""
 
 ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
 
@@ -230,14 +226,14 @@ class ScriptCursor(Cursor):
         """A name with its accents and scripts, before it is looked up."""
         self.enter()
         token, mark = self.take(), ""
-        if token.kind == "command" and token.text in ACCENTS:
-            form = self.accented(token)
-        elif token.kind == "command" and token.text in MARKS:
+        if token.kind == "command" and (
+            token.text in ACCENTS or token.text in MARKS or token.text == "script"
+        ):
             form = self.under(token)
-            mark = token.text
-        elif token.kind == "command" and token.text == "script":
-            form = self.under(token)
-            form.script = True
+            form.script = form.script or token.text == "script"
+            form.dots += ACCENTS.get(token.text, 0)
+            form.repaired = form.repaired or bool(token.text in ACCENTS and form.scripts.powers)
+            mark = token.text if token.text in MARKS else ""
         elif token.kind in ("name", "letter"):
             form = Form(token.text, token.start, token.end, dots=token.dots)
         else:
@@ -246,24 +242,13 @@ class ScriptCursor(Cursor):
             raise self.unexpected("a name is expected here")
         form.start = token.start
         self.beside(form)
-        if (form.scripts.mark or form.scripts.primes) and self.is_parameter(form):
-            mark += "star" * form.scripts.mark + "prime" * form.scripts.primes
-            form.scripts.mark, form.scripts.primes = False, 0
+        scripts, symbol = form.scripts, self.vocabulary.symbols.get(form.key)
+        is_parameter = symbol is not None and self.vocabulary.coordinate(symbol) is None
+        if is_parameter and (scripts.mark or scripts.primes):  # I^* and I' are names of the student's own
+            mark += "star" * scripts.mark + "prime" * scripts.primes
+            scripts.mark, scripts.primes = False, 0
         form.index += mark
         self.nesting -= 1
-        return form
-
-    def is_parameter(self, form: Form) -> bool:
-        r"""Whether a name is a parameter of the problem: `I^*` and `I'` are names of the student's own."""
-        symbol = self.vocabulary.symbols.get(form.key)
-        return symbol is not None and self.vocabulary.coordinate(symbol) is None
-
-    def accented(self, accent: Token) -> Form:
-        """A name under a dot."""
-        form = self.under(accent)
-        form.dots += ACCENTS[accent.text]
-        if form.scripts.powers:
-            form.repaired = True
         return form
 
     def under(self, command: Token) -> Form:
@@ -273,9 +258,8 @@ class ScriptCursor(Cursor):
             form = self.form()
             if self.token.kind != "}":
                 message = f"more than one name stands under `\\{command.text}`"
-                raise ReadError(
-                    message, opening.start, max(self.token.start - opening.start, 1), "one name is read there"
-                )
+                length = max(self.token.start - opening.start, 1)
+                raise opening.fault(message, "one name is read there", length)
             self.take()
             return form
         token = self.token
@@ -294,7 +278,7 @@ class ScriptCursor(Cursor):
                 self.take()
                 tokens = self.group()
                 form.index += index_text(tokens)
-                if is_angle(tokens):
+                if any(t.kind in _OF_ANGLE for t in tokens):
                     form.angle = tokens
             elif kind == "^" and (part := self.energy_part(form)):
                 form.index += part
@@ -384,11 +368,7 @@ class ScriptCursor(Cursor):
         if self.token.spaced or self.peek().kind in BEGINS or self.is_quoted(1):
             return False
         meaning = self.vocabulary.symbol(form.key)
-        return (
-            meaning is not None
-            and isinstance(meaning.value, Symbol)
-            and self.vocabulary.coordinate(meaning.value) is not None
-        )
+        return meaning is not None and self.vocabulary.coordinate(meaning.value) is not None
 
     def is_quoted(self, ahead: int = 0) -> bool:
         """Whether Maxima's `'diff(` stands there, whose quote is no prime of what is before it."""
@@ -425,11 +405,10 @@ class ScriptCursor(Cursor):
 
     def superscript(self, scripts: Scripts, sign: Token) -> None:
         """What stands after `^`."""
-        if self.token.kind in ("-", "+"):
-            tokens = [self.take(), *self.group()]
-        else:
-            tokens = self.group()
-        tokens = [t for t in tokens if t.kind not in ("command",) or t.text not in ("quad", "qquad")]
+        signs = [self.take()] if self.token.kind in ("-", "+") else []
+        tokens = [
+            t for t in [*signs, *self.group()] if t.kind != "command" or t.text not in ("quad", "qquad")
+        ]
         if tokens and tokens[0].kind == "*":
             scripts.mark = True
             tokens = [t for t in tokens[1:] if t.kind not in ("^", "{", "}")]
@@ -449,21 +428,12 @@ class ScriptCursor(Cursor):
 
     def exponent(self, tokens: list[Token], sign: Token) -> Fraction:
         """The value of an exponent, a small constant."""
-        if (
-            len(tokens) == 1
-            and tokens[0].kind == "number"
-            and tokens[0].text.isdigit()
-            and len(tokens[0].text) < 4
-        ):
-            return Fraction(int(tokens[0].text))
+        first = tokens[0]
+        if len(tokens) == 1 and first.kind == "number" and first.text.isdigit() and len(first.text) < 4:
+            return Fraction(int(first.text))
         value = self.inner(tokens)
         found = constant(value) if isinstance(value, Node) else None
         if found is None:
-            end = tokens[-1].end
-            raise ReadError(
-                "this exponent is no number",
-                sign.start,
-                max(end - sign.start, 1),
-                "an exponent is a small whole number",
-            )
+            length = max(tokens[-1].end - sign.start, 1)
+            raise sign.fault("this exponent is no number", "an exponent is a small whole number", length)
         return found

@@ -41,6 +41,10 @@ class Token(NamedTuple):
     spaced: bool = False
     broken: bool = False
 
+    def fault(self, message: str, help: str = "", length: int = 0) -> ReadError:
+        """The error about this token, or about so many characters from it on."""
+        return ReadError(message, self.start, length or max(self.end - self.start, 1), help)
+
 
 _DOTTED = {"\u0307": 1, "\u0308": 2}
 _DOTS_BEHIND = str.maketrans({"˙": "\u0307", "¨": "\u0308"})
@@ -344,7 +348,7 @@ def _name(piece: Token) -> Token:
     text, dots = piece.text, 0
     if len(text) > MAX_IDENTIFIER:
         message = f"a name of {len(text)} characters; at most {MAX_IDENTIFIER} are read"
-        raise ReadError(message, piece.start, 1, "a name is a letter with an index: m1, theta1")
+        raise piece.fault(message, "a name is a letter with an index: m1, theta1", 1)
     if not text.isascii():
         if text[0] in _PRECOMPOSED:
             text = unicodedata.normalize("NFD", text[0]) + text[1:]
@@ -368,8 +372,7 @@ def _command(piece: Token) -> Token | None:
     if name == "#":
         return piece._replace(kind="command", text="sharp")
     if name in ("(", ")", "[", "]", "$", "%", "_"):
-        message = f"`\\{name}` cannot stand inside an equation"
-        raise ReadError(message, piece.start, 2, "write the formula alone")
+        raise piece.fault(f"`\\{name}` cannot stand inside an equation", "write the formula alone", 2)
     sign = _SIGN_COMMANDS.get(name)
     if sign is not None:
         return piece._replace(kind=sign, text="\\" + name)
@@ -450,7 +453,7 @@ def accent(accent: Token, out: list[Token]) -> None:
     if out[last].kind in ("name", "letter"):
         out[last] = out[last]._replace(kind="name", dots=out[last].dots + dots, end=accent.end)
     else:
-        raise ReadError("these dots stand over no name", accent.start, 1, "write \\dot{q}_1")
+        raise accent.fault("these dots stand over no name", "write \\dot{q}_1", 1)
 
 
 # The student's own commands, written out
@@ -481,7 +484,7 @@ def expand(tokens: list[Token], macros: Mapping[str, Macro]) -> list[Token]:
         work += len(body) + 1
         if work > MAX_TOKENS or depth > 20:
             message = f"the command `\\{token.text}` never ends, or grows without bound"
-            raise ReadError(message, token.start, token.end - token.start, "write the formula out")
+            raise token.fault(message, "write the formula out")
         waiting += [(part, depth + 1) for part in reversed(body)]
     return done
 

@@ -29,7 +29,6 @@ from dynsolve.answers.reading.tokens.lexer import (
     token_of_word,
     tokenize,
 )
-from dynsolve.errors import ReadError
 from dynsolve.notation.characters import SPELLED
 
 # Groups in braces: around one token, an argument, `{a \over b}`, or there to set type alone
@@ -355,7 +354,7 @@ def _word_matrix(tokens: list[Token], position: int, sign: Token, out: list[Toke
         position += 1
         token = tokens[position]
         if token.kind == "end":
-            raise ReadError("this `(` is never closed", opening.start, 1, "add the `)` that it belongs to")
+            raise opening.fault("this `(` is never closed", "add the `)` that it belongs to", 1)
         level += {"(": 1, ")": -1}.get(token.kind, 0)
         inside.append(token)
     end = inside.pop()
