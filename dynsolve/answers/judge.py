@@ -63,7 +63,7 @@ from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.marking.marks import Policy, mark, weighed
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.answers.reading.sentences import NO_CLAIMS
+from dynsolve.answers.reading.report_text import NO_CLAIMS
 from dynsolve.answers.table_verdict import NAME as TABLE
 from dynsolve.answers.table_verdict import TableJudge
 from dynsolve.answers.verdict import (

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.answers.reading.tokens.lexer import tokenize
-from dynsolve.answers.reading.tokens.prepare import prepared
+from dynsolve.answers.reading.lexer import tokenize
+from dynsolve.answers.reading.prepare import prepared
 from dynsolve.notation import tree
 from dynsolve.notation.unicode import to_unicode
 
@@ -33,7 +33,7 @@ def test_the_normal_form_has_as_many_terms_as_it_says() -> None:
 
 @pytest.mark.parametrize(("file", "cut"), [("lexer", tokenize), ("prepare", prepared)])
 def test_the_tokens_of_the_line_are_those_that_are_shown(file: str, cut: object) -> None:
-    row = next(line for line in PAGE.splitlines() if line.startswith(f"| `answers/reading/tokens/{file}.py`"))
+    row = next(line for line in PAGE.splitlines() if line.startswith(f"| `answers/reading/{file}.py`"))
     shown = [token.lstrip("\\") for token in re.findall("`([^`]*)`", row)[1:]]
     assert callable(cut)
     assert [token.text for token in cut(LINE) if token.text] == shown

@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from dynsolve.answers.reading.by_content import MotionEquation
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.left_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.matrix_parts import (
     Entry,
     VectorEntries,
@@ -26,8 +27,7 @@ from dynsolve.answers.reading.matrix_parts import (
     with_own_entries,
     written_entries,
 )
-from dynsolve.answers.reading.sentences import FREE, is_of_case
-from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.report_text import FREE, is_of_case
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.verdict import Answer, ConfigurationAnswer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError

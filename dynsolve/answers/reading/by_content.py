@@ -35,8 +35,8 @@ from dynsolve.answers.reading.left_side import (
     read_left_side,
     read_right_side,
 )
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.matrix_parts import fitted, is_gravity_vector
-from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total

@@ -32,9 +32,9 @@ from dynsolve.answers.reading.displays import chain
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grids import MAX_LENGTH
 from dynsolve.answers.reading.left_side import RightSide, read_right_side
+from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.set_text import alternatives, joined
-from dynsolve.answers.reading.tokens.lexer import Token
-from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.reading.yaml_values import MAX_DEPTH, NotYaml, YamlNode
 from dynsolve.answers.verdict import ConfigurationAnswer, Part, Place

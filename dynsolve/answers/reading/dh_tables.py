@@ -22,14 +22,14 @@ Every change keeps the length of the text, so that every character stays at its 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import count, groupby, islice, pairwise
 
 from msgspec import Struct
 
 from dynsolve.answers.reading.displays import Display
-from dynsolve.answers.reading.sources import Piece, PlacedText, Source, placed
+from dynsolve.answers.reading.sources import Piece, PlacedText, Source, blanked, hidden, placed
 from dynsolve.answers.verdict import Place
 
 # The cells of a table of Denavit-Hartenberg parameters as a report has them, and as they are read
@@ -53,7 +53,6 @@ _VARIABLE = re.compile(
     r"\(\s*(?:variable|variabel|var\.?)\s*\)|(?<![\w\\])(?:variable|variabel|var\.?)(?!\w)"
 )
 _DASHES = frozenset({"", "-", "--", "---", "–", "—", "−"})
-_BLANK = re.compile(r"[^\n]")
 
 Variables = Callable[[], str]
 """The joint variable of the next row that only says that it has one."""
@@ -95,7 +94,7 @@ def bare(text: str, cell: Cell, variable: Variables) -> Piece:
 
 
 def _blank(found: re.Match[str]) -> str:
-    return _BLANK.sub(" ", found[0])
+    return blanked(found[0])
 
 
 def _filled(found: re.Match[str], text: str) -> str:
@@ -199,12 +198,9 @@ def tables_of(text: str, variables: Sequence[str] = ()) -> list[FoundTable]:
     return sorted(found, key=lambda table: table.start)[:MOST_TABLES]
 
 
-def without(text: str, tables: Sequence[FoundTable]) -> str:
+def without(text: str, tables: Iterable[FoundTable]) -> str:
     """The text with blanks for its tables."""
-    for table in tables:
-        blank = re.sub(r"[^\n]", " ", text[table.start : table.end])
-        text = text[: table.start] + blank + text[table.end :]
-    return text
+    return hidden(text, ((table.start, table.end) for table in tables))
 
 
 # -- where tables are ------------------------------------------------------------------------------

@@ -32,7 +32,7 @@ from dynsolve.answers.reading.configurations import (
 )
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.sentences import QUOTED, REJECTED, SUPPOSED
+from dynsolve.answers.reading.report_text import QUOTED, REJECTED, SUPPOSED
 from dynsolve.answers.reading.set_text import (
     ALL,
     AND,
@@ -110,7 +110,6 @@ _REST = re.compile(
 
 _RELATION = re.compile(r"=|∈|\\in\b|\bnone\b|\bno\b")
 _MATHEMATICS = re.compile(r"\$|\\[()\[\]]")
-_NOT_LINE_END = re.compile(r"[^\n]")
 _CLOSING = re.compile(r"(?:\\\]|\\\)|\$\$?)[ \t.,;]*\Z")
 _PAIRS = (("\\[", "\\]"), ("\\(", "\\)"))
 _BLANK = " \t$*_}"
@@ -193,13 +192,6 @@ def read_headed(reader: EquationReader, source: Source, found: Iterable[HeadedSe
     """Read sets that were found, each as an answer file gives it."""
     for one in found:
         read_configurations(reader, one.name, source.place(one.start, 1), one.text, None)
-
-
-def without(text: str, found: Iterable[HeadedSet]) -> str:
-    """The text with blanks for the sets that were found, as long as it was."""
-    for one in found:
-        text = text[: one.start] + _NOT_LINE_END.sub(" ", text[one.start : one.end]) + text[one.end :]
-    return text
 
 
 _BEFORE = 600

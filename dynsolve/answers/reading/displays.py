@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from msgspec import Struct
 
 from dynsolve.answers.reading.grids import MAX_LENGTH
-from dynsolve.answers.reading.tokens.lexer import SEPARATORS, Token
+from dynsolve.answers.reading.lexer import SEPARATORS, Token
 from dynsolve.answers.verdict import Place
 
 Locate = Callable[[int, int], Place]

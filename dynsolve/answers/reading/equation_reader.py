@@ -51,6 +51,7 @@ from dynsolve.answers.reading.left_side import (
     why_no_value,
     without_factor,
 )
+from dynsolve.answers.reading.lexer import Macro, Token
 from dynsolve.answers.reading.matrix_parts import (
     MatrixPart,
     entries_of,
@@ -61,9 +62,8 @@ from dynsolve.answers.reading.matrix_parts import (
     shown,
 )
 from dynsolve.answers.reading.name_splitting import gives_new_meaning, keep_symbol
-from dynsolve.answers.reading.sentences import CONDITION, CONSTANT
-from dynsolve.answers.reading.tokens.lexer import Macro, Token
-from dynsolve.answers.reading.tokens.prepare import prepared
+from dynsolve.answers.reading.prepare import prepared
+from dynsolve.answers.reading.report_text import CONDITION, CONSTANT
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, defined_order, order_of_pair
 from dynsolve.answers.verdict import Answer, NotRecognized
 from dynsolve.errors import ReadError

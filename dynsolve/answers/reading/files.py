@@ -24,8 +24,8 @@ from typing import Any
 
 from dynsolve.answers.reading.dh_tables import MOST_ROWS, order_of
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.given_values import with_own_coordinates
 from dynsolve.answers.reading.grids import MAX_BYTES
+from dynsolve.answers.reading.name_splitting import with_own_coordinates
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, decoded, plain_signs
 from dynsolve.answers.reading.vocabulary import counted_from_zero, vocabulary

@@ -22,8 +22,8 @@ from dynsolve.answers.reading.grammar.references import (
 )
 from dynsolve.answers.reading.grammar.scripts import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, check_size
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.name_splitting import split_names
-from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Function, Negative, Reference, Sum, Symbol, walk

@@ -24,8 +24,8 @@ from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.references import skip_arguments
 from dynsolve.answers.reading.grids import Grid, Value, transposed
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.verdict import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError

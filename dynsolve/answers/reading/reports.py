@@ -11,23 +11,21 @@ from operator import itemgetter
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.answers.reading.asides import read_aside, spoken_verdicts
+from dynsolve.answers.reading.answer_file import read_value
+from dynsolve.answers.reading.asides import list_pictures, list_unread, read_aside, spoken_verdicts
 from dynsolve.answers.reading.configurations import coordinate_named
 from dynsolve.answers.reading.dh_tables import NAME, headed_columns, tables_of, with_equations, without
 from dynsolve.answers.reading.displayed_sets import DisplayedSets, headed_sets, read_headed
-from dynsolve.answers.reading.displayed_sets import without as without_sets
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.given_values import hidden, plain_lines, read_value
 from dynsolve.answers.reading.grids import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
+from dynsolve.answers.reading.lexer import Macro, Token, closing_brace, tokenize
 from dynsolve.answers.reading.matrix_parts import said_zero, shown
-from dynsolve.answers.reading.report_text import visible
-from dynsolve.answers.reading.sentences import IN_SENTENCE, is_of_case, said_of, taken_from
-from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.tokens.lexer import Macro, Token, closing_brace, tokenize
-from dynsolve.answers.reading.tokens.prepare import prepared
-from dynsolve.answers.reading.unread_text import list_pictures, list_unread
+from dynsolve.answers.reading.plain_text import plain_lines
+from dynsolve.answers.reading.prepare import prepared
+from dynsolve.answers.reading.report_text import IN_SENTENCE, is_of_case, said_of, taken_from, visible
+from dynsolve.answers.reading.sources import HIDDEN, Source, hidden
 from dynsolve.answers.verdict import NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.questions.equilibria import LINEAR_A
@@ -106,7 +104,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     if "definite" in reader.vocabulary.quantities:
         verdicts, text = spoken_verdicts(reader.vocabulary.candidates, source, text)
     headed = headed_sets(text, reader)
-    text = without_sets(text, headed)
+    text = hidden(text, ((one.start, one.end) for one in headed))
     names_answer = _answer_names(reader)
     columns = list[tuple[int, Display]]()
     if not latex:
@@ -119,7 +117,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     displays = sorted([*displays, *columns], key=itemgetter(0))
     is_plain = all(display.aside for _, display in displays)
     if is_plain or not latex:
-        rest = hidden(text, [(start, end) for start, end, _ in spans])
+        rest = hidden(text, ((start, end) for start, end, _ in spans), HIDDEN)
         lines = islice(_plain(rest, source, 0, len(text), names_answer, not is_plain), MAX_EQUATIONS)
         displays = sorted([*displays, *lines], key=itemgetter(0))
     read = [(start, start + len(display.text)) for start, display in displays]
@@ -153,7 +151,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         why = f"only the first {MAX_EQUATIONS} equations of a file are read"
         reader.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place, why))
     reader.found.others_zero += said_zero(source, text)
-    list_unread(reader, source, hidden(text, read))
+    list_unread(reader, source, hidden(text, read, HIDDEN))
     list_pictures(reader, source, text)
 
 

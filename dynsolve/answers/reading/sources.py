@@ -143,3 +143,28 @@ def placed(pieces: Iterable[Piece]) -> PlacedText:
         starts.append(length)
         length += len(text)
     return PlacedText("".join(text for text, _ in kept), tuple(starts), tuple(at for _, at in kept))
+
+
+# What is left out of a text, which keeps its length
+
+_NOT_LINE_END = re.compile(r"[^\n]")
+
+HIDDEN = "\0"
+"""What stands for what is read elsewhere: no line with one is an equation in plain text."""
+
+
+def blanked(text: str) -> str:
+    """Blanks for all of it, but for the ends of its lines."""
+    return _NOT_LINE_END.sub(" ", text)
+
+
+def hidden(text: str, spans: Iterable[tuple[int, int]], sign: str = " ") -> str:
+    """The text with a sign for every character of these stretches."""
+    pieces: list[str] = []
+    done = 0
+    for start, end in sorted(spans):
+        if end > done:
+            start = max(start, done)
+            pieces += [text[done:start], _NOT_LINE_END.sub(sign, text[start:end])]
+            done = end
+    return "".join([*pieces, text[done:]])

@@ -23,7 +23,7 @@ from msgspec import Struct, field
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.reading.grids import Grid, Value
-from dynsolve.answers.reading.tokens.lexer import GREEK_COMMANDS, Token
+from dynsolve.answers.reading.lexer import GREEK_COMMANDS, Token
 from dynsolve.notation.characters import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem

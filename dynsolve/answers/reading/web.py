@@ -13,10 +13,10 @@ import re
 from html.parser import HTMLParser
 from typing import Any
 
+from dynsolve.answers.reading.asides import list_unread, picture
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.reports import read_report
-from dynsolve.answers.reading.sources import Source, plain_signs
-from dynsolve.answers.reading.unread_text import list_unread, picture
+from dynsolve.answers.reading.sources import Source, blanked, plain_signs
 from dynsolve.errors import Finding
 
 # Web pages: the text of an HTML file, its formulas as they were written in LaTeX
@@ -38,7 +38,6 @@ _PICTURES = {"equation_image": ("data-equation-content", "alt"), "texrender": ("
 
 _LONGEST_TAG_STACK = 5_000
 _MOST_OPEN = 1_000
-_HIDDEN = re.compile(r"[^\n]")
 
 
 def read_page(reader: EquationReader, source: Source) -> None:
@@ -58,7 +57,7 @@ def _without_comments(text: str) -> str:
         pieces.append(text[position:start])
         if end < 0:
             return "".join(pieces)
-        pieces.append(_HIDDEN.sub(" ", text[start : end + 3]))
+        pieces.append(blanked(text[start : end + 3]))
         position = end + 3
     return "".join([*pieces, text[position:]])
 

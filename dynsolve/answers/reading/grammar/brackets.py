@@ -5,7 +5,7 @@ from __future__ import annotations
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import placeholder, whole_of
 from dynsolve.answers.reading.grids import MAX_ENTRIES, Abstract, Grid, Value, stacked
-from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Node, Reference, Symbol
 

@@ -6,7 +6,7 @@ r"""The descent: prepared tokens -> a value in the symbols of the problem.
     atom     = (number | name | function | fraction | matrix | "(" sum ")" | derivative) scripts
 
 Each rule is a method of `FormulaReader`, or a function of the module that is named after
-what it reads: `brackets`, `references`, `derivatives`, `calls`, `names`.  Values are only put
+what it reads: `brackets`, `references`, `derivatives`, `names`.  Values are only put
 together: nothing is computed.
 
 Numbers as they are written: decimals, and degrees as `90°`, `90 deg` or `90^\circ`.
@@ -16,11 +16,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dynsolve.answers.reading.grammar import brackets, calls, derivatives, names, references
+from dynsolve.answers.reading.grammar import brackets, derivatives, names, references
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS, MARKS, Form, Scripts
 from dynsolve.answers.reading.grids import Grid, Value, divided, negative, times, total
-from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation import tokens as plain
 from dynsolve.notation.tree import Degrees, Node, Number, Power, Product, Quotient
@@ -227,8 +227,8 @@ class FormulaReader(Reader):
                 return self.scripted(derivatives.read(self))
             if (function := references.name_of(token, self.vocabulary)) is not None:
                 return references.read(self, function)
-            if calls.is_call(self):
-                return self.scripted(calls.read(self))
+            if derivatives.is_call(self):
+                return self.scripted(derivatives.read_call(self))
         if references.is_short_function(self):
             return references.read(self, "sin" if token.text in "sS" else "cos")
         return names.value_of(self, self.form())
@@ -290,7 +290,7 @@ class FormulaReader(Reader):
             return False
         return not (
             references.name_of(token, self.vocabulary) is not None
-            or calls.is_call(self)
+            or derivatives.is_call(self)
             or derivatives.stands_here(self)
             or references.is_short_function(self)
         )
@@ -349,7 +349,7 @@ class FormulaReader(Reader):
         if derivatives.stands_here(self):
             return self.scripted(derivatives.read(self))
         if name in ("sum", "int", "prod"):
-            return calls.running_sum(self)
+            return derivatives.running_sum(self)
         if name == "binom":
             self.take()
             above, below = self.group(), self.group()

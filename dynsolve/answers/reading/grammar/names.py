@@ -9,8 +9,7 @@ import re
 from difflib import get_close_matches
 from functools import lru_cache
 
-from dynsolve.answers.reading.grammar.differentiation import by_time, derivative
-from dynsolve.answers.reading.grammar.reader import Reader, rate
+from dynsolve.answers.reading.grammar.reader import Reader, by_time, derivative, rate
 from dynsolve.answers.reading.grammar.references import (
     only_coordinates,
     placeholder,

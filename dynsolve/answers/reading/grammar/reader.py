@@ -1,10 +1,12 @@
 """What every part of the grammar works on: the tokens, the names of the problem, and what was found so far.
 
-`Reader` is abstract: the modules for brackets, functions, derivatives, calls and names take
+`Reader` is abstract: the modules for brackets, functions, derivatives and names take
 one and ask it for the values inside, and `formula.FormulaReader` is the descent that ties
 them together.  So none of them imports another in a circle.
 
 Time derivatives of what coordinates are written in: θ̇_1 + θ̇_2 for θ_1 + θ_2.
+
+Derivatives that a student leaves to be taken: d/dt(m r² φ̇), ∂/∂q_1(½ m l² sin² q_1), term by term.
 """
 
 from __future__ import annotations
@@ -14,13 +16,36 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from dynsolve.answers.reading.grammar.differentiation import by_time, derivative, raise_to
-from dynsolve.answers.reading.grammar.scripts import Form, ScriptCursor, Scripts
-from dynsolve.answers.reading.grids import MAX_INVERSE, Abstract, Grid, Value, inverse, times, transposed
-from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.grammar.scripts import Form, ScriptCursor, Scripts, constant, raise_to
+from dynsolve.answers.reading.grids import (
+    MAX_INVERSE,
+    Abstract,
+    Grid,
+    Value,
+    inverse,
+    scaled,
+    times,
+    transposed,
+)
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import ZERO, Degrees, Negative, Node, Number, Product, Quotient, Sum, Symbol
+from dynsolve.notation.build import negated, total
+from dynsolve.notation.tree import (
+    ONE,
+    ZERO,
+    Degrees,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+    number,
+)
 
 # Time derivatives of what coordinates are written in: θ̇_1 + θ̇_2 for θ_1 + θ_2
 
@@ -79,6 +104,101 @@ def _is_constant(node: Node, vocabulary: Vocabulary) -> bool:
         case Quotient(p, q):
             return _is_constant(p, vocabulary) and _is_constant(q, vocabulary)
     return False
+
+
+# Derivatives that a student leaves to be taken, term by term
+
+Rule = Callable[[Symbol], Node | None]
+"""The derivative of a symbol, None where it has none."""
+
+
+def by_time(vocabulary: Vocabulary) -> Rule:
+    """d/dt: coordinates and their velocities gain a dot, parameters are constant."""
+
+    def rate(symbol: Symbol) -> Node | None:
+        if vocabulary.coordinate(symbol) is None and not vocabulary.is_reference(symbol.name):
+            return ZERO
+        return Symbol(symbol.name, symbol.dots + 1) if symbol.dots < 2 else None
+
+    return rate
+
+
+def by_symbol(variable: Symbol) -> Rule:
+    """∂/∂variable: every other symbol is constant."""
+    return lambda symbol: ONE if (symbol.name, symbol.dots) == (variable.name, variable.dots) else ZERO
+
+
+def derivative(node: Node, rule: Rule) -> Node | None:
+    """The derivative of an expression; None where a part of it has none, as the name of an answer.
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> to_unicode(derivative(Function("sin", Product((Number(2), Symbol("x")))), by_symbol(Symbol("x"))))
+    'cos(2x)·2'
+    """
+    match node:
+        case Number() | Degrees() | Function("sgn"):
+            return ZERO
+        case Symbol():
+            return rule(node)
+        case Negative(argument):
+            inner = derivative(argument, rule)
+            return None if inner is None else negated(inner)
+        case Sum(terms):
+            found = [derivative(term, rule) for term in terms]
+            return None if None in found else total([term for term in found if term is not None])
+        case Product(factors):
+            return _of_product(factors, rule)
+        case Quotient(above, below):
+            return _of_quotient(above, below, rule)
+        case Power(base, exponent):
+            inner, power = derivative(base, rule), constant(exponent)
+            if inner is None or power is None:
+                return None
+            lower = base if power == 2 else raise_to(base, power - 1)
+            return scaled(scaled(number(power), lower), inner)
+        case Function(name, argument):
+            inner = derivative(argument, rule)
+            return None if inner is None else _of_function(name, argument, inner)
+    return None
+
+
+def _of_product(factors: tuple[Node, ...], rule: Rule) -> Node | None:
+    terms: list[Node] = []
+    for place, factor in enumerate(factors):
+        inner = derivative(factor, rule)
+        if inner is None:
+            return None
+        others = (*factors[:place], *factors[place + 1 :])
+        if inner != ZERO:
+            terms.append(scaled(Product(others) if len(others) > 1 else others[0], inner))
+    return total(terms)
+
+
+def _of_quotient(above: Node, below: Node, rule: Rule) -> Node | None:
+    over, under = derivative(above, rule), derivative(below, rule)
+    if over is None or under is None:
+        return None
+    first = ZERO if over == ZERO else Quotient(over, below)
+    second = ZERO if under == ZERO else Quotient(Product((above, under)), Power(below, Number(2)))
+    return total([first, negated(second)])
+
+
+def _of_function(name: str, argument: Node, inner: Node) -> Node | None:
+    if inner == ZERO:
+        return ZERO
+    match name:
+        case "sin":
+            return scaled(Function("cos", argument), inner)
+        case "cos":
+            return negated(scaled(Function("sin", argument), inner))
+        case "tan":
+            return Quotient(inner, Power(Function("cos", argument), Number(2)))
+        case "sqrt":
+            return Quotient(inner, Product((Number(2), Function(name, argument))))
+    return None
+
+
+# What every part of the grammar works on
 
 
 class Reader(ScriptCursor):

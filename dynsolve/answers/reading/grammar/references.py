@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dynsolve.answers.reading.grammar.differentiation import magnitude
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.scripts import Form, Scripts
+from dynsolve.answers.reading.grammar.scripts import Form, Scripts, magnitude
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, negative
-from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import (

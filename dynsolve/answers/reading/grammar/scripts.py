@@ -13,12 +13,11 @@ from fractions import Fraction
 
 from msgspec import Struct, field
 
-from dynsolve.answers.reading.grammar.differentiation import bounded, constant, raised_number
-from dynsolve.answers.reading.grids import MAX_NESTING, Value
-from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.grids import MAX_EXPONENT, MAX_NESTING, Value
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum
 from dynsolve.quantities import families
 from dynsolve.quantities.letters import key
 
@@ -105,6 +104,72 @@ def _unclosed(opening: Token, closing: str) -> ReadError:
     return opening.fault(
         f"this `{opening.text}` is never closed", f"add the `{closing}` that it belongs to", 1
     )
+
+
+# Powers: which exponents are read, and the trees they make
+
+
+_RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
+
+
+def raised_number(token: Token) -> int:
+    """The number that raised digits spell."""
+    digits = token.text.translate(_RAISED)
+    if len(digits) > 4:
+        raise token.fault("an exponent is a small whole number")
+    return int(digits)
+
+
+def bounded(value: Fraction, sign: Token) -> Fraction:
+    """The exponent, if it is one that is read."""
+    if abs(value) != Fraction(1, 2) and (value.denominator != 1 or abs(value) > MAX_EXPONENT):
+        message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
+        raise sign.fault(message, "a square root is written \\sqrt{x} or sqrt(x)")
+    return value
+
+
+def raise_to(base: Node, power: Fraction) -> Node:
+    """base^power; a half is a root, |x|² is x² and √x² is x."""
+    match base:
+        case Product((x, Function("sgn"))) if power % 2 == 0 and base == magnitude(x):
+            base = x
+        case Function("sqrt", x) if power % 2 == 0 and power:
+            return x if power == 2 else raise_to(x, power / 2)
+    if power.denominator == 2:
+        root = Function("sqrt", base)
+        return root if power > 0 else Quotient(Number(1), root)
+    whole = Number(abs(power.numerator))
+    return Power(base, Negative(whole) if power < 0 else whole)
+
+
+def magnitude(x: Node) -> Node:
+    """|x| as x sgn x."""
+    return Product((x, Function("sgn", x)))
+
+
+def constant(node: Node) -> Fraction | None:
+    """The value of a tree of small numbers, None for every other."""
+    match node:
+        case Number(p, q):
+            return Fraction(p, q)
+        case Negative(argument):
+            inner = constant(argument)
+            return None if inner is None else -inner
+        case Quotient(numerator, denominator):
+            top, bottom = constant(numerator), constant(denominator)
+            return top / bottom if top is not None and bottom else None
+        case Sum(terms):
+            values = [constant(term) for term in terms]
+            return sum((v for v in values if v is not None), Fraction(0)) if None not in values else None
+        case Product(factors):
+            product = Fraction(1)
+            for factor in factors[:4]:
+                value = constant(factor)
+                if value is None:
+                    return None
+                product *= value
+            return product if len(factors) <= 4 else None
+    return None
 
 
 # A name as it is written, with what stands over, under and beside it: `\dot{L}_2^{\star 2}`

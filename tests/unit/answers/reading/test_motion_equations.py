@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.reading.sentences import FREE
+from dynsolve.answers.reading.report_text import FREE
 from tests.unit.answers.reading.submissions import report, shown
 
 # of the crane, q1 is driven and q2 is passive

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from dynsolve.answers.reading.pretty_print import one_line
+from dynsolve.answers.reading.plain_text import one_line
 from tests.unit.answers.hands import checker, verdicts
 from tests.unit.answers.reading.submissions import report
 

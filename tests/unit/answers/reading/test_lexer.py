@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.reading.tokens.lexer import tokenize
+from dynsolve.answers.reading.lexer import tokenize
 from dynsolve.errors import ReadError
 
 TEXTS = [

@@ -18,7 +18,7 @@ from types import MappingProxyType
 from msgspec import Struct
 
 from dynsolve.answers.reading.grids import MAX_NESTING
-from dynsolve.answers.reading.tokens.lexer import (
+from dynsolve.answers.reading.lexer import (
     SEPARATORS,
     Macro,
     Token,
