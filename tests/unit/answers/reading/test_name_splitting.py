@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.reading.name_splitting import split_names
 from dynsolve.answers.reading.lexer import tokenize
+from dynsolve.answers.reading.name_splitting import split_names
 from dynsolve.answers.reading.vocabulary import vocabulary
 from tests.unit.answers.reading.submissions import problem
 
