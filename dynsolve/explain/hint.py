@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from textwrap import dedent
 
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Prose, Table, Text
 from dynsolve.document.sentences import Value, say
@@ -21,7 +22,6 @@ from dynsolve.explain.writing import and_joined, by_itself, is_small, listed
 from dynsolve.notation.tree import Node, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import quantities
 from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
@@ -84,74 +84,39 @@ def _at_hand(context: Context, stage: Stage) -> str:
             return "You have what the problem gives."
         if stage is Stage.ENERGY:
             return "You have of each body the position of its mass centre, and its tensor:"
-    return _AT_HAND[stage]
+    question = stage.part("explain")
+    return question.AT_HAND if question else _AT_HAND[stage]
 
 
 _AT_HAND = {
-    Stage.FRAMES: "You have the joint axes as they are drawn:",
     Stage.KINEMATICS: "You have the Denavit-Hartenberg table:",
     Stage.JACOBIAN: "You have the frames of the forward kinematics:",
-    Stage.TASK: "You have the frames of the forward kinematics:",
-    Stage.SINGULAR: "You have the Jacobian of the task:",
-    Stage.INVERSE: "You have what is to be reached as a function of the joint variables:",
-    Stage.RATES: "You have the Jacobian of the task:",
     Stage.INERTIA: "You have the frames of the forward kinematics, and what the problem says of each body:",
     Stage.ENERGY: (
         "You have the axes and origins of the joints, and of each body its mass centre and its tensor:"
     ),
     Stage.LAGRANGIAN: "You have the two energies:",
     Stage.TORQUE: "You have the Lagrangian:",
-    Stage.NEWTON_EULER: "You have the matrices of the rows of the table:",
     Stage.VECTORIZED: "You have the forces, one for each coordinate:",
-    Stage.PARAMETERS: "You have the equations of motion, one for each coordinate:",
-    Stage.CONSTRAINTS: "You have the forward kinematics, and the matrices of the model:",
-    Stage.EQUILIBRIA: "Of the equations of motion you have:",
-    Stage.FORWARD_DYNAMICS: "You have the matrices of the equations of motion:",
-    Stage.TASK_INERTIA: "You have the Jacobian of the task and the inertia matrix:",
-    Stage.DEFINITE: "You have the matrices, and what is assumed of their parameters.",
-    Stage.STATICS: "You have the Jacobian of the end of the arm, and the frames:",
 }
 
 
 def _inputs(context: Context, stage: Stage) -> Iterable[tuple[Node, str]]:
     """The results that the stage starts from, by letter and name."""
-    robot, asked, wanted = context.robot, context.robot.questions, context.wanted
-    D, C, g, task = (letters.D, "D"), (letters.C, "C"), (letters.G, "g"), (letters.J_TASK, "Jr")
-    frames = [(letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints]
+    robot = context.robot
     match stage:
-        case Stage.JACOBIAN | Stage.TASK | Stage.INERTIA:
-            return frames
-        case Stage.SINGULAR:
-            return [task]
-        case Stage.INVERSE:
-            return frames[-1:] if asked.task is not None and asked.task.is_pose else [(letters.TASK, "r")]
-        case Stage.RATES:
-            given = (one for one in quantities(robot).values() if one.name in ("Jr", "Jr_dot"))
-            found = (one for one in given if one.name in wanted)
-            return [(quantity.letter(robot), quantity.name) for quantity in found]
+        case Stage.JACOBIAN | Stage.INERTIA:
+            return [(letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints]
         case Stage.ENERGY:
             return _of_bodies(robot)
         case Stage.LAGRANGIAN:
             return [(letters.K, "K"), (letters.P, "P")]
         case Stage.TORQUE:
             return [(letters.L, "L")]
-        case Stage.NEWTON_EULER:
-            return [(letters.A(joint.index), f"A{joint.index}") for joint in robot.joints]
-        case Stage.CONSTRAINTS:
-            return [*frames[-1:], *([] if wanted.isdisjoint(("lambda", "reduced")) else [D, C, g])]
-        case Stage.EQUILIBRIA:
-            is_moving = bool(asked.model.steady)
-            is_linear = not wanted.isdisjoint(("linear_A", "linear_B"))
-            return [*([D] if is_linear or is_moving else []), *([C] if is_moving else []), g]
-        case Stage.FORWARD_DYNAMICS:
-            return [D, C, g]
-        case Stage.TASK_INERTIA:
-            return [task, D]
-        case Stage.STATICS:
-            return [(letters.JV, "Jv"), (letters.JW, "Jw"), *frames]
-        case Stage.VECTORIZED | Stage.PARAMETERS:
+        case Stage.VECTORIZED:
             return [(letters.force(q), f"tau{q.index}") for q in robot.coordinates]
-    return []
+    question = stage.part("explain")
+    return question.inputs(context) if hasattr(question, "inputs") else []
 
 
 def _of_bodies(robot: Robot) -> Iterator[tuple[Node, str]]:
@@ -204,12 +169,6 @@ def _look_out(context: Context, stage: Stage) -> Iterator[Block]:
 # -- the most frequent mistakes of a stage that can be made with this robot ------------------------
 
 PITFALLS = {
-    Stage.FRAMES: """
-        d is measured along z, the axis of a joint, and a across it, along x.
-        Every angle has a sense: θ is seen against z, α against x, counterclockwise.
-        slides? The axis of a sliding joint has a direction and no place: lay it where lengths vanish.
-        A z may also point the other way, and frame 0 be anywhere on the first axis.
-    """,
     Stage.KINEMATICS: """
         The angle of row {row} is {angle}: its sine and cosine are those of the whole angle, not of the
             variable alone.
@@ -228,26 +187,6 @@ PITFALLS = {
         coupled? Not every joint variable here is a coordinate itself: the column of a joint counts for each
             coordinate in it, times the factor with which that stands in the table.
         fixed? A fixed row has no column of its own.
-    """,
-    Stage.TASK: """
-        Joints after its link do not move a point: their columns are zero, for {inner_points}.
-        $𝐉_r$ has a row a component and a column a coordinate: {task_size} here.
-        rates? In the time derivative every joint variable of an entry moves: one term for each, with its
-            rate.
-    """,
-    Stage.SINGULAR: """
-        Write the determinant as a product before you look for its zeros: each factor is a case.
-        default? The first joint moves the whole arm and changes no rank: it appears in no condition.
-    """,
-    Stage.INVERSE: """
-        turning? A cosine or a sine alone leaves two angles, and each is a branch of its own.
-        turning? atan2 takes y first, and knows all four quadrants; arctan(y/x) knows two.
-        Put each solution into $𝐫(𝐪)$: what was squared on the way may have brought one too many.
-    """,
-    Stage.RATES: """
-        Where the Jacobian is singular it has no inverse: look at its rank at this state first.
-        accelerates? The acceleration of the task is not $𝐉_r 𝐪̈$ alone: what the joints' rates bring is
-            taken off before anything is solved.
     """,
     Stage.INERTIA: """
         The mass centre is not the origin of the frame: that holds for {off}.
@@ -282,15 +221,6 @@ PITFALLS = {
         turning? The derivative of a sine or cosine of an angle that moves brings its rate: the chain rule.
         friction? Friction does not follow from ℒ: add it to each equation, with a plus.
     """,
-    Stage.NEWTON_EULER: """
-        Every vector has its components along the axes of its own link: what comes from another link is
-            turned first, outwards by the transpose of the rotation, inwards by the rotation.
-        standard? The axis of joint i is that of frame i-1, turned into frame i: it is the third row of the
-            rotation, and not (0, 0, 1).
-        standard? The moment is about the origin before the link: the lever of the mass centre starts there.
-        sliding? A joint that slides on a turning link adds twice ω × the velocity, besides its own
-            acceleration.
-    """,
     Stage.VECTORIZED: """
         several? $𝐃$ is symmetric. If yours is not, look for the slip in the forces.
         several? The rates stay inside C: each of its terms holds one rate, each term of $𝐂 𝐪̇$ two.
@@ -299,43 +229,6 @@ PITFALLS = {
         Do not forget the ½ of the Christoffel symbols.
         weighs? $𝐠$ holds no rates and no accelerations, and its sign is that of the derivatives of $𝒫$.
     """,
-    Stage.PARAMETERS: """
-        Multiply the forces out first: what stands beside one function of the motion is one coefficient.
-        Coefficients that are sums of others need no entry of their own.
-        Y contains no parameter that is unknown, and a nothing that moves.
-    """,
-    Stage.EQUILIBRIA: """
-        equilibria? A product is 0 where any of its factors is: every choice is a case of its own.
-        turning_equilibria? A sine or a cosine has each of its values at two angles of a turn, but 1 and -1.
-        steady? The rates that are constant stay in the equations of the others.
-        linear? Differentiate first, then put the equilibrium in.
-        linear? The inverse of $𝐃$ stands before the derivatives of $𝐠$, with a minus sign.
-        linear_passive? What no motor drives has no column in B, but its row stays.
-    """,
-    Stage.FORWARD_DYNAMICS: """
-        The inverse of $𝐃$ stands before the whole sum of forces, from the left.
-        What stands beside the inertial forces, on their side, goes over with a minus sign.
-        passive? What no motor drives is accelerated, too: its force is 0, and its row stays.
-    """,
-    Stage.TASK_INERTIA: """
-        Where the Jacobian is not square only the whole product has an inverse.
-        Where the Jacobian is square its inverse stands on the right, the transpose of that on the left.
-    """,
-    Stage.DEFINITE: """
-        A positive determinant alone is not enough: every leading minor must be positive.
-        Take each minor where it is smallest: its sines and cosines may be 0, 1 and -1 there.
-    """,
-    Stage.STATICS: """
-        The Jacobian is that of the point at which the force acts, and its transpose stands before the force.
-        moments? A moment goes to the joints by the angular part of the Jacobian.
-        by_robot? What the robot exerts acts on it with the opposite sign.
-        holds? The torques that hold a force are the opposite of what the force does to the joints.
-    """,
-    Stage.CONSTRAINTS: """
-        The matrix moves: the constraint, differentiated twice, has a term with its rate, too.
-        Neither the coordinates nor the rates are free: results may be written otherwise with the constraint
-            put in.
-    """,
 }
 """What goes wrong most often.  One that begins with `name?` holds where the robot has that, and one with
 values in braces where it has these (`_facts`)."""
@@ -343,16 +236,18 @@ values in braces where it has these (`_facts`)."""
 
 def pitfalls(robot: Robot, stage: Stage) -> Iterator[Prose]:
     """The pitfalls of a stage that this robot has."""
-    facts = _facts(robot)
-    for line in re.sub(r"\n {12}", " ", PITFALLS[stage]).strip().splitlines():
-        text = re.sub(r"^\s*(\w+\? )?", "", line)
+    question = stage.part("explain")
+    told = getattr(question, "PITFALLS", "") if question else PITFALLS[stage]
+    facts = _facts(robot) | (question.facts(robot) if hasattr(question, "facts") else {})
+    for line in re.sub(r"\n {4}", " ", dedent(told)).strip().splitlines():
+        text = re.sub(r"^(\w+\? )?", "", line)
         if all(facts[name] for name in re.findall(r"(\w+)(?=\? |\})", line)):
             yield say(text, **facts)
 
 
 def _facts(robot: Robot) -> dict[str, Value]:
     """What pitfalls are about: sentences and conditions; what is empty the robot does not have."""
-    return {**_of_joints(robot), **_of_masses(robot), **_of_questions(robot)}
+    return {**_of_joints(robot), **_of_masses(robot)}
 
 
 def _of_joints(robot: Robot) -> dict[str, Value]:
@@ -413,26 +308,3 @@ def _called(bodies: Iterable[Body]) -> str:
     """bodies 1 and 2; nothing of none"""
     names = [body.name for body in bodies]
     return f"{'body' if len(names) == 1 else 'bodies'} {and_joined(names)}" if names else ""
-
-
-def _of_questions(robot: Robot) -> dict[str, Value]:
-    questions, asked = robot.questions, robot.questions.asked
-    task = questions.task
-    last = max((joint.index for joint in robot.joints if joint.type), default=0)
-    is_linear = not asked.isdisjoint(("linear_A", "linear_B"))
-    has_equilibria = "equilibria" in asked
-    return {
-        "inner_points": and_joined([point.name for point in questions.points if point.link < last]),
-        "task_size": f"{task.rows}×{robot.n}" if task is not None and task.rows != robot.n else "",
-        "rates": any(name.endswith("_dot") for name in asked),
-        "default": task is None or task.is_default,
-        "accelerates": questions.acceleration is not None,
-        "equilibria": has_equilibria,
-        "turning_equilibria": has_equilibria and any(q.type is JointType.REVOLUTE for q in robot.coordinates),
-        "steady": has_equilibria and bool(questions.model.steady),
-        "linear": is_linear,
-        "linear_passive": is_linear and bool(robot.actions.passive),
-        "moments": any(not load.moment.is_zero for load in questions.loads),
-        "by_robot": any(load.by_robot for load in questions.loads),
-        "holds": "tau_static" in asked,
-    }

@@ -181,3 +181,22 @@ def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:
 
 
 # -- the accelerations without constraints, and the inertia Λ that a force at the task meets -----------
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the forward kinematics, and the matrices of the model:"
+
+PITFALLS = """
+    The matrix moves: the constraint, differentiated twice, has a term with its rate, too.
+    Neither the coordinates nor the rates are free: results may be written otherwise with the constraint
+        put in.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    last = context.robot.joints[-1:]
+    frames = [(letters.H(context.robot, joint.index), f"H{joint.index}") for joint in last]
+    matrices = [(letters.D, "D"), (letters.C, "C"), (letters.G, "g")]
+    return [*frames, *([] if context.wanted.isdisjoint(("lambda", "reduced")) else matrices)]

@@ -137,3 +137,13 @@ def _all_of(forms: Forms, bounds: tuple[Bound, ...]) -> Prose:
 def inequality(forms: Forms, bound: Bound) -> Relation:
     """a₁a₃ - a₂² > 0"""
     return Relation((forms.of(bound.value), Number(0)), (">" if bound.is_strict else "≥",))
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the matrices, and what is assumed of their parameters."
+
+PITFALLS = """
+    A positive determinant alone is not enough: every leading minor must be positive.
+    Take each minor where it is smallest: its sines and cosines may be 0, 1 and -1 there.
+"""

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.set_forms import vanishing
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
@@ -31,6 +31,7 @@ from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
 from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Stability
+from dynsolve.robot.model import JointType, Robot
 
 _SOURCE = SLOTINE_LI.section("3.3")
 _DG = formula("∂𝐠/∂𝐪")
@@ -342,3 +343,38 @@ def energy_of_motion(context: Context) -> tuple[Prose, Node]:
         "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
         f"Where the matrix of its second derivatives is positive definite, the motion is stable{elsewhere}",
     ), shown
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "Of the equations of motion you have:"
+
+PITFALLS = """
+    equilibria? A product is 0 where any of its factors is: every choice is a case of its own.
+    turning_equilibria? A sine or a cosine has each of its values at two angles of a turn, but 1 and -1.
+    steady? The rates that are constant stay in the equations of the others.
+    linear? Differentiate first, then put the equilibrium in.
+    linear? The inverse of $𝐃$ stands before the derivatives of $𝐠$, with a minus sign.
+    linear_passive? What no motor drives has no column in B, but its row stays.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    is_moving = bool(context.robot.questions.model.steady)
+    is_linear = not context.wanted.isdisjoint(("linear_A", "linear_B"))
+    D, C, g = (letters.D, "D"), (letters.C, "C"), (letters.G, "g")
+    return [*([D] if is_linear or is_moving else []), *([C] if is_moving else []), g]
+
+
+def facts(robot: Robot) -> dict[str, Value]:
+    """What its pitfalls are about."""
+    asked, has_equilibria = robot.questions.asked, "equilibria" in robot.questions.asked
+    is_linear = not asked.isdisjoint(("linear_A", "linear_B"))
+    return {
+        "equilibria": has_equilibria,
+        "turning_equilibria": has_equilibria and any(q.type is JointType.REVOLUTE for q in robot.coordinates),
+        "steady": has_equilibria and bool(robot.questions.model.steady),
+        "linear": is_linear,
+        "linear_passive": is_linear and bool(robot.actions.passive),
+    }

@@ -56,3 +56,19 @@ def inverse_of_inertia(inverse: Node) -> Line:
     """D⁻¹, as a line."""
     told = say("The inverse of $𝐃$, its adjugate over its determinant:")
     return Line(told, (formula("𝐃⁻¹ = {inverse}", inverse=inverse),), is_kept=True)
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the matrices of the equations of motion:"
+
+PITFALLS = """
+    The inverse of $𝐃$ stands before the whole sum of forces, from the left.
+    What stands beside the inertial forces, on their side, goes over with a minus sign.
+    passive? What no motor drives is accelerated, too: its force is 0, and its row stays.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    return [(letters.D, "D"), (letters.C, "C"), (letters.G, "g")]

@@ -214,3 +214,15 @@ def _measured_table(context: Context, normals: Normals) -> Step:
         detail=Detail.BRIEF,
         hint=("Measure from frame to frame: about z, along z, along x, about x.",),
     )
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the joint axes as they are drawn:"
+
+PITFALLS = """
+    d is measured along z, the axis of a joint, and a across it, along x.
+    Every angle has a sense: θ is seen against z, α against x, counterclockwise.
+    slides? The axis of a sliding joint has a direction and no place: lay it where lengths vanish.
+    A z may also point the other way, and frame 0 be anywhere on the first axis.
+"""

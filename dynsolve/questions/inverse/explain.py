@@ -563,3 +563,22 @@ def _free_coordinates(solving: Solving) -> Iterator[Prose]:
     if unused:
         text = agreeing("{q} does|do not change the task, and may be anything.", len(unused))
         yield say(text, q=listed([*map(Symbol, unused)]))
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have what is to be reached as a function of the joint variables:"
+
+PITFALLS = """
+    turning? A cosine or a sine alone leaves two angles, and each is a branch of its own.
+    turning? atan2 takes y first, and knows all four quadrants; arctan(y/x) knows two.
+    Put each solution into $𝐫(𝐪)$: what was squared on the way may have brought one too many.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    robot = context.robot
+    task, last = robot.questions.task, len(robot.joints)
+    is_pose = task is not None and task.is_pose
+    return [(letters.H(robot, last), f"H{last}") if is_pose else (letters.TASK, "r")]

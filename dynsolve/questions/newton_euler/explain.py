@@ -574,3 +574,23 @@ def _general(context: Context, key: str, title: str, why: str, sums: dict[str, l
         listed=True,
         uses=("links",),
     )
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the matrices of the rows of the table:"
+
+PITFALLS = """
+    Every vector has its components along the axes of its own link: what comes from another link is
+        turned first, outwards by the transpose of the rotation, inwards by the rotation.
+    standard? The axis of joint i is that of frame i-1, turned into frame i: it is the third row of the
+        rotation, and not (0, 0, 1).
+    standard? The moment is about the origin before the link: the lever of the mass centre starts there.
+    sliding? A joint that slides on a turning link adds twice ω × the velocity, besides its own
+        acceleration.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    return [(letters.A(joint.index), f"A{joint.index}") for joint in context.robot.joints]

@@ -461,3 +461,19 @@ def _add_to(total: dict[_K, Fraction], other: Mapping[_K, Fraction], factor: Fra
             total[key] = value
         else:
             del total[key]
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the equations of motion, one for each coordinate:"
+
+PITFALLS = """
+    Multiply the forces out first: what stands beside one function of the motion is one coefficient.
+    Coefficients that are sums of others need no entry of their own.
+    Y contains no parameter that is unknown, and a nothing that moves.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    return [(letters.force(q), f"tau{q.index}") for q in context.robot.coordinates]

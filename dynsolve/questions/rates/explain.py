@@ -10,14 +10,16 @@ from dynsolve.algebra.linear_systems import is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import TOLD, Detail, Part, Step
 from dynsolve.explain.writing import column_of, side_by_side, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Parenthesized, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
+from dynsolve.quantities.index import quantities
 from dynsolve.questions.rates.derive import MOST_PRODUCTS, squared, wanted_by_accelerations
+from dynsolve.robot.model import Robot
 
 _J = letters.J_TASK
 
@@ -167,3 +169,26 @@ def _space(context: Context, name: str) -> Step:
 
 
 # -- forces from outside, held at rest --------------------------------------------------------------
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the Jacobian of the task:"
+
+PITFALLS = """
+    Where the Jacobian is singular it has no inverse: look at its rank at this state first.
+    accelerates? The acceleration of the task is not $𝐉_r 𝐪̈$ alone: what the joints' rates bring is
+        taken off before anything is solved.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    given = (one for one in quantities(context.robot).values() if one.name in ("Jr", "Jr_dot"))
+    found = (one for one in given if one.name in context.wanted)
+    return [(quantity.letter(context.robot), quantity.name) for quantity in found]
+
+
+def facts(robot: Robot) -> dict[str, Value]:
+    """What its pitfalls are about."""
+    return {"accelerates": robot.questions.acceleration is not None}

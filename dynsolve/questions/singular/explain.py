@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.document.figures import ArmArrow, ArmFigure
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.set_forms import vanishing
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
@@ -232,3 +232,23 @@ def _motion(w: Matrix, axes: Sequence[int | None]) -> tuple[Node, Node, Node] | 
         elif component != ZERO:
             return None
     return (found[0], found[1], found[2]) if any(part != ZERO for part in found) else None
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the Jacobian of the task:"
+
+PITFALLS = """
+    Write the determinant as a product before you look for its zeros: each factor is a case.
+    default? The first joint moves the whole arm and changes no rank: it appears in no condition.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    return [(letters.J_TASK, "Jr")]
+
+
+def facts(robot: Robot) -> dict[str, Value]:
+    """What its pitfalls are about."""
+    return {"default": robot.questions.task is None or robot.questions.task.is_default}

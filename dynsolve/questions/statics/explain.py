@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Prose
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, Detail, Group, Step
 from dynsolve.explain.writing import is_small, spong, sum_of
@@ -18,6 +18,7 @@ from dynsolve.quantities import letters
 from dynsolve.questions.rates.explain import state_prose
 from dynsolve.questions.statics import derive as statics
 from dynsolve.questions.statics.derive import jacobians
+from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, Load
 
 HELD = Group("Q", "The sum, and the torques that hold it")
@@ -118,3 +119,31 @@ def _holding(context: Context) -> Step:
         result=(equation(letters.TAU_STATIC, context.form("tau_static")),),
         detail=Detail.BRIEF,
     )
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the Jacobian of the end of the arm, and the frames:"
+
+PITFALLS = """
+    The Jacobian is that of the point at which the force acts, and its transpose stands before the force.
+    moments? A moment goes to the joints by the angular part of the Jacobian.
+    by_robot? What the robot exerts acts on it with the opposite sign.
+    holds? The torques that hold a force are the opposite of what the force does to the joints.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    frames = [(letters.H(context.robot, joint.index), f"H{joint.index}") for joint in context.robot.joints]
+    return [(letters.JV, "Jv"), (letters.JW, "Jw"), *frames]
+
+
+def facts(robot: Robot) -> dict[str, Value]:
+    """What its pitfalls are about."""
+    loads = robot.questions.loads
+    return {
+        "moments": any(not load.moment.is_zero for load in loads),
+        "by_robot": any(load.by_robot for load in loads),
+        "holds": "tau_static" in robot.questions.asked,
+    }

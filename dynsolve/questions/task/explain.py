@@ -10,13 +10,13 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.set_forms import SetForms
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.working.identities import SILENT, Identity, Way, by, identities, said, used_in_product
-from dynsolve.explain.writing import agreeing, is_small, listed, spong, sum_over_coordinates
+from dynsolve.explain.writing import agreeing, and_joined, is_small, listed, spong, sum_over_coordinates
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
@@ -35,6 +35,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.questions.rates.derive import squared, whole_or_task
 from dynsolve.questions.rates.explain import square_of
+from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
 
 TASK = Group("r", "The task and its Jacobian")
@@ -346,3 +347,32 @@ def _identities(context: Context, names: list[str], axes: int | None) -> Prose:
     jacobians = [context.values[name] for name in names]
     used = dict.fromkeys(one for J in jacobians for one in used_in_product(context, R.T, R @ J, J))
     return say("With {identities}:", identities=said(list(used))) if used else ()
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the frames of the forward kinematics:"
+
+PITFALLS = """
+    Joints after its link do not move a point: their columns are zero, for {inner_points}.
+    $𝐉_r$ has a row a component and a column a coordinate: {task_size} here.
+    rates? In the time derivative every joint variable of an entry moves: one term for each, with its
+        rate.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    return [(letters.H(context.robot, joint.index), f"H{joint.index}") for joint in context.robot.joints]
+
+
+def facts(robot: Robot) -> dict[str, Value]:
+    """What its pitfalls are about."""
+    questions = robot.questions
+    task = questions.task
+    last = max((joint.index for joint in robot.joints if joint.type), default=0)
+    return {
+        "inner_points": and_joined([point.name for point in questions.points if point.link < last]),
+        "task_size": f"{task.rows}×{robot.n}" if task is not None and task.rows != robot.n else "",
+        "rates": any(name.endswith("_dot") for name in questions.asked),
+    }

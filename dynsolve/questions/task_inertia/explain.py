@@ -11,7 +11,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step, not_derived
 from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Negative, Number, Power, equation
+from dynsolve.notation.tree import Negative, Node, Number, Power, equation
 from dynsolve.quantities import letters
 
 
@@ -43,3 +43,18 @@ def steps(context: Context) -> Iterator[Step]:
         notes=(("It exists where the rows of the Jacobian are independent.",),),
         detail=Detail.BRIEF,
     )
+
+
+# -- hints -----------------------------------------------------------------------------------------
+
+AT_HAND = "You have the Jacobian of the task and the inertia matrix:"
+
+PITFALLS = """
+    Where the Jacobian is not square only the whole product has an inverse.
+    Where the Jacobian is square its inverse stands on the right, the transpose of that on the left.
+"""
+
+
+def inputs(context: Context) -> list[tuple[Node, str]]:
+    """The results that it starts from, by letter and name."""
+    return [(letters.J_TASK, "Jr"), (letters.D, "D")]
