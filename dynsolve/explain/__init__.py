@@ -30,23 +30,27 @@ Everything a step is made from is in its `Context`: the robot, its exact values 
                          what the signs of a report mean
     hint                 hints (`--hint`), made of the same steps: what to do, without its results
 
-Long models are written in names (`--abbreviate`):
+Long models are written in names (`--abbreviate`), which `Context.names` has before the first step is made;
+what each result is in them, `Context.result`.  The energies and forces of a long model stay in d_ij, c_ijk
+and g_k (`Context.is_in_letters`), and what is alike is said once for all:
 
     recurring            what stands in several places
-    abbreviations        which constants, sums and Christoffel symbols get names, and D, C and g in these
-    named_steps          the steps in these names, and where they are introduced
-    long_model           those of a long model, which stay in d_ij, c_ijk and g_k where they can
+    abbreviations        which constants, sums and Christoffel symbols get names, and what results are in these
+    entry_formulas       the formulas in d_ij, c_ijk and g_k
+    long_model           what is said once, and D, c_ijk, C and g of a long model; `last_frame` its last frame
+    named_steps          the steps of a short model in names, and where these are introduced
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 
 from msgspec.structs import replace
 
 from dynsolve.errors import attempted
 from dynsolve.explain.context import Context
+from dynsolve.explain.long_model.general import general_steps, told_once
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Words, equation
 from dynsolve.quantities.family import FORMED
@@ -65,17 +69,22 @@ _BESIDE = {
 def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
     """The steps of the given stages, or of all, in the order of the course."""
     wanted = set(Stage if stages is None else stages)
+    once = general_steps(context) if context.is_in_letters else {}
     for stage in stages_of(context.robot):
         if stage in wanted:
-            yield from _of_stage(stage, context)
+            yield from _of_stage(stage, context, once)
 
 
-def _of_stage(stage: Stage, context: Context) -> Iterator[Step]:
-    """The steps of a stage; where one fails, the bare results of those that are missing."""
+def _of_stage(stage: Stage, context: Context, once: Mapping[str, Step]) -> Iterator[Step]:
+    """The steps of a stage; where one fails, the bare results of those that are missing.
+
+    Of a long model those that are alike are told `once`.
+    """
     shown: list[Step] = []
 
     def explained() -> None:
-        for step in _steps(stage)(context):
+        steps = _steps(stage)(context)
+        for step in told_once(steps, context, stage, once) if context.is_in_letters else steps:
             stays = replace(step, stage=step.stage or stage)
             shown.append(stays)  # though a later one may fail
 

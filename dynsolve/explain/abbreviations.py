@@ -24,14 +24,20 @@ from fractions import Fraction
 from functools import partial
 from itertools import count
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.euler_lagrange import christoffel_symbols
 from dynsolve.explain.context import is_short
-from dynsolve.explain.forms import Forms, coriolis_matrix, is_numeric, pairs
+from dynsolve.explain.entry_formulas import (
+    collected_coriolis_force,
+    coriolis_matrix,
+    forms_of_long_model,
+    pairs,
+)
+from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, exchanged, expanded, name_recurring, rewritten
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
 from dynsolve.notation import tree
@@ -208,6 +214,7 @@ class Abbreviated(Struct, frozen=True):
     A `long` model is one whose constants have names, or would have if they were no numbers; `P` is its
     potential energy.
     With `inertias`, names from the kinetic energy on, the others are those of Christoffel symbols.
+    `forms` are the results of steps as they are written with the names, by the names of the quantities.
     """
 
     constants: tuple[Definition, ...]
@@ -220,6 +227,7 @@ class Abbreviated(Struct, frozen=True):
     kept: tuple[Symbol, ...] = ()
     inertias: InertiaNames | None = None
     P: Node | None = None
+    forms: Mapping[str, Node] = field(default_factory=dict)
 
     @property
     def at_symbols(self) -> bool:
@@ -330,16 +338,25 @@ def _assembled(
             used = [rewritten(node, lambda leaf: minus if leaf == one.name else leaf) for node in used]
         sums = (one,)
     short = dict(zip(parts, used, strict=True))
+
+    def c(i: int, j: int, k: int) -> Node:
+        return short["c", min(i, j), max(i, j), k]
+
+    D = tree.Matrix(tuple(tuple(short["d", min(i, j), max(i, j)] for j in range(n)) for i in range(n)))
+    C, g = coriolis_matrix(coordinates, c), tree.column(*(short["g", k] for k in range(n)))
+    of_long = forms_of_long_model(forms.robot, forms.values) if long else {}
+    Cqd = tree.column(*(collected_coriolis_force(coordinates, c, k) for k in range(n)))
     return Abbreviated(
         constants,
         sums,
-        D=tree.Matrix(tuple(tuple(short["d", min(i, j), max(i, j)] for j in range(n)) for i in range(n))),
-        C=coriolis_matrix(coordinates, lambda i, j, k: short["c", min(i, j), max(i, j), k]),
-        g=tree.column(*(short["g", k] for k in range(n))),
+        D=D,
+        C=C,
+        g=g,
         christoffel={ijk: short["c", *ijk] for ijk in symbols},
         long=long,
         kept=kept,
         P=short.get(("P",)),
+        forms={"D": D, "C": C, "g": g, "Cqd": Cqd, **of_long},
     )
 
 

@@ -23,6 +23,7 @@ from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Convention, JointType, Robot
 
 if TYPE_CHECKING:
+    from dynsolve.explain.abbreviations import Abbreviated
     from dynsolve.robot.drawing.normals import Normals
 
 
@@ -30,7 +31,7 @@ class Context(Struct, frozen=True):
     """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree.
 
     `normals` are those of a drawing that the table was found from, `lengths` values in m as the
-    file has them.
+    file has them.  `names` are those that the steps are written in, where they are in some.
     """
 
     robot: Robot
@@ -39,6 +40,7 @@ class Context(Struct, frozen=True):
     agreement: Agreement | None = None
     normals: Normals | None = None
     lengths: Mapping[str, str] = field(default_factory=dict)
+    names: Abbreviated | None = None
 
     @property
     def wanted(self) -> frozenset[str]:
@@ -66,6 +68,16 @@ class Context(Struct, frozen=True):
     def form(self, name: str) -> Node:
         """The tree of a quantity."""
         return self.forms(name)
+
+    def result(self, name: str) -> Node:
+        """The tree of a quantity as its own step gives it: in names, where it has some."""
+        named = None if self.names is None else self.names.forms.get(name)
+        return self.form(name) if named is None else named
+
+    @property
+    def is_in_letters(self) -> bool:
+        """Whether the energies, momenta and forces stay in d_ij, c_ijk and g_k: those of a long model."""
+        return self.names is not None and self.names.long
 
     def matrix(self, name: str) -> tree.Matrix:
         """The tree of a quantity that is a matrix."""

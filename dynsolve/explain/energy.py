@@ -22,7 +22,7 @@ from dynsolve.explain.jacobian import (
     told_read_off,
 )
 from dynsolve.explain.matrix_factors import factored
-from dynsolve.explain.placed_bodies import energy_steps, jacobians_step
+from dynsolve.explain.placed_bodies import energy_steps, jacobians_step, total_energy
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
 from dynsolve.explain.working.derivatives import summed
 from dynsolve.explain.working.rotational import along_own_axes, multiplied_out, turned
@@ -102,15 +102,17 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     who += f", and that of the {'springs' if name == 'P' else 'rotors'}" if others else ""
     acting = [name + ("s" if name == "P" else "m")] if others else []
     way = summed(context, [*(name + body.name for body in bodies), *acting], name, letter)
+    result, more, notes = total_energy(context, name)
     return Step(
         id=name,
         title=f"Total {kind} energy",
-        why=(f"{who}.{' A point mass has no second term.' if len(points) > 1 else ''}",),
+        why=(f"{who}.{' A point mass has no second term.' if len(points) > 1 else ''}", *more),
         formula=whole,
         source=spong("7.2.3" if name == "P" else "7.2.2"),
         lines=way.lines,
         concluding=way.concluding,
-        result=(equation(letter, context.form(name)),),
+        result=result,
+        notes=notes,
         detail=Detail.BRIEF,
         normal=STATED,
     )

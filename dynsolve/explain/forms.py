@@ -8,11 +8,8 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
-
-from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -24,6 +21,7 @@ from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError
+from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matrix, pairs, rates_of_pair
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
 from dynsolve.notation.tree import ZERO, Node, Product, Symbol
@@ -33,9 +31,6 @@ from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import Turn, parallel_groups
 from dynsolve.robot.model import Convention, JointType, Robot
-
-Factor = tuple[Node, int]
-"""A factor of a product, and its exponent."""
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -167,7 +162,7 @@ class Forms:
             terms: list[Node] = []
             for j, k in pairs(len(names)):
                 entry = self.of(Expr(ring, energy.poly.derivative(rates[j]).derivative(rates[k])))
-                factors = [(entry, 1), *_rates(names, j, k)]
+                factors = [(entry, 1), *rates_of_pair(names, j, k)]
                 terms.append(times(1 if j == k else 2, factors, decimal=True))
             inner = total(terms)
         return Product((letters.HALF, *factors_of(inner)))
@@ -326,118 +321,3 @@ class ProductForms:
             return None
         factors.sort(key=lambda found: (self.ring.depends_on_coordinates(found[0]), len(found[0])))
         return coefficient, [(self.compactor.form(factor), power) for factor, power in factors]
-
-
-# -- formulas in d_ij, c_ijk and g_k, these being written by their compact forms or by their names
-
-ChristoffelSymbols = Callable[[int, int, int], Node]
-"""c_ijk of i, j, k from 0, and ZERO for one that is zero."""
-
-
-class EntryFormulas(Struct, frozen=True):
-    """The formulas of the energies, momenta and forces for given ways to write d_ij, c_ijk, g_k and friction.
-
-    Indices count from 0.  Each pair of rates is written once: q̇_i q̇_j with i ≤ j.
-    """
-
-    coordinates: Sequence[str]
-    d: Callable[[int, int], Node]
-    c: ChristoffelSymbols
-    g: Callable[[int], Node]
-    friction: Callable[[int], Node]
-    product: Callable[[Fraction | int, Iterable[Factor]], Node] = times
-    """Writes coefficient · Π node^exponent."""
-
-    def kinetic_energy(self) -> Node:
-        """K = Σ_i ½ d_ii q̇_i² + Σ_{i<j} d_ij q̇_i q̇_j"""
-        return total(
-            [
-                self.product(Fraction(1, 2) if i == j else 1, [(self.d(i, j), 1), *rates])
-                for i, j, rates in self._pairs()
-            ]
-        )
-
-    def momentum(self, k: int) -> Node:
-        """∂L/∂q̇_k = Σ_j d_kj q̇_j"""
-        return total(self._times_rates(k, dots=1))
-
-    def momentum_rate(self, k: int) -> Node:
-        """d/dt ∂L/∂q̇_k = Σ_j d_kj q̈_j + Σ_ij ∂d_kj/∂q_i q̇_i q̇_j, with ∂d_kj/∂q_i = c_ijk + c_ikj"""
-        terms = self.acceleration_terms(k)
-        for i, j, rates in self._pairs():
-            own = self.product(1 if i == j else 2, [(self.c(i, j, k), 1)])
-            others = [self.c(i, k, j)] if i == j else [self.c(i, k, j), self.c(j, k, i)]
-            terms.append(self.product(1, [(total([own, *others]), 1), *rates]))
-        return total(terms)
-
-    def lagrangian_derivative(self, k: int) -> Node:
-        """∂L/∂q_k = ½ Σ_ij ∂d_ij/∂q_k q̇_i q̇_j - g_k, with ∂d_ij/∂q_k = c_kij + c_kji"""
-        terms = []
-        for i, j, rates in self._pairs():
-            factor = self.c(k, i, i) if i == j else total([self.c(k, i, j), self.c(k, j, i)])
-            terms.append(self.product(1, [(factor, 1), *rates]))
-        return total([*terms, negated(self.g(k))])
-
-    def force(self, k: int) -> Node:
-        """τ_k = Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + friction_k + g_k"""
-        return total([*self.acceleration_terms(k), *self._coriolis_terms(k), self.friction(k), self.g(k)])
-
-    def acceleration_terms(self, k: int) -> list[Node]:
-        """d_kj q̈_j for every j"""
-        return self._times_rates(k, dots=2)
-
-    def coriolis_force(self, k: int) -> Node:
-        """Row k of C q̇: Σ_ij c_ijk q̇_i q̇_j"""
-        return total(self._coriolis_terms(k))
-
-    def _coriolis_terms(self, k: int) -> list[Node]:
-        return [
-            self.product(1 if i == j else 2, [(self.c(i, j, k), 1), *rates]) for i, j, rates in self._pairs()
-        ]
-
-    def _times_rates(self, k: int, dots: int) -> list[Node]:
-        names = enumerate(self.coordinates)
-        return [self.product(1, [(self.d(k, j), 1), (Symbol(name, dots), 1)]) for j, name in names]
-
-    def _pairs(self) -> Iterator[tuple[int, int, list[Factor]]]:
-        """(i, j, q̇_i q̇_j) with i ≤ j"""
-        for i, j in pairs(len(self.coordinates)):
-            yield i, j, _rates(self.coordinates, i, j)
-
-
-def pairs(n: int) -> list[tuple[int, int]]:
-    """(i, j) with i ≤ j, from 0."""
-    return [(i, j) for i in range(n) for j in range(i, n)]
-
-
-def _rates(coordinates: Sequence[str], i: int, j: int) -> list[Factor]:
-    """q̇_i q̇_j, or q̇_i²"""
-    if i == j:
-        return [(Symbol(coordinates[i], 1), 2)]
-    return [(Symbol(coordinates[i], 1), 1), (Symbol(coordinates[j], 1), 1)]
-
-
-def coriolis_matrix(coordinates: Sequence[str], c: ChristoffelSymbols) -> tree.Matrix:
-    """C with c_kj = Σ_i c_ijk q̇_i; the rates of equal symbols are collected."""
-    n = len(coordinates)
-
-    def entry(k: int, j: int) -> Node:
-        return _collected((c(i, j, k), Symbol(name, 1)) for i, name in enumerate(coordinates))
-
-    return tree.Matrix(tuple(tuple(entry(k, j) for j in range(n)) for k in range(n)))
-
-
-def collected_coriolis_force(coordinates: Sequence[str], c: ChristoffelSymbols, k: int) -> Node:
-    """Row k of C q̇; the rates of equal symbols are collected."""
-    return _collected(
-        (c(i, j, k), times(1 if i == j else 2, _rates(coordinates, i, j))) for i, j in pairs(len(coordinates))
-    )
-
-
-def _collected(terms: Iterable[tuple[Node, Node]]) -> Node:
-    """Σ symbol · rate, the rates of each symbol in one sum."""
-    shared: dict[Node, list[Node]] = {}
-    for symbol, rate in terms:
-        if symbol != ZERO:
-            shared.setdefault(symbol, []).append(rate)
-    return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from itertools import groupby, pairwise
+from operator import itemgetter
 
 from msgspec.structs import replace
 
@@ -32,7 +33,7 @@ from dynsolve.explain.writing import (
     sum_of,
     turns,
 )
-from dynsolve.notation.build import total
+from dynsolve.notation.build import cost, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Cross,
@@ -90,12 +91,14 @@ def _axes(context: Context) -> Step:
         matrices = say("$𝐇${where}", where=Reference(tuple(f"H{i}" for i in told if i), " in "))
     is_frame_0 = 0 in moving and not letters.has_base(context.robot)
     read_off = told_read_off(context)
+    is_chain = not context.robot.is_tree and not letters.has_base(context.robot)
     return Step(
         id="axes",
         title="Axes and origins of the frames",
         why=say(
-            "In the first three rows of {matrices} the third column is $𝐳$, the fourth $𝐨${frame_0}. "
-            "{about}{same}{wrist}{read_off}",
+            "{products}In the first three rows of {matrices} the third column is $𝐳$, the fourth "
+            "$𝐨${frame_0}. {about}{same}{wrist}{read_off}",
+            products=say("Frame i is $𝐇_i^0 = 𝐀_1 '…' 𝐀_i$. ") if is_chain and context.is_in_letters else "",
             matrices=matrices,
             frame_0=say("; $𝐳_0$ and $𝐨_0$ are those of frame 0 itself") if is_frame_0 else (),
             about=_about(context),
@@ -273,6 +276,7 @@ def _whole(context: Context) -> Step:
     if context.is_short:
         columns = (coordinate_column(context, k, last, letters.o(last)) or (ZERO, ZERO) for k in range(n))
         in_letters.append(Matrix(tuple(zip(*columns, strict=True))))
+    shown = _by_columns(context) if context.is_in_letters else None
     return Step(
         id="J",
         title=f"The Jacobian of {context.end}",
@@ -286,12 +290,36 @@ def _whole(context: Context) -> Step:
         ),
         formula=equation(*in_letters),
         source=spong("4.6.3"),
-        result=(equation(letters.JV, context.form("Jv")), equation(letters.JW, context.form("Jw"))),
+        concluding=()
+        if shown is None
+        else say("The columns of {Jv} from the first to the last, and {Jw}:", Jv=letters.JV, Jw=letters.JW),
+        result=(shown or equation(letters.JV, context.form("Jv")), equation(letters.JW, context.form("Jw"))),
         together=n <= BESIDE,
         also=("Jw",),
         uses=tuple(f"J{q.index}" for q in context.robot.coordinates),
         detail=Detail.BRIEF,
     )
+
+
+LONGEST_ENTRY = 40
+"""The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
+
+
+def _by_columns(context: Context) -> Node | None:
+    """J_v by its columns, equal neighbours in one chain: all side by side are too wide for a page."""
+    J, last = context.matrix("Jv"), len(context.robot.joints)
+    names = [coordinate_column(context, k, last, letters.o(last)) for k in range(context.robot.n)]
+    if None in names or max(cost(entry) for row in J.rows for entry in row) > LONGEST_ENTRY:
+        return None
+    return side_by_side(list(columns_shown(names, J)))
+
+
+def columns_shown(names: Sequence[tuple[Node, Node] | None], J: Matrix) -> Iterator[Node]:
+    """The columns of J_v that have a name, equal neighbours in one chain."""
+    named = [(column_of(J, k), name[0]) for k, name in enumerate(names) if name is not None]
+    for value, equal in groupby(named, itemgetter(0)):
+        is_zero = all(row == (Number(0),) for row in value.rows)
+        yield equation(*(name for _, name in equal), ZERO if is_zero else value)
 
 
 def _still(context: Context) -> Prose:

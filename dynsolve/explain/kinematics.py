@@ -13,6 +13,7 @@ from dynsolve.document import Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.last_frame import by_halves
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step
 from dynsolve.explain.working.identities import product_named
 from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, spong, turns
@@ -268,6 +269,22 @@ def _frame(context: Context, i: int) -> Step:
         chain.insert(0, letters.H(robot, 0))
     is_row = len(robot.path(start)) == 1 and not has_base  # of which H is A itself
     product = Product((letters.A(start) if is_row else letters.H(robot, start), letters.A(i)))
+    task = equation(name, product) if i > 1 else None
+    uses = (f"A{start}", f"A{i}") if is_row else None
+    if last and context.is_in_letters:
+        by = by_halves(context)
+        why = _last_why(context)
+        return replace(
+            step,
+            why=why if why[: len(OUTWARDS)] == OUTWARDS else (*OUTWARDS, " ", *why),
+            formula=equation(name, Product(tuple(chain)), by.formula),
+            lines=by.lines,
+            concluding=by.concluding,
+            notes=by.notes,
+            uses=uses,
+            task=task,
+            normal=WORKED,
+        )
     A, before = context.form(f"A{i}"), context.form(f"H{start}")
     values = (Product((before, A)),) if is_small(A, before) else ()
     return replace(
@@ -276,8 +293,8 @@ def _frame(context: Context, i: int) -> Step:
         formula=equation(name, Product(tuple(chain))) if last or len(chain) > 2 else None,
         working=(equation(name, product, *values),),
         concluding=product_named(context, *(context.values[key] for key in (f"H{start}", f"A{i}", f"H{i}"))),
-        uses=(f"A{start}", f"A{i}") if is_row else None,
-        task=equation(name, product) if i > 1 else None,
+        uses=uses,
+        task=task,
         normal=WORKED,
     )
 

@@ -27,8 +27,7 @@ from dynsolve.document.sentences import opened, say
 from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.christoffel import compared_rows, with_slopes
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import collected_coriolis_force
-from dynsolve.explain.long_model import of_long_model
+from dynsolve.explain.entry_formulas import collected_coriolis_force
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, name_of_term, rates_of, rows_in_names, terms_of
 from dynsolve.explain.working.derivatives import inertia_rate, varying
@@ -86,7 +85,7 @@ def in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Ite
     """The steps, with names in them and, of a long model, without what fills pages."""
     if short.at_symbols:
         return steps_in_names(steps, context, short)
-    return of_long_model(steps, context, short) if short.long else _of_short_model(steps, context, short)
+    return iter(steps) if short.long else _of_short_model(steps, context, short)
 
 
 def _of_short_model(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:

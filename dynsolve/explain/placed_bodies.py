@@ -10,10 +10,11 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
+from dynsolve.explain.entry_formulas import QUADRATIC, is_too_long
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import is_small, listed, name_of, spong, sum_of
@@ -147,7 +148,22 @@ def _sum_of_axes(context: Context, body: Body) -> Node:
 # -- steps of a model that is given by D and P, by K and P, or by L: its energies, and the D that it has
 # They stand in the place of the energies of bodies, and of the D that is assembled from Jacobians.
 
-_QUADRATIC = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
+
+def total_energy(context: Context, name: str) -> tuple[tuple[Node, ...], Prose, tuple[Prose, ...]]:
+    """K or P: the result, and of a long model what else is said of it, and a note."""
+    letter = Letter(name, style="script")
+    result: tuple[Node, ...] = (equation(letter, context.form(name)),)
+    if context.is_in_letters and name == "K":
+        more = say(
+            " It is a quadratic form in the rates; its coefficients are the entries of the symmetric inertia "
+            "matrix $𝐃${D}, which the matrix form gives as sums over the bodies.",
+            D=Reference(("D",)),
+        )
+        return (equation(letter, QUADRATIC, context.result("K")),), more, ()
+    if context.is_in_letters and is_too_long(result):
+        note = say("It is written out in abbreviations where $𝐠${g} is derived.", g=Reference(("g",)))
+        return (), (), (note,)
+    return result, (), ()
 
 
 def energy_steps(context: Context, given: GivenModel) -> Iterator[Step]:
@@ -179,12 +195,14 @@ def _potential(context: Context, given: GivenModel) -> Step:
 
 def _energy(context: Context, name: str, title: str, why: str) -> Step:
     """An energy that is given."""
+    result, more, notes = total_energy(context, name)
     return Step(
         id=name,
         title=title,
-        why=(why,),
+        why=(why, *more),
         source=spong("7.1"),
-        result=(equation(Letter(name, style="script"), context.form(name)),),
+        result=result,
+        notes=notes,
         detail=Detail.BRIEF,
     )
 
@@ -198,12 +216,17 @@ def _kinetic(context: Context, given: GivenModel) -> Step:
     D = context.show(given.D)
     rates = tuple(letters.velocity(q) for q in context.robot.coordinates)
     shown = Product((letters.HALF, tree.Matrix((rates,)), D, column(*rates)))
-    return replace(
-        _energy(context, "K", "Kinetic energy", ""),
-        why=say("The problem gives $𝐃$, and the kinetic energy is its quadratic form in the rates."),
-        formula=equation(letters.K, _QUADRATIC),
+    given_by = say("The problem gives $𝐃$, and the kinetic energy is its quadratic form in the rates.")
+    result, more, _ = total_energy(context, "K")
+    return Step(
+        id="K",
+        title="Kinetic energy",
+        why=(*given_by, *more),
+        formula=equation(letters.K, QUADRATIC),
         source=spong("7.3"),
         working=(equation(letters.K, shown),) if is_small(D) else (),
+        result=result,
+        detail=Detail.BRIEF,
         uses=(),
     )
 
@@ -230,7 +253,7 @@ def inertia_step(context: Context, given: GivenModel) -> Step:
         why=say(
             "Without the Lagrangian: {K}, so that $d_ij$ is the second derivative of the kinetic energy by "
             "two rates.{ends}",
-            K=equation(letters.K, _QUADRATIC),
+            K=equation(letters.K, QUADRATIC),
             ends=ends,
         ),
         formula=equation(formula("d_ij"), Derivative(formula("∂{K}/∂q̇_j", K=letters.K), formula("q̇_i"))),

@@ -22,15 +22,16 @@ from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.christoffel import equal_symbols
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import ChristoffelSymbols, collected_coriolis_force, pairs
+from dynsolve.explain.entry_formulas import ChristoffelSymbols, collected_coriolis_force, pairs
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, spong, sum_of
-from dynsolve.notation.build import cost, times, total
+from dynsolve.notation.build import cost, summands, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
+    Matrix,
     Negative,
     Node,
     Number,
@@ -222,12 +223,13 @@ _HELD = formula("𝐀_cᵀ 𝛌")
 def closing_step(context: Context) -> Step:
     """D q̈ + C q̇ + g = τ, with friction on the left, Q and A_cᵀ λ on the right where there are any."""
     robot = context.robot
-    parts = [context.matrix(name) for name in ("D", "C", *(["friction"] * has_friction(context)), "g")]
+    parts = [context.result(name) for name in ("D", "C", *(["friction"] * has_friction(context)), "g")]
     qd, qdd = (column(*(Symbol(q.name, dots) for q in robot.coordinates)) for dots in (1, 2))
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
     result: tuple[Node, ...] = ()
-    if context.is_short and all(matrix_width(context, part) <= WIDEST for part in parts):
+    fit = all(isinstance(part, Matrix) and matrix_width(context, part) <= WIDEST for part in parts)
+    if context.is_short and fit:
         left = Sum((Product((parts[0], qdd)), Product((parts[1], qd)), *parts[2:]))
         result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
     return Step(
@@ -236,9 +238,26 @@ def closing_step(context: Context) -> Step:
         why=_meanings(context),
         formula=equations_of_motion(context),
         source=spong("7.3"),
+        lines=_shortest_row(context) if context.is_in_letters else (),
         result=result,
         detail=Detail.BRIEF,
     )
+
+
+MOST_TERMS = 30
+"""The terms up to which a row of τ of a long model is shown."""
+
+
+def _shortest_row(context: Context) -> tuple[Line, ...]:
+    """The row of τ of the fewest terms, of equally short ones the last."""
+    if has_friction(context):
+        return ()
+    rows = [(q, context.result(f"tau{q.index}")) for q in reversed(context.robot.coordinates)]
+    q, row = min(rows, key=lambda each: len(summands(each[1])))
+    if len(summands(row)) > MOST_TERMS:
+        return ()
+    by = ("The shortest row as an example", Reference(("D", "christoffel", "g"), ", "), ":")
+    return (Line(by, (equation(driving_row(context, q), row),)),)
 
 
 def rows_in_names(context: Context, symbol: ChristoffelSymbols) -> Line:

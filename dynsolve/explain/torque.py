@@ -46,16 +46,16 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         id=f"dLdqd{i}",
         title=f"Coordinate {i}: generalized momentum",
         why=_partial(context, letters.velocity(q), "coordinate", "rate"),
-        result=(equation(by_rate, context.form(f"dLdqd{i}")),),
+        result=(equation(by_rate, context.result(f"dLdqd{i}")),),
     )
     way = momentum_rate(context, q)
     yield step(
         id=f"ddt{i}",
         title=f"Coordinate {i}: time derivative of the momentum",
-        why=_rate_why(context, q),
+        why=(*_rate_why(context, q), *_change_of_inertia(context, q)),
         lines=way.lines,
         concluding=way.concluding,
-        result=(equation(letters.time_derivative(by_rate), context.form(f"ddt{i}")),),
+        result=(equation(letters.time_derivative(by_rate), context.result(f"ddt{i}")),),
         hint=(
             "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, "
             "and each coordinate in it brings its own rate (product and chain rule).",
@@ -68,22 +68,23 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         why=_slope_why(context, q),
         lines=way.lines,
         concluding=way.concluding,
-        result=(equation(by_coordinate, context.form(f"dLdq{i}")),),
+        result=(equation(by_coordinate, context.result(f"dLdq{i}")),),
         hint=(
             "Differentiate ℒ with respect to the coordinate alone: the rates are held fixed, and a term "
             "in which the coordinate does not occur drops out.",
         ),
     )
+    collected = (" Collected by the accelerations and the rates.",) if context.is_in_letters else ()
     force, resisted = driving_row(context, q), [letters.friction(i)] * context.has_friction(i - 1)
     yield step(
         id=f"tau{i}",
         title=f"Coordinate {i}: the {'torque' if turns(q) else 'force'}",
-        why=driven,
+        why=(*driven, *collected),
         formula=equation(
             force, sum_of([letters.time_derivative(by_rate), Negative(by_coordinate), *resisted])
         ),
         concluding=cancelling(context, q),
-        result=(equation(force, context.form(f"tau{i}")),),
+        result=(equation(force, context.result(f"tau{i}")),),
         detail=Detail.BRIEF,
     )
 
@@ -105,6 +106,16 @@ def _rate_why(context: Context, q: Coordinate) -> Prose:
         rates="the rate" if context.robot.n == 1 else "the rates",
         moving=listed([Symbol(c.name) for c in moving]),
     )
+
+
+def _change_of_inertia(context: Context, q: Coordinate) -> Prose:
+    """What ḋ_kj is, where a momentum is written by d_kj."""
+    if not context.is_in_letters:
+        return ()
+    change = formula(
+        "ḋ_{k}j = Σ_(i=1)^{n} (c_ij{k} + c_i{k}j) q̇_i", k=Symbol(str(q.index)), n=context.robot.n
+    )
+    return say(" In the Christoffel symbols, {change}.", change=change)
 
 
 def _slope_why(context: Context, q: Coordinate) -> Prose:
@@ -159,6 +170,6 @@ def lagrangian_steps(context: Context) -> Iterator[Step]:
         why=("The one function from which every equation of motion follows.",),
         formula=formula("ℒ = 𝒦 - 𝒫"),
         source=spong("7.1"),
-        result=(formula("ℒ = {L}", L=context.form("L")),),
+        result=(formula("ℒ = {L}", L=context.result("L")),),
         detail=Detail.BRIEF,
     )

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
+from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
 from dynsolve.explain.context import Context
+from dynsolve.explain.long_model import vectorized as long_model
+from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.placed_bodies import inertia_step
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import STATED, Detail, Part, Step
@@ -36,29 +39,56 @@ LONGEST_IN_PARTS = 150
 
 def steps(context: Context) -> Iterator[Step]:
     """D, c_ijk, C and g; then the comparisons, and the whole model."""
-    from_energies = _from_energies(context)
-    yield _inertia(context)
-    yield _rest(context)
-    if from_energies:
-        given = context.robot.given
-        direct = [_inertia_direct(context) if given is None else inertia_step(context, given)]
-        if _is_short(context):
-            direct += (step for body in context.robot.bodies for step in part_steps(context, body))
-        if context.robot.actions:
-            from dynsolve.explain.actions import rotor_part_step
-
-            direct += rotor_part_step(context)
-        direct += _sum(context)
-        yield from (replace(step, detail=Detail.FULL) for step in direct)
-    yield christoffel_step(context)
-    yield _coriolis(context)
-    if from_energies:
-        yield _gravity(context)
-        yield agreement_step(context)
+    yield from _of_long_model(context) if context.is_in_letters else _in_full(context)
     yield skew_step(context)
     yield from terms_step(context)
     yield from sanity_steps(context)
     yield closing_step(context)
+
+
+def _in_full(context: Context) -> Iterator[Step]:
+    """D, C and g read off; from the energies assembled directly too, and compared."""
+    yield _inertia(context)
+    yield _rest(context)
+    if _from_energies(context):
+        yield from _direct(context)
+    yield christoffel_step(context)
+    yield _coriolis(context)
+    if _from_energies(context):
+        yield _gravity(context)
+        yield agreement_step(context)
+
+
+def _of_long_model(context: Context) -> Iterator[Step]:
+    """D assembled directly, since from forces that are written in its entries nothing is read off."""
+    if _from_energies(context):
+        whole, *parts = _direct(context)
+        yield long_model.inertia_step(context, whole)
+    else:
+        parts = [_rest(context)]
+        yield _inertia(context)
+    if entry := worked_entry(context):
+        yield entry.step()
+    yield from parts
+    yield long_model.christoffel_step(context)
+    yield _coriolis(context)
+    yield long_model.coriolis_entries(context)
+    if _from_energies(context):
+        yield _gravity(context)
+
+
+def _direct(context: Context) -> Iterator[Step]:
+    """D as it is assembled without the forces, the whole first; its parts and their sum."""
+    given = context.robot.given
+    steps = [_inertia_direct(context) if given is None else inertia_step(context, given)]
+    if _is_short(context):
+        steps += (step for body in context.robot.bodies for step in part_steps(context, body))
+    if context.robot.actions:
+        from dynsolve.explain.actions import rotor_part_step
+
+        steps += rotor_part_step(context)
+    steps += _sum(context)
+    yield from (replace(step, detail=Detail.FULL) for step in steps)
 
 
 def _inertia(context: Context) -> Step:
@@ -83,7 +113,7 @@ def _inertia(context: Context) -> Step:
         ),
         formula=formula("d_ij = ∂τ_i/∂q̈_j") if is_force else None,
         source=f"from {spong('7.3')}",
-        result=(formula("𝐃 = {D}", D=context.form("D")),),
+        result=(formula("𝐃 = {D}", D=context.result("D")),),
         uses=_forces(context),
         entries=letters.entries("d", n),
         detail=Detail.BRIEF,
@@ -110,21 +140,26 @@ def _rest(context: Context) -> Step:
         "What is left of the forces without the accelerations: the terms with rates {are_C}; the others, "
         "which remain when the {machine} is at rest, are $𝐠$.{no_rates}{no_rest}{friction}"
     )
+    result = (formula("𝐂 𝐪̇ = {Cqd}", Cqd=context.result("Cqd")), formula("𝐠 = {g}", g=context.result("g")))
+    in_letters = say(" $𝐂 𝐪̇$ is not written out: the Christoffel symbols below give it.")
     return Step(
         id="Cqd",
         title="Coriolis, centrifugal and gravity terms, read off",
         why=say(
-            what_is_left,
+            what_is_left + "{in_letters}",
             are_C=say("are $𝐂 𝐪̇$"),
             machine=context.machine,
             no_rates=" No term has rates here." if values["Cqd"].is_zero else "",
             no_rest=" No term remains at rest here." if values["g"].is_zero else "",
             friction=say(" Friction, $𝛕_f$, is taken off.") if has_friction else "",
+            in_letters=in_letters if context.is_in_letters else "",
         ),
         formula=formula("𝐂 𝐪̇ + 𝐠 = {left}", left=sum_of([*left, *([formula("-𝛕_f")] * has_friction)])),
         source=spong("7.3"),
-        result=(formula("𝐂 𝐪̇ = {Cqd}", Cqd=context.form("Cqd")), formula("𝐠 = {g}", g=context.form("g"))),
-        also=() if from_energies else ("g",),  # from the energies a step of its own gives g
+        result=result[1:] if context.is_in_letters else result,
+        also=()
+        if from_energies or context.is_in_letters
+        else ("g",),  # from the energies a step of its own gives g
         uses=(*_forces(context), "D"),
         detail=Detail.FULL if from_energies else Detail.NORMAL,
         hint=say(
@@ -202,23 +237,27 @@ def _coriolis(context: Context) -> Step:
     outcome = " There are none here." if is_none else " Multiplied out, it is the one read off above."
     if not is_none and _from_energies(context) and coriolis_rows(context):
         outcome = ""  # they are compared row by row, in a step of its own
+    why = say(
+        "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
+        coriolis=" and the Coriolis terms (a product of two rates)" if n > 1 else "",
+        outcome=outcome,
+    )
+    result: tuple[Node, ...] = (formula("𝐂 = {C}", C=context.result("C")),)
+    if context.is_in_letters:
+        why, result = long_model.coriolis_told(context)
     return Step(
         id="C",
         title="The Coriolis matrix, from the Christoffel symbols",
-        why=say(
-            "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
-            coriolis=" and the Coriolis terms (a product of two rates)" if n > 1 else "",
-            outcome=outcome,
-        ),
+        why=why,
         formula=formula("c_kj = {symbols} = ½ {slopes}", symbols=by_symbols, slopes=by_slopes),
         source=spong("7.3"),
         lines=coriolis_sums(context),
-        result=(formula("𝐂 = {C}", C=context.form("C")),),
+        result=result,
         hint=say(
             "Row $k$, column $j$: a sum over $i$. Multiplied by the rates it must give what you read off "
             "from the forces."
         ),
-        entries=letters.entries("c", n),
+        entries=() if context.is_in_letters else letters.entries("c", n),
         notes=() if is_none or n == 1 else (say(others, skew=SKEW),),
         detail=Detail.BRIEF,
     )
@@ -227,19 +266,24 @@ def _coriolis(context: Context) -> Step:
 def _gravity(context: Context) -> Step:
     still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
     way = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
+    why = say(
+        "{way}{springs}{still}",
+        way=way,
+        springs=" The forces of the springs are part of it." if springs and not still else "",
+        still=say(" It does not depend on any coordinate, so $𝐠$ is zero.") if still else "",
+    )
+    lines, concluding = gravity_rows(context), Prose()
+    if context.is_in_letters and not still:
+        why, lines, concluding = long_model.gravity_told(context)
     return Step(
         id="g",
         title=f"The {'gravity and spring' if springs else 'gravity'} terms, from the potential energy",
-        why=say(
-            "{way}{springs}{still}",
-            way=way,
-            springs=" The forces of the springs are part of it." if springs and not still else "",
-            still=say(" It does not depend on any coordinate, so $𝐠$ is zero.") if still else "",
-        ),
+        why=why,
         formula=formula("g_k = ∂𝒫/∂q_k"),
         source=spong("7.3"),
-        lines=gravity_rows(context),
-        result=(formula("𝐠 = {g}", g=context.form("g")),),
+        lines=lines,
+        concluding=concluding,
+        result=(formula("𝐠 = {g}", g=context.result("g")),),
         normal=STATED | Part.WHY,
         uses=("P",),
         hint=way,

@@ -196,15 +196,15 @@ class Dynamics(Struct, frozen=True, dict=True):
         """The steps of some stages, in the order of the course; with `short`, in its names."""
         from dynsolve.explain import explain
 
-        if stages is None:
-            steps = self.steps
-        else:
-            steps = self._remarked(explain(self._context, stages), whole=False)
+        if stages is None and short is None:
+            return iter(self.steps)
+        context = replace(self._context, names=short)
+        steps = self._remarked(explain(context, stages), whole=stages is None)
         if short is None:
             return iter(steps)
         from dynsolve.explain.named_steps import in_names
 
-        return in_names(steps, self._context, short)
+        return in_names(steps, context, short)
 
     @property
     def is_short(self) -> bool:

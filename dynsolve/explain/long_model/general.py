@@ -8,48 +8,70 @@ tensors that are given, is shown in any case.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from fractions import Fraction
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.rationals import rational_value
-from dynsolve.derivation.kinematics import origin, rotation
-from dynsolve.document import Prose
-from dynsolve.document.sentences import opened, say
+from dynsolve.derivation.kinematics import rotation
+from dynsolve.derivation.rules import course_rules
+from dynsolve.document.sentences import say
 from dynsolve.explain.actions import gravity_row
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
+from dynsolve.explain.entry_formulas import is_too_long
 from dynsolve.explain.inertia import has_link_axes, is_moved
-from dynsolve.explain.jacobian import ZERO, coordinate_column
-from dynsolve.explain.kinematics import OUTWARDS
-from dynsolve.explain.long_model.inertia_entry import kinetic_step
-from dynsolve.explain.long_model.model import LongModel, brief_step, columns_shown, halves, product
+from dynsolve.explain.jacobian import ZERO
+from dynsolve.explain.last_frame import halves
+from dynsolve.explain.long_model.inertia_entry import brief_step, kinetic_step
 from dynsolve.explain.matrix_factors import matrix_width
-from dynsolve.explain.sanity.poses import at, turning_in
-from dynsolve.explain.step import Line, Step
-from dynsolve.explain.working.identities import said, used_in_product
-from dynsolve.explain.writing import listed, side_by_side, spong
+from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.writing import side_by_side, spong
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
-    Negative,
     Node,
     Number,
     Product,
-    Relation,
-    Symbol,
     Transpose,
     equation,
-    mapped,
-    number,
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body, Joint, JointType
+from dynsolve.robot.model import Body, JointType
 from dynsolve.robot.questions import Method
+
+
+def told_once(
+    steps: Iterable[Step], context: Context, stage: Stage, once: Mapping[str, Step]
+) -> Iterator[Step]:
+    """The steps of a stage, before the first of those that are alike what is said once for them.
+
+    These are its details, and what uses one of them uses that.
+    """
+    inputs = {rule.name: rule.inputs for rule in course_rules(context.robot)}
+    told: set[str] = set()
+    for step in steps:
+        general = once.get(step.id)
+        if stage in (Stage.INERTIA, Stage.ENERGY) and step.id != "K" and is_too_long(step.result):
+            step = _left_out(step)
+        if general is None:
+            uses = inputs.get(step.id, ()) if step.uses is None else step.uses
+            of_steps = (once[name].id if name in once else name for name in uses)
+            yield replace(step, uses=tuple(dict.fromkeys(of_steps)))
+            continue
+        if general.id not in told:
+            told.add(general.id)
+            yield general
+        yield replace(step, detail=Detail.FULL)
+
+
+def _left_out(step: Step) -> Step:
+    """The step with its formula as its result."""
+    if step.formula is None:
+        return step
+    note = ("Written out it would be too long to be useful; the formula defines it.",)
+    return replace(step, result=(), notes=(*step.notes, note))
 
 
 def general_steps(context: Context) -> dict[str, Step]:
@@ -246,121 +268,6 @@ def _forces(context: Context) -> Step:
         result=(formula(f"τ_k = {accelerated} + {squares}{friction} + g_k", n=n, factor=formula("c_ijk")),),
         uses=("L",),
     )
-
-
-# -- the last frame of a long chain, and the axes of the others ------------------------------------
-
-LONGEST_ENTRY = 40
-"""The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
-
-
-def last_frame(model: LongModel, step: Step) -> Step:
-    """The last frame by the matrices of the rows: the products of two halves, and the product of these."""
-    context = model.context
-    robot = context.robot
-    assert isinstance(step.formula, Relation)
-    inner, outer = halves(robot)
-    end, half = outer[-1].index, inner[-1].index
-    names = letters.H(robot, half), replace(letters.H(robot, end), sup=Number(half))
-    (first, before), (second, after) = product(context, inner), product(context, outer)
-    used = list(dict.fromkeys((*before, *after)))
-    told = f"the two halves of the product, the second being frame {end} seen from frame {half}:"
-    whole = used_in_product(context, first, second, context.values[f"H{end}"])
-    return replace(
-        step,
-        why=step.why if step.why[: len(OUTWARDS)] == OUTWARDS else (*OUTWARDS, " ", *step.why),
-        formula=equation(*step.formula.parts, Product(names)),
-        working=(),
-        lines=(
-            Line(
-                ("With ", *said(used), f", {told}") if used else (opened(told),),
-                (
-                    equation(names[0], _rows_of_frame(context, inner), context.show(first)),
-                    equation(names[1], _rows_of_frame(context, outer), context.show(second)),
-                ),
-            ),
-        ),
-        concluding=("With ", *said(whole), ", their product:") if whole else ("Their product:",),
-        notes=(*step.notes, *((check,) if (check := at_zero_angles(context)) else ())),
-    )
-
-
-def _rows_of_frame(context: Context, rows: Sequence[Joint]) -> Node:
-    """A_4 A_5 A_6, from the base on with the frame of the base before them."""
-    matrices = [letters.A(row.index) for row in rows]
-    if rows[0].parent == 0 and letters.has_base(context.robot):
-        matrices = [letters.H(context.robot, 0), *matrices]
-    return Product(tuple(matrices))
-
-
-def axes(model: LongModel, step: Step) -> Step:
-    """The frames on the way, which are not shown, by their products."""
-    robot = model.context.robot
-    if robot.is_tree or letters.has_base(robot):
-        return step
-    return replace(step, why=(*say("Frame i is $𝐇_i^0 = 𝐀_1 '…' 𝐀_i$. "), *step.why))
-
-
-def jacobian(model: LongModel, step: Step) -> Step:
-    """J_v by its columns, equal neighbours in one chain: all side by side are too wide for a page."""
-    context = model.context
-    J, last = context.matrix("Jv"), len(context.robot.joints)
-    names = [coordinate_column(context, k, last, letters.o(last)) for k in range(model.n)]
-    if None in names or max(cost(entry) for row in J.rows for entry in row) > LONGEST_ENTRY:
-        return step
-    angular = [part for part in step.result if isinstance(part, Relation) and part.parts[0] == letters.JW]
-    return replace(
-        step,
-        concluding=say(
-            "The columns of {Jv} from the first to the last, and {Jw}:", Jv=letters.JV, Jw=letters.JW
-        ),
-        result=(side_by_side(list(columns_shown(names, J))), *angular),
-    )
-
-
-# -- a check of the last frame: where the end of the arm is with all joint angles 0, and in numbers
-
-
-def at_zero_angles(context: Context) -> Prose:
-    """To check: with all joint angles 0 the entries of o_6 are a₂ + a₃ = 0.4521, -d₃ = -0.15005 and so on.
-
-    Nothing where an angle has no sine and cosine of its own.
-    """
-    ring, last = context.robot.ring, len(context.robot.joints)
-    end = origin(context.values[f"H{last}"])
-    turning = turning_in(context.robot, *end.entries)
-    if not turning:
-        return ()
-    place = [context.show(at(ring, entry, dict.fromkeys(turning, 0))) for entry in end.entries]
-    values = [_in_numbers(context, entry) for entry in place]
-    known = [value for value in values if value is not None]
-    entries: list[Node] = place
-    if len(known) == len(place):
-        each = (dict.fromkeys((entry, _decimal(value))) for entry, value in zip(place, known, strict=True))
-        entries = [equation(*members) for members in each]
-    return say(
-        "To check: with all joint angles 0 the entries of {end} are {entries}{unit}.",
-        end=letters.o(last),
-        entries=listed(entries),
-        unit=" (in m)" if len(known) == len(place) else "",
-    )
-
-
-def _in_numbers(context: Context, place: Node) -> Fraction | None:
-    """The number that a length is; None where the problem has none, or an angle in degrees, for a letter."""
-    lengths: dict[Node, Node] = {}
-    for name, text in context.lengths.items():
-        try:
-            lengths[Symbol(name)] = number(Fraction(text))
-        except ValueError:
-            continue
-    return rational_value(mapped(place, lambda node: lengths.get(node, node)))
-
-
-def _decimal(value: Fraction) -> Node:
-    """A number with a decimal point."""
-    size = Number(abs(value.numerator), value.denominator, decimal=value.denominator > 1)
-    return Negative(size) if value < 0 else size
 
 
 # -- the rows of rotations that give the heights of the mass centres of far links, where each fits a line

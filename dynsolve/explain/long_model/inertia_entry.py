@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from itertools import chain
 
 from msgspec import Struct
@@ -15,11 +15,11 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
-from dynsolve.explain.jacobian import ZERO, column_letters, coordinate_column
-from dynsolve.explain.long_model.model import LongModel, brief_step, columns_shown, halves
+from dynsolve.explain.jacobian import ZERO, column_letters, columns_shown, coordinate_column
+from dynsolve.explain.last_frame import halves
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.recurring import expanded_once
-from dynsolve.explain.step import Line, Step
+from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import doubled_angles
 from dynsolve.explain.writing import listed, side_by_side, spong
@@ -31,11 +31,14 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Joint, JointType
 
+brief_step = partial(Step, detail=Detail.BRIEF, uses=())
+"""A step that stands for many."""
+
 
 class InertiaEntry(Struct, frozen=True, dict=True):
     """d_jk of two joints, counted from 0, by what each of the bodies adds that both move."""
 
-    model: LongModel
+    context: Context
     row: int
     column: int
     shares: tuple[BodyShare, ...]
@@ -43,8 +46,8 @@ class InertiaEntry(Struct, frozen=True, dict=True):
     @property
     def is_whole(self) -> bool:
         """Whether the shares are the entry of D."""
-        added = sum((share.value for share in self.shares), start=self.model.context.robot.ring.zero)
-        return bool(added == self.model.context.values["D"][self.row, self.column])
+        added = sum((share.value for share in self.shares), start=self.context.robot.ring.zero)
+        return bool(added == self.context.values["D"][self.row, self.column])
 
     @property
     def is_of_both_parts(self) -> bool:
@@ -55,7 +58,8 @@ class InertiaEntry(Struct, frozen=True, dict=True):
 
     def step(self) -> Step:
         """From the formula of D to the entry in the names of the model."""
-        short, show, shares = self.model.short, self.model.context.show, self.shares
+        short, show, shares = self.context.names, self.context.show, self.shares
+        assert short is not None
         name = letters.entry("d", self.row + 1, self.column + 1)
         form = short.D.rows[self.row][self.column]
         whole = total([show(share.value) for share in shares])
@@ -99,12 +103,12 @@ MOST_BODIES = 2
 """The bodies of which the terms of an entry are shown."""
 
 
-def worked_entry(model: LongModel) -> InertiaEntry | None:
+def worked_entry(context: Context) -> InertiaEntry | None:
     """The entry that is worked out: of two bodies where one is found, else of the last body alone."""
-    robot = model.context.robot
+    robot = context.robot
     if robot.is_tree or not robot.has_table or not robot.moves_each_joint_alone or robot.actions.motors:
         return None
-    entries = list(_entries(model))
+    entries = list(_entries(context))
     several = [entry for entry in entries if len(entry.shares) > 1 and entry.is_of_both_parts]
     for entry in (*several, *(entry for entry in entries if len(entry.shares) == 1)):
         if entry.is_whole and any(not share.value.is_zero for share in entry.shares):
@@ -112,18 +116,17 @@ def worked_entry(model: LongModel) -> InertiaEntry | None:
     return None
 
 
-def _entries(model: LongModel) -> Iterator[InertiaEntry]:
+def _entries(context: Context) -> Iterator[InertiaEntry]:
     """The entries of the last two columns above the diagonal that few bodies add to, upwards from it."""
-    context = model.context
     moving = [joint for joint in context.robot.joints if joint.type]
-    for column in range(model.n - 2, model.n):
+    for column in range(context.robot.n - 2, context.robot.n):
         carried = [body for body in context.robot.bodies if body.link >= moving[column].index]
         if len(carried) > MOST_BODIES or not all(has_link_axes(b) and not is_moved(b) for b in carried):
             continue
         for row in reversed(range(column)):
             both = moving[row], moving[column]
             shares = (BodyShare(context, body, *(_side(context, body, j) for j in both)) for body in carried)
-            yield InertiaEntry(model, row, column, tuple(shares))
+            yield InertiaEntry(context, row, column, tuple(shares))
 
 
 # -- what one body adds to an entry of D, by vectors along the axes of its own link ----------------

@@ -5,26 +5,29 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain, pairwise
 
-from msgspec.structs import replace
-
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.kinematics import axis, joint_frame
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
-from dynsolve.explain.abbreviations import as_shown
-from dynsolve.explain.christoffel import in_slopes
+from dynsolve.explain.abbreviations import Abbreviated, as_shown
+from dynsolve.explain.christoffel import SLOPES, in_slopes
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import coriolis_matrix, pairs
+from dynsolve.explain.entry_formulas import (
+    QUADRATIC,
+    coriolis_matrix,
+    depends_on,
+    in_names_of_entries,
+    pairs,
+)
 from dynsolve.explain.long_model.inertia_entry import worked_entry
-from dynsolve.explain.long_model.model import QUADRATIC, LongModel, with_result
 from dynsolve.explain.recurring import Definition, expanded, expanded_once, rewritten
-from dynsolve.explain.sanity.conserved import is_carried_along, on_last_entry
+from dynsolve.explain.sanity.conserved import is_carried_along
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.terms import driving_row, has_friction
+from dynsolve.explain.working.derivatives import coriolis_sums
 from dynsolve.explain.working.differentiation import by_symbol, differentiated
 from dynsolve.explain.working.identities import doubled_angles
-from dynsolve.explain.writing import listed
+from dynsolve.explain.writing import listed, spong
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign, summands, times
 from dynsolve.notation.template import formula
@@ -50,52 +53,53 @@ from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, JointType
 
 
-def rest(model: LongModel, step: Step) -> Step:
-    """g, where it is read off from the recursions; C q̇ is that of the Christoffel symbols."""
-    more = say(" $𝐂 𝐪̇$ is not written out: the Christoffel symbols below give it.")
-    return replace(with_result(step, equation(letters.G, model.short.g), more), also=())
+def names_of(context: Context) -> Abbreviated:
+    """The names of a long model."""
+    assert context.names is not None
+    return context.names
 
 
-def inertia(model: LongModel, step: Step) -> Step:
-    """D from the energies: the forces above are written in its entries, and give nothing new."""
-    result = (equation(letters.D, model.short.D),)
-    if model.direct is None:  # the forces come from the recursions, and no energy is there
-        return replace(step, result=result)
+def inertia_step(context: Context, direct: Step) -> Step:
+    """D as `direct` assembles it: the forces are written in its entries, and give nothing new."""
+    names = names_of(context)
     of_bodies = say(
         "In the kinetic energies the velocities are Jacobians times $𝐪̇$, so $𝒦 = {form}$ with a sum over "
         "the bodies. ",
         form=QUADRATIC,
     )
-    return replace(
-        step,
-        title=model.direct.title,
+    return Step(
+        id="D",
+        title=direct.title,
         why=say(
             "{bodies}{depends}{in_full}",
-            bodies=of_bodies if model.context.robot.given is None else "",
-            depends=_on_what_it_depends(model),
-            in_full=" The next section works one entry out." if worked_entry(model) else "",
+            bodies=of_bodies if context.robot.given is None else "",
+            depends=_on_what_it_depends(context),
+            in_full=" The next section works one entry out." if worked_entry(context) else "",
         ),
-        formula=model.direct.formula,
-        source=model.direct.source,
-        result=result,
-        uses=model.short.lists,
+        formula=direct.formula,
+        source=direct.source,
+        result=(equation(letters.D, names.D),),
+        uses=names.lists,
+        entries=letters.entries("d", context.robot.n),
+        detail=Detail.BRIEF,
     )
 
 
-def _on_what_it_depends(model: LongModel) -> Prose:
+def _on_what_it_depends(context: Context) -> Prose:
     """The coordinates by which D changes, and that its derivatives by the others are zero."""
-    names = model.context.robot.ring.names
-    moving = [Symbol(names[k]) for k in model.varying(*model.context.values["D"].entries)]
+    names = context.robot.ring.names
+    moving = [Symbol(names[k]) for k in depends_on(context.robot, *context.values["D"].entries)]
     if not moving:
         return say("$𝐃$ is symmetric and constant.")
-    alone = " alone" if len(moving) < model.n else ""
+    alone = " alone" if len(moving) < context.robot.n else ""
     return say("$𝐃$ is symmetric, and depends on {moving}{alone}.", moving=listed(moving), alone=alone)
 
 
-def christoffel(model: LongModel, step: Step) -> Step:
+def christoffel_step(context: Context) -> Step:
     """The distinct symbols; those that are equal, or each other's opposites, in one chain."""
     groups: dict[frozenset[Node], list[Node]] = {}
-    symbols = model.short.christoffel
+    names = names_of(context)
+    symbols = names.christoffel
     for i, j, k in as_shown(symbols):
         value, name = symbols[i, j, k], letters.entry("c", i + 1, j + 1, k + 1)
         if value == ZERO:
@@ -106,15 +110,16 @@ def christoffel(model: LongModel, step: Step) -> Step:
             groups[opposite].insert(-1, Negative(name))
         else:
             groups.setdefault(terms, [value]).insert(-1, name)
-    if not groups:
-        return replace(step, result=())
-    entry = worked_entry(model)
-    example = () if entry is None else christoffel_example(model, entry.row, entry.column)
-    written = (*symbols.values(), *(one.meaning for one in model.short.sums))
+    entry = worked_entry(context)
+    example = () if entry is None else christoffel_example(context, entry.row, entry.column)
+    written = (*symbols.values(), *(one.meaning for one in names.sums))
     note = "They are listed with $i ≤ j${zero}."
-    return replace(
-        step,
-        why=_on_symbols(model),
+    return Step(
+        id="christoffel",
+        title="Christoffel symbols",
+        why=_on_symbols(context),
+        formula=formula("c_ijk = ½ {slopes}", slopes=SLOPES),
+        source=spong("7.3"),
         lines=example,
         concluding=(f"The other symbols in the same way{_identities(written)}:",) if example else (),
         result=tuple(equation(*members) for members in groups.values()),
@@ -131,7 +136,7 @@ def _identities(values: Iterable[Node]) -> str:
     return f", with sines and cosines of {' and of '.join(found)}" if found else ""
 
 
-def _on_symbols(model: LongModel) -> Prose:
+def _on_symbols(context: Context) -> Prose:
     """What halves the symbols, and why many are each other's opposites."""
     carried = say(
         "Joint i moves the links from $i$ on like one body, so $d_jk$ does not depend on $q_i$ where $i ≤ j$ "
@@ -140,15 +145,15 @@ def _on_symbols(model: LongModel) -> Prose:
     return say(
         "$c_ijk = c_jik$, for $𝐃$ is symmetric. {parallel}{carried}Symbols that are equal, or each other's "
         "opposites, stand in one equation.",
-        parallel=on_parallel_axes(model.context),
-        carried=carried if is_carried_along(model.context) else "",
+        parallel=on_parallel_axes(context),
+        carried=carried if is_carried_along(context) else "",
     )
 
 
-def coriolis(model: LongModel, step: Step) -> Step:
-    """C by its Christoffel symbols: an entry that stands for all, and those that are zero."""
-    names = chain.from_iterable(letters.entries("c", model.n))
-    named = list(zip(names, chain.from_iterable(_in_symbols(model).rows), strict=True))
+def coriolis_told(context: Context) -> tuple[Prose, tuple[Node, ...]]:
+    """What is said of C by its Christoffel symbols; an entry that stands for all, and those that are zero."""
+    names = chain.from_iterable(letters.entries("c", context.robot.n))
+    named = list(zip(names, chain.from_iterable(_in_symbols(context).rows), strict=True))
     full = [equation(name, entry) for name, entry in named if entry != ZERO]
     zero = [name for name, entry in named if entry == ZERO]
     told = "One entry, written out, shows how each is made"
@@ -162,51 +167,40 @@ def coriolis(model: LongModel, step: Step) -> Step:
         forces=Reference(("forces",), " in "),
         told=told if full else "There are none",
     )
-    shown = (*full[:1], *((equation(*zero, ZERO),) if zero else ()))
-    return replace(step, why=why, result=shown, entries=())
+    return why, (*full[:1], *((equation(*zero, ZERO),) if zero else ()))
 
 
-def coriolis_entries(model: LongModel, step: Step) -> Step:
+def coriolis_entries(context: Context) -> Step:
     """All entries of C, which say nothing new."""
-    return replace(
-        step,
+    return Step(
         id="C_entries",
         title="The entries of the Coriolis matrix",
-        why=(),
-        formula=None,
-        result=(equation(letters.C, _in_symbols(model)),),
-        notes=(),
+        source=spong("7.3"),
+        lines=coriolis_sums(context),
+        result=(equation(letters.C, _in_symbols(context)),),
         detail=Detail.FULL,
         uses=("C",),
     )
 
 
-def _in_symbols(model: LongModel) -> tree.Matrix:
+def _in_symbols(context: Context) -> tree.Matrix:
     """C in the names of the symbols."""
-    return coriolis_matrix(model.formulas.coordinates, model.c)
+    formulas = in_names_of_entries(context.robot, context.values)
+    return coriolis_matrix(formulas.coordinates, formulas.c)
 
 
-def gravity(model: LongModel, step: Step) -> Step:
-    """g, before it the potential energy of which it is the derivatives."""
-    result = (equation(letters.G, model.short.g),)
-    if model.short.P is None or model.direct is None or model.context.values["g"].is_zero:
-        return replace(step, result=result)
+def gravity_told(context: Context) -> tuple[Prose, tuple[Line, ...], Prose]:
+    """Why, before g the potential energy of which it is the derivatives, and what leads to g."""
+    names = names_of(context)
+    assert names.P is not None
     by = ("The sum of the potential energies, in the abbreviations:",)
-    potential = Line(by, (equation(letters.P, model.short.P),), ("potentials", *model.short.lists))
-    example = gravity_example(model)
-    return replace(
-        step,
-        why=("The partial derivatives of the potential energy.",),
-        lines=(potential, *example),
-        concluding=("All entries:",) if example else ("Differentiated:",),
-        result=result,
+    potential = Line(by, (equation(letters.P, names.P),), ("potentials", *names.lists))
+    example = gravity_example(context)
+    return (
+        ("The partial derivatives of the potential energy.",),
+        (potential, *example),
+        ("All entries:",) if example else ("Differentiated:",),
     )
-
-
-def last_entry(model: LongModel, step: Step) -> Step:
-    """The last entry of D alone: on what D does not depend was said of the Christoffel symbols."""
-    title = "Check: the last entry of the inertia matrix"
-    return replace(step, title=title, why=on_last_entry(model.context))
 
 
 def _terms(value: Node) -> frozenset[Node]:
@@ -257,70 +251,53 @@ def _parallel(context: Context) -> Iterator[tuple[Coordinate, Coordinate]]:
                 yield q, following
 
 
-# -- one row of τ in full, at the end of a long model ----------------------------------------------
-
-MOST_TERMS = 30
-"""The terms up to which a row of τ is shown."""
-
-
-def shortest_row(model: LongModel, step: Step) -> Step:
-    """The closing step with the row of τ of the fewest terms, of equally short ones the last."""
-    context = model.context
-    if has_friction(context):
-        return step
-    rows = [(q, model.formulas.force(q.index - 1)) for q in reversed(context.robot.coordinates)]
-    q, row = min(rows, key=lambda each: len(summands(each[1])))
-    if len(summands(row)) > MOST_TERMS:
-        return step
-    by = ("The shortest row as an example", Reference(("D", "christoffel", "g"), ", "), ":")
-    return replace(step, lines=(Line(by, (equation(driving_row(context, q), row),)),))
-
-
 # -- one Christoffel symbol and one gravity term in full: the derivatives of what stands in names ------
 
 MOST_SLOPES = 3
 """The derivatives of names that an example takes at most, by one coordinate."""
 
 
-def christoffel_example(model: LongModel, row: int, column: int) -> tuple[Line, ...]:
+def christoffel_example(context: Context, row: int, column: int) -> tuple[Line, ...]:
     """The symbol in which d_jk, of `row` and `column` from 0, is differentiated by the last that it can be.
 
     It is c_kkj where that coordinate is k itself, else the symbol of row k.
     """
-    varying = model.varying(model.context.values["D"][row, column])
+    varying = depends_on(context.robot, context.values["D"][row, column])
     if not varying:
         return ()
     by = varying[-1]
     i, j, k = (column, column, row) if by == column else (min(row, by), max(row, by), column)
-    form = model.short.symbol(i, j, k)
+    form = names_of(context).symbol(i, j, k)
     if form == ZERO:
         return ()
-    slopes = Sum((_slope(model, k, j, i), _slope(model, k, i, j), Negative(_slope(model, i, j, k))))
-    by_entries = in_slopes(model.context, i, j, k)
+    slopes = Sum((_slope(context, k, j, i), _slope(context, k, i, j), Negative(_slope(context, i, j, k))))
+    by_entries = in_slopes(context, i, j, k)
     name = letters.entry("c", i + 1, j + 1, k + 1)
     first = equation(name, *dict.fromkeys((Product((letters.HALF, Parenthesized(slopes))), by_entries)))
-    once = expanded_once(model.short.sums, form)
-    names, entries = _entries_differentiated(model, by_entries, once)
+    once = expanded_once(names_of(context).sums, form)
+    names, entries = _entries_differentiated(context, by_entries, once)
     if not names:
         return (Line(("For example:",), (equation(*dict.fromkeys((*first.parts, once, form))),)),)
     put_in = _put_in(by_entries, {each.parts[0]: each.parts[-1] for each in entries})
     shown = {each.parts[0] for each in names}
     others = tuple(
-        equation(Slashed(slope), form) for slope, form in slopes_that_are_names(model) if slope not in shown
+        equation(Slashed(slope), form) for slope, form in slopes_that_are_names(context) if slope not in shown
     )
     again = "Other derivatives of names, found in the same way, that are names again:"
     return (
         Line(("For example:",), (first,)),
-        Line(("The names are differentiated as they were defined", *_with_doubled(model, names), ":"), names),
+        Line(
+            ("The names are differentiated as they were defined", *_with_doubled(context, names), ":"), names
+        ),
         Line(("With these:",), entries),
         Line(("Put in:",), (equation(*dict.fromkeys((name, put_in, once, form))),)),
         *([Line((again,), others, in_columns=True)] if others else []),
     )
 
 
-def _with_doubled(model: LongModel, slopes: Sequence[Relation]) -> Prose:
+def _with_doubled(context: Context, slopes: Sequence[Relation]) -> Prose:
     """The identities by which derivatives of names are names that have sines or cosines of twice an angle."""
-    meanings = {one.name: one.meaning for one in model.short.sums}
+    meanings = {one.name: one.meaning for one in names_of(context).sums}
     found: dict[Relation, None] = {}
     for relation in slopes:
         named = [meanings[node] for node in walk(relation.parts[-1]) if node in meanings]
@@ -331,7 +308,7 @@ def _with_doubled(model: LongModel, slopes: Sequence[Relation]) -> Prose:
 
 
 def _entries_differentiated(
-    model: LongModel, slopes: Node, result: Node
+    context: Context, slopes: Node, result: Node
 ) -> tuple[tuple[Relation, ...], tuple[Relation, ...]]:
     """The derivatives of the names in some entries of D, and of these entries; none where there are too many.
 
@@ -339,12 +316,12 @@ def _entries_differentiated(
     """
     names: dict[Relation, None] = {}
     entries = []
-    every = ((*pair, by) for by in range(model.n) for pair in pairs(model.n))
-    places = {_slope(model, *place): place for place in every}
+    every = ((*pair, by) for by in range(context.robot.n) for pair in pairs(context.robot.n))
+    places = {_slope(context, *place): place for place in every}
     for slope in dict.fromkeys(part for part in walk(slopes) if isinstance(part, Derivative)):
         row, column, by = places[slope]
-        form = model.short.D.rows[row][column]
-        found = NameSlopes(model, by, form, result)
+        form = names_of(context).D.rows[row][column]
+        found = NameSlopes(context, by, form, result)
         if len(found.shown) > MOST_SLOPES:
             return (), ()
         names |= dict.fromkeys(found.shown.values())
@@ -366,22 +343,22 @@ def _with_values(node: Node, values: Mapping[Node, Node]) -> Node:
     return rewritten(node, lambda leaf: values.get(leaf, leaf))
 
 
-def _slope(model: LongModel, row: int, column: int, by: int) -> Node:
+def _slope(context: Context, row: int, column: int, by: int) -> Node:
     """∂d_ij/∂q_k of indices from 0."""
     entry = letters.entry("d", min(row, column) + 1, max(row, column) + 1)
-    return letters.partial_derivative(entry, Symbol(model.context.robot.coordinates[by].name))
+    return letters.partial_derivative(entry, Symbol(context.robot.coordinates[by].name))
 
 
-def gravity_example(model: LongModel) -> tuple[Line, ...]:
+def gravity_example(context: Context) -> tuple[Line, ...]:
     """A gravity term for which a few names in the potential energy must be differentiated."""
-    if model.short.P is None:
-        return ()
-    for k in reversed(range(model.n)):
-        form = model.short.g.rows[k][0]
-        slopes = NameSlopes(model, k, model.short.P)
+    names = names_of(context)
+    assert names.P is not None
+    for k in reversed(range(context.robot.n)):
+        form = names.g.rows[k][0]
+        slopes = NameSlopes(context, k, names.P)
         if form == ZERO or not 1 <= len(slopes.shown) <= MOST_SLOPES:
             continue
-        members = dict.fromkeys((slopes.of(letters.P), slopes.by_the_chain_rule(model.short.P), form))
+        members = dict.fromkeys((slopes.of(letters.P), slopes.by_the_chain_rule(names.P), form))
         term = equation(letters.entry("g", k + 1), *members)
         one = len(slopes.shown) == 1
         why = say(
@@ -409,11 +386,11 @@ class NameSlopes:
     `shown` has ∂σ/∂q as it is made and what it is, for the names for which it is not zero.
     """
 
-    def __init__(self, model: LongModel, k: int, formula: Node, result: Node = ZERO) -> None:
-        ring = model.context.robot.ring
+    def __init__(self, context: Context, k: int, formula: Node, result: Node = ZERO) -> None:
+        ring = context.robot.ring
         self.coordinate = Symbol(ring.names[k])
-        used = _needed_by(model, formula)
-        values = _values(model, list(dict.fromkeys((*used, *_needed_by(model, result)))))
+        used = _needed_by(context, formula)
+        values = _values(context, list(dict.fromkeys((*used, *_needed_by(context, result)))))
         known = _by_value(values)
         self._slopes = {one.name: ring.diff(values[one.name], k) for one in used}
         self._written: dict[Node, Node] = {}
@@ -454,31 +431,31 @@ def _by_value(values: Mapping[Symbol, Expr]) -> dict[Expr, Node]:
     return known
 
 
-def _needed_by(model: LongModel, formula: Node) -> list[Definition]:
+def _needed_by(context: Context, formula: Node) -> list[Definition]:
     """The definitions that a formula needs, in their order."""
     wanted, found = names_in(formula), []
-    for definition in reversed(model.short.sums):
+    for definition in reversed(names_of(context).sums):
         if definition.name.name in wanted:
             found.append(definition)
             wanted |= names_in(definition.meaning)
     return found[::-1]
 
 
-def slopes_that_are_names(model: LongModel) -> Iterator[tuple[Derivative, Node]]:
+def slopes_that_are_names(context: Context) -> Iterator[tuple[Derivative, Node]]:
     """∂σ/∂q where it is a name again, or twice one, and that: coordinate by coordinate."""
-    values = _values(model, model.short.sums)
+    values = _values(context, names_of(context).sums)
     known = _by_value(values)
-    for k, q in enumerate(model.context.robot.coordinates):
+    for k, q in enumerate(context.robot.coordinates):
         for name, value in values.items():
-            if form := known.get(model.context.robot.ring.diff(value, k)):
+            if form := known.get(context.robot.ring.diff(value, k)):
                 yield letters.partial_derivative(name, Symbol(q.name)), form
 
 
-def _values(model: LongModel, definitions: Sequence[Definition]) -> dict[Symbol, Expr]:
+def _values(context: Context, definitions: Sequence[Definition]) -> dict[Symbol, Expr]:
     """What names are worth, exactly."""
     names = [definition.name for definition in definitions]
-    trees = expanded(model.short.definitions, names)
-    ring = model.context.robot.ring
+    trees = expanded(names_of(context).definitions, names)
+    ring = context.robot.ring
     return {name: value_of(ring, node) for name, node in zip(names, trees, strict=True)}
 
 

@@ -6,7 +6,7 @@ from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import pairs
+from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import driving_row, driving_side, has_friction
 from dynsolve.explain.writing import listed, spong, sum_of, turns
@@ -222,10 +222,13 @@ def dependence_step(context: Context) -> Step | None:
         "$i ≤ k$. {last}",
         last=on_last_entry(context),
     )
+    title = "Check: on what the inertia matrix depends"
+    if context.is_in_letters:  # that was said of the Christoffel symbols
+        title = "Check: the last entry of the inertia matrix"
     return Step(
         id="dependence",
-        title="Check: on what the inertia matrix depends",
-        why=why,
+        title=title,
+        why=on_last_entry(context) if context.is_in_letters else why,
         source=spong("7.2"),
         result=(equation(letters.entry("d", k, k), form),) if cost(form) <= LONGEST else (),
         outcome=why,
