@@ -35,7 +35,7 @@ what each result is in them, `Context.result`.  The energies and forces of a lon
 and g_k (`Context.is_in_letters`), and what is alike is said once for all:
 
     recurring            what stands in several places
-    abbreviations        which constants, sums and Christoffel symbols get names, and what results are in these
+    abbreviations        which constants, sums and Christoffel symbols get names, and results in these
     entry_formulas       the formulas in d_ij, c_ijk and g_k
     long_model           what is said once, and D, c_ijk, C and g of a long model; `last_frame` its last frame
     named_steps          the steps of a short model in names, and where these are introduced

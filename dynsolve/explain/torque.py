@@ -74,12 +74,11 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
             "in which the coordinate does not occur drops out.",
         ),
     )
-    collected = (" Collected by the accelerations and the rates.",) if context.is_in_letters else ()
     force, resisted = driving_row(context, q), [letters.friction(i)] * context.has_friction(i - 1)
     yield step(
         id=f"tau{i}",
         title=f"Coordinate {i}: the {'torque' if turns(q) else 'force'}",
-        why=(*driven, *collected),
+        why=(*driven, *how_collected(context)),
         formula=equation(
             force, sum_of([letters.time_derivative(by_rate), Negative(by_coordinate), *resisted])
         ),
@@ -87,6 +86,11 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         result=(equation(force, context.result(f"tau{i}")),),
         detail=Detail.BRIEF,
     )
+
+
+def how_collected(context: Context) -> Prose:
+    """How a force is written that stays in letters."""
+    return (" Collected by the accelerations and the rates.",) if context.is_in_letters else ()
 
 
 def _partial(context: Context, by: Symbol, held: str, like: str) -> Prose:

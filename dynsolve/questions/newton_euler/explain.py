@@ -23,6 +23,7 @@ from dynsolve.explain.context import MOST_JOINTS, Context
 from dynsolve.explain.jacobian import ZERO
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.terms import driving_row
+from dynsolve.explain.torque import how_collected
 from dynsolve.explain.writing import is_small, listed, spong, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
@@ -498,14 +499,15 @@ def _torque(context: Context, q: Coordinate) -> Step:
         title=f"Coordinate {q.index}: the {kind}",
         why=say(
             "The motor gives the component of the {what} along the axis of the joint; the bearings hold "
-            "the others.{beside}",
+            "the others.{beside}{collected}",
             what=what,
             beside=beside,
+            collected=how_collected(context),
         ),
         said="" if beside else f"the {kind} of a motor",
         formula=equation(driving_row(context, q), sum_of([*terms, *added])),
         source=context.by_convention("7.6", "6.5"),
-        result=(equation(driving_row(context, q), context.form(f"tau{q.index}")),),
+        result=(equation(driving_row(context, q), context.result(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )
 
