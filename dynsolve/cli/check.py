@@ -119,7 +119,7 @@ def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bo
 
         typer.echo(render_markdown(document, style))
     else:
-        from dynsolve.cli.page import print_document
+        from dynsolve.cli.output import print_document
 
         print_document(document, style)
 
@@ -187,7 +187,7 @@ def autograder(
     Upload the zip in the assignment's Configure Autograder. Python 3.11 or newer is installed there
     where it is missing.
     """
-    from dynsolve.grading.autograder.package import write_autograder
+    from dynsolve.grading.autograder import write_autograder
 
     write_autograder(problems, output)
     typer.echo(f"{output}: upload it to the programming assignment, under Configure Autograder", err=True)

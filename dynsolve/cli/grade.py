@@ -97,7 +97,7 @@ def grade(
     Run again, after a stop or a change, the same command goes on: what is in OUT already
     and has not changed is not computed again.
     """
-    from dynsolve.cli.progress import bar_or_lines
+    from dynsolve.cli.output import bar_or_lines
     from dynsolve.grading.public import grade as grade_all
 
     try:

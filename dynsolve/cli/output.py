@@ -1,16 +1,22 @@
-"""The place and the format of results: one rule for all of them.
+"""The place and the format of results: one rule for all of them; documents and progress on a terminal.
 
 The suffix of `-o FILE` says the form; `--format`, or `--latex` and its like, says it
-where there is none.  Without `-o` results go to standard output.
+where there is none.  Without `-o` results go to standard output: a document laid out to the
+terminal, coloured only where there is one.  Progress goes to standard error: a bar where there is
+a terminal and it takes longer than a second.
 """
 
 from __future__ import annotations
 
+import os
+import shutil
 import sys
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 from msgspec import Struct
@@ -18,6 +24,13 @@ from msgspec import Struct
 from dynsolve.cli.numbers import STDIN
 from dynsolve.errors import UsageError
 from dynsolve.render.files import SUFFIXES, Format, check_place, suffix_of, write_whole
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
+
+    from dynsolve.document import Document
+    from dynsolve.notation.printing import Style
+
 
 Form = TypeVar("Form", bound=StrEnum)
 """The forms of a solution, or those of a picture."""
@@ -157,3 +170,94 @@ class Writer:
             between = b"\n" if self.output.format is Format.TEXT else b""
             write_whole(place, between.join(parts))
         self._parts = {}
+
+
+_COLOURS = {"title": "bold", "heading": "bold cyan", "step": "bold", "note": "yellow", "source": "dim"}
+
+
+def print_document(document: Document, style: Style) -> None:
+    """Print a document as wide as the terminal, or as COLUMNS says; in a pipe it is plain text."""
+    from dynsolve.render.terminal import WIDTH, render
+
+    lines = render(document, shutil.get_terminal_size((WIDTH, 24)).columns, style)
+    if not sys.stdout.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
+        for line in lines:
+            sys.stdout.write(line.text + "\n")
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    console = Console(soft_wrap=True, highlight=False)
+    for line in lines:
+        console.print(Text(line.text, _COLOURS.get(line.kind, "")))
+
+
+PATIENCE = 1.0
+"""Seconds without a bar."""
+
+EVERY = 10.0
+"""Seconds between two lines of progress where there is no terminal."""
+
+Advance = Callable[[int, int], None]
+"""advance(done, of)"""
+
+
+@contextmanager
+def progress(title: str, quiet: bool = False) -> Iterator[Advance | None]:
+    """Give a function that is told how far the work is, None where nobody would see it."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    start, shown = time.monotonic(), _Bar(title)
+
+    def advance(done: int, of: int) -> None:
+        if time.monotonic() - start > PATIENCE:
+            shown.update(done, of)
+
+    try:
+        yield advance
+    finally:
+        shown.close()
+
+
+@contextmanager
+def bar_or_lines(title: str, quiet: bool = False) -> Iterator[Advance | None]:
+    """A bar on a terminal; elsewhere a line now and then, with an estimate of what is left."""
+    if sys.stderr.isatty() or quiet:
+        with progress(title, quiet) as advance:
+            yield advance
+        return
+    start = said = time.monotonic()
+
+    def line(done: int, of: int) -> None:
+        nonlocal said
+        now = time.monotonic()
+        if now - said > EVERY:
+            said = now
+            left = (now - start) / done * (of - done)
+            typer.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
+
+    yield line
+
+
+class _Bar:
+    """The bar, made when it is first wanted: importing it costs time too."""
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._bar: Progress | None = None
+
+    def update(self, done: int, of: int) -> None:
+        if self._bar is None:
+            from rich.console import Console
+            from rich.markup import escape
+            from rich.progress import Progress
+
+            self._bar = Progress(console=Console(stderr=True), transient=True)
+            self._bar.add_task(escape(self._title), total=of)
+            self._bar.start()
+        self._bar.update(self._bar.task_ids[0], completed=done, total=of)
+
+    def close(self) -> None:
+        if self._bar is not None:
+            self._bar.stop()

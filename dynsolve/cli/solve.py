@@ -189,7 +189,7 @@ def _stages(stage: list[Stage] | None, first: Stage | None, last: Stage | None) 
 
 
 def _solved(name: str, method: MethodName, edition: int | None, quiet: bool) -> Solution:
-    from dynsolve.cli.progress import progress
+    from dynsolve.cli.output import progress
     from dynsolve.solution.solution import solve as solve_problem
 
     problem = read(name)
@@ -218,7 +218,7 @@ def _report(solution: Solution, output: Output, view: _View) -> bytes:
 
 
 def _print_document(solution: Solution, view: _View, follows_another: bool) -> None:
-    from dynsolve.cli.page import print_document
+    from dynsolve.cli.output import print_document
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.solution.documents import solution_document

@@ -2,9 +2,8 @@
 
 From the table to a pose:
 
-    orientation   which way is up, and whether the robot moves in a plane
     skeleton      how long every symbol is drawn; where frames and links are for given values of the
-                  coordinates
+                  coordinates; which way is up, and whether the robot moves in a plane
     mass_centers  where the mass centres are; how large the uniform bodies on the links are, and how they
                   lie
     vectors       geometry, and how space is laid on paper
@@ -17,8 +16,7 @@ What is drawn of it:
 
     parts         where the joints stand along the chain, and the links between them
     solids        the joints as paths, the tubes between them and the bodies, with all else from back to
-                  front;
-                  `primitives` drums, blocks and balls
+                  front; drums, blocks and balls
     joint_angles  the angles of the joints, from the line from which each is measured
     lengths       lengths with their heads; the world where the base is moved in it or leans
     labels        where labels stand, and which places on paper are taken
@@ -27,14 +25,13 @@ What is drawn of it:
 Of a model by positions:
 
     placed_pose   a pose and a view in which the straight pieces that lead to bodies stand apart
-    placed_springs springs and dampers between the points that they act on
-    placed_bodies the picture
+    placed_bodies the picture, with springs and dampers between the points that they act on
 
-`figure` has drawings beside a step, the arm in a pose, and how a picture is written down as SVG and LaTeX;
-`convert` makes PDF and PNG.  `paths` are lines and areas with their colours, and how wide letters are.
+`figure` has drawings beside a step, the arm in a pose, and how a picture is written down as SVG, LaTeX, PDF
+and PNG.  `paths` are lines and areas with their colours, and how wide letters are.
 
 To draw one more thing, make its paths in a file of the second list, and add them in
-`scene`.  To add a file format, write its file beside `figure`, and add it to `PictureFormat`,
+`scene`.  To add a file format, write it in `figure`, and add it to `PictureFormat`,
 `SUFFIXES` and `draw` below.
 
 Nothing but the reports and the command `draw` imports this package.
@@ -94,7 +91,7 @@ def draw(problem: Problem, format: PictureFormat = PictureFormat.SVG, *, star: b
     svg = to_svg(drawn)
     if format is PictureFormat.SVG:
         return svg.encode()
-    from dynsolve.draw.convert import to_pdf, to_png
+    from dynsolve.draw.figure import to_pdf, to_png
 
     return to_pdf(svg, drawn.title, drawn.description) if format is PictureFormat.PDF else to_png(svg)
 

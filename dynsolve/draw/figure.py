@@ -8,6 +8,8 @@ The paths go into the page as they are (`\pdfliteral` and what other engines cal
 in a `picture` environment that gives them and the labels their places.
 
 A scene as SVG: paths, and text that stays text.
+
+SVG as PDF and PNG, by typst, with its own fonts: the same bytes on every machine.
 """
 
 from __future__ import annotations
@@ -15,20 +17,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from html import escape
+from typing import Literal
 
 from dynsolve.document import Picture
 from dynsolve.document.figures import ArmArrow, ArmFigure, Figure, FigureAngle, FigureLine, LineKind, Place
 from dynsolve.draw import paths, poses
 from dynsolve.draw.labels import Label, Taken, place
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import SIZE, WHITE, Commands, Path, Run
 from dynsolve.draw.pose_search import held_pose
 from dynsolve.draw.poses import Notes, Pose
 from dynsolve.draw.scene import Scene, framed, leads
-from dynsolve.draw.skeleton import numbers
+from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.vectors import NEAR, Point, Vector, length, unit
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.errors import UsageError
+from dynsolve.notation.markup import LatexPrinter, quoted
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Product, Quotient, Row, Sum, Words
 from dynsolve.notation.tree_values import evaluate
@@ -366,3 +369,37 @@ def _arrow(arrow: ArmArrow, at: Mapping[str, float], pose: Pose, notes: poses.No
         Path(paths.head(end, (dx, dy), 11.0), None, fill=paths.VARIABLE),
     )
     notes.label(arrow.name, [end], (dx, dy), paths.VARIABLE, "axis")
+
+
+RESOLUTION = 192.0
+"""Picture elements an inch, of a PNG."""
+
+_PAGE = """#set document(title: {title}, date: none)
+#set page(width: auto, height: auto, margin: 0pt)
+#image(bytes({svg}), format: "svg", alt: {alt})
+"""
+
+
+def to_pdf(svg: str, title: str = "", alt: str = "") -> bytes:
+    """A page of PDF, the same bytes for the same picture.
+
+    Raises UsageError where the extra `pdf` is not installed.
+    """
+    return _compiled(svg, title, alt, "pdf")
+
+
+def to_png(svg: str) -> bytes:
+    """A PNG.  Raises UsageError where the extra `pdf` is not installed."""
+    return _compiled(svg, "", "", "png")
+
+
+def _compiled(svg: str, title: str, alt: str, format: Literal["pdf", "png"]) -> bytes:
+    try:
+        import typst
+    except ImportError:
+        raise UsageError(f"{format.upper()} needs the extra [pdf]: pip install 'dynsolve[pdf]'") from None
+    page = _PAGE.format(title=quoted(title), svg=quoted(svg), alt=quoted(alt))
+    made: bytes = typst.compile(
+        page.encode(), format=format, ppi=RESOLUTION, ignore_system_fonts=True, timestamp=0
+    )
+    return made

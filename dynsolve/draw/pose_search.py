@@ -27,12 +27,12 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.draw.mass_centers import drawn_bodies, sleeves, with_masses
-from dynsolve.draw.orientation import Orientation
 from dynsolve.draw.parts import NO_SLEEVES, RADIUS, arrange
 from dynsolve.draw.poses import AXIS, MANY, Choice, Pose, cost_of, taste
 from dynsolve.draw.skeleton import (
     DrawnFrame,
     MassCenter,
+    Orientation,
     RobotNumbers,
     Skeleton,
     finite,

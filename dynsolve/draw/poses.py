@@ -22,10 +22,9 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Taken, Wanted
 from dynsolve.draw.mass_centers import DrawnBody
-from dynsolve.draw.orientation import Orientation
 from dynsolve.draw.parts import RADIUS, TUBE, JointBody, Parts
 from dynsolve.draw.paths import Path, typeset
-from dynsolve.draw.skeleton import Leg, RobotNumbers, Skeleton, finite
+from dynsolve.draw.skeleton import Leg, Orientation, RobotNumbers, Skeleton, finite
 from dynsolve.draw.vectors import (
     NEAR,
     Point,

@@ -22,11 +22,10 @@ from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, nam
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place
 from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, world_frame
 from dynsolve.draw.mass_centers import DrawnBody, Form
-from dynsolve.draw.orientation import Orientation, orientation
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose_search import best_pose, dressed, held_pose
 from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, Notes, Pose, joint_springs, springs
-from dynsolve.draw.skeleton import RobotNumbers, numbers
+from dynsolve.draw.skeleton import Orientation, RobotNumbers, numbers, orientation
 from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.vectors import NEAR, Point, Vector, View, along, cross, dot, length, moved, scaled, unit
 from dynsolve.notation.characters import SUBSCRIPT_DIGITS

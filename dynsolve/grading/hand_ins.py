@@ -17,7 +17,7 @@ from msgspec.structs import replace
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.errors import InputError
 from dynsolve.grading.platforms.gradescope import METADATA, FileOwner, Submitters, exports, read_metadata
-from dynsolve.grading.platforms.members import FileOwners, Groups
+from dynsolve.grading.platforms.registry import FileOwners, Groups
 from dynsolve.grading.record import Waiting
 from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import Upload, Uploads, days_late, digest, printable

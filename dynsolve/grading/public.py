@@ -22,9 +22,9 @@ from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.outputs import read_by_hand, write_outputs
 from dynsolve.grading.platforms import canvas
-from dynsolve.grading.platforms.members import Groups
 from dynsolve.grading.platforms.registry import (
     PLATFORMS,
+    Groups,
     chosen_roster,
     export,
     keep_names,
@@ -285,7 +285,7 @@ def _points(record: Record, student: str, problem: str, answer: str, marks: str)
 
 def _pool(jobs: int, cluster: str, bounds: Bounds) -> Pool:
     if cluster:
-        from dynsolve.grading.cluster import ClusterPool
+        from dynsolve.grading.pool import ClusterPool
 
         return ClusterPool(cluster, bounds)
     return LocalPool(jobs or os.cpu_count() or 1, bounds)

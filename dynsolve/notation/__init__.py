@@ -3,13 +3,13 @@
 `tree`: the classes of nodes, visiting a tree and rebuilding it.  `build`: sums and products as they are
 written, and how many operations a formula has.
 
-Read: `text` reads plain text, `tokens` cuts it, `mistakes` says what is wrong with it; `template` reads the
-formulas of the textbook that steps are written with; `characters` says what names are made of and how they
-are set.  `size` measures a tree before it is multiplied out, and bounds it for problem files.
+Read: `text` reads plain text and says what is wrong with it; `template` reads the formulas of the textbook
+that steps are written with; `characters` says what names are made of and how they are set.  `size` measures
+a tree before it is multiplied out, and bounds it for problem files.
 
 Printed: `printing` is what all printers share, `formulas` what those of whole formulas share;
-`unicode`, `latex`, `mathml`, `typst` and `python` are one notation each.  `extent` measures
-how wide a formula is when it is set.  `tree_values` puts numbers into trees.
+`unicode` and `python` are one notation each, `markup` is LaTeX, Typst and MathML.  `extent` measures how
+wide a formula is when it is set.  `tree_values` puts numbers into trees.
 
 To add a notation, derive a printer from `FormulaPrinter` (`formulas` says how).  To add a
 kind of node, write its class in `tree` and its case in each printer; `tree.walk` knows its parts from its

@@ -7,19 +7,29 @@ A tokenizer and a recursive descent over this grammar; nothing is ever evaluated
     factor   = {sign} power
     power    = atom [("^" | "**") factor]            the exponent is a whole number, or 1/2
     atom     = number | degrees | name | function "(" sum ")" | "atan2" "(" sum "," sum ")" | "(" sum ")"
+
+First the tokens, each with its place; last the errors: the place, the fault, the remedy.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import NamedTuple
 
 from msgspec import Struct
 
 from dynsolve.errors import ReadError
-from dynsolve.notation import mistakes
-from dynsolve.notation.characters import SUPERSCRIPT_DIGITS, normalize
-from dynsolve.notation.size import MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
-from dynsolve.notation.tokens import ARCS, FUNCTIONS, FormulaToken, rational, tokens
+from dynsolve.notation.characters import (
+    GREEK,
+    SPELLED,
+    SUBSCRIPT_DIGITS,
+    SUPERSCRIPT_DIGITS,
+    character_error,
+    normalize,
+)
+from dynsolve.notation.size import MAX_DIGITS, MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
 from dynsolve.notation.tree import (
     Arguments,
     Degrees,
@@ -33,6 +43,78 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
+
+FUNCTIONS = ("sin", "cos", "tan", "sqrt")
+"""The functions of a formula."""
+
+ARCS = ("acos", "asin", "atan", "atan2")
+"""The functions that give angles, where a formula may have them."""
+
+_GREEK = "".join(SPELLED)
+_NUMBER = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_TOKEN = re.compile(
+    rf"""
+      (?P<space>[ \t\r\n\u00a0\u2000-\u200a\u202f]+)
+    | (?P<degrees>{_NUMBER}\s*(?:°|deg(?![A-Za-z0-9_])))
+    | (?P<number>{_NUMBER})
+    | (?P<name>[A-Za-z{_GREEK}][A-Za-z0-9_{_GREEK}{SUBSCRIPT_DIGITS}]*)
+    | (?P<power>\*\*|\^)
+    | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
+    | (?P<operator>[-+*/(),−–·⋅∙×∗⋆÷∕⁄√])
+    """,
+    re.VERBOSE,
+)
+_OPERATORS = dict(zip("-+*/(),√−–·⋅∙×∗⋆÷∕⁄", "-+*/(),√--******///", strict=True))
+
+
+class FormulaToken(NamedTuple):
+    """A piece of the text: `kind` is number, degrees, name, ^, raised, end or the operator itself."""
+
+    kind: str
+    text: str
+    start: int
+    end: int
+
+
+def tokens(text: str) -> list[FormulaToken]:
+    """The tokens of a formula, an `end` token last; raises ReadError for a character of no formula."""
+    result: list[FormulaToken] = []
+    offset = 0
+    match = _TOKEN.match
+    while offset < len(text):
+        found = match(text, offset)
+        if found is None:
+            raise character_error(text[offset], offset)
+        kind, end = found.lastgroup or "", found.end()
+        if kind != "space":
+            piece = found.group()
+            kind = _OPERATORS[piece] if kind == "operator" else "^" if kind == "power" else kind
+            result.append(FormulaToken(kind, piece, offset, end))
+        offset = end
+    result.append(FormulaToken("end", "", len(text), len(text)))
+    return result
+
+
+_EXPONENT = re.compile("[eE]")
+
+
+def rational(token: FormulaToken) -> Fraction:
+    """The exact value of a number: `9.81` is 981/100, `1e-3` is 1/1000.
+
+    Raises ReadError for more digits than anyone measures, before they are converted.
+    """
+    mantissa, _, exponent = _EXPONENT.sub("e", token.text.removesuffix("°").removesuffix("deg")).partition(
+        "e"
+    )
+    whole, _, decimals = mantissa.strip().partition(".")
+    power = exponent.strip().lstrip("+-").lstrip("0")
+    if len(whole) + len(decimals) > MAX_DIGITS or len(power) > 2 or int(power or 0) > MAX_DIGITS:
+        length = token.end - token.start
+        raise ReadError(f"a number of more than {MAX_DIGITS} digits", token.start, length, "write it shorter")
+    shift = (-int(power or 0) if "-" in exponent else int(power or 0)) - len(decimals)
+    digits = int((whole + decimals) or "0")
+    return Fraction(digits * 10**shift) if shift >= 0 else Fraction(digits, 10**-shift)
+
 
 _BEGINS_FACTOR = frozenset({"number", "degrees", "name", "(", "√"})
 _RAISED = str.maketrans("⁻" + SUPERSCRIPT_DIGITS, "-0123456789")
@@ -97,10 +179,11 @@ class _Reader:
 
     def formula(self) -> Node:
         if self.token.kind == "end":
-            raise mistakes.empty(self.text)
+            help = "write a number, a name or a formula"
+            raise ReadError("there is no formula here", 0, max(len(self.text), 1), help)
         tree = self.sum()
         if self.token.kind != "end":
-            raise mistakes.unexpected(self.text, self.token)
+            raise _unexpected(self.text, self.token)
         return tree
 
     def take(self) -> FormulaToken:
@@ -112,7 +195,9 @@ class _Reader:
     def enter(self) -> None:
         self.nesting += 1
         if self.nesting > MAX_NESTING:
-            raise mistakes.too_deep(self.token)
+            message = f"more than {MAX_NESTING} levels of parentheses, signs and powers"
+            help = "name a part of it with a symbol of its own"
+            raise ReadError(message, self.token.start, 1, help)
 
     def sum(self) -> Node:
         self.enter()
@@ -139,7 +224,7 @@ class _Reader:
                 self.take()
                 factors = [Quotient(_product(factors), self.factor())]
             elif kind in _BEGINS_FACTOR:
-                raise mistakes.missing_product(self.text, self.tokens, self.position)
+                raise _missing_product(self.text, self.tokens, self.position)
             else:
                 return _product(factors)
 
@@ -160,7 +245,7 @@ class _Reader:
         start = self.token
         node = _power(base, self.exponent(), start)
         if self.token.kind in ("raised", "^"):
-            raise mistakes.second_power(self.token)
+            raise _fault(self.token, "a power of a power needs parentheses", "write (x^2)^3, or x^6")
         return node
 
     def exponent(self) -> Fraction:
@@ -169,7 +254,7 @@ class _Reader:
         if sign.kind == "raised":
             digits = sign.text.translate(_RAISED)
             if len(digits) > 3:
-                raise mistakes.exponent(sign, sign.start, sign.end)
+                raise _no_exponent(sign, sign.start, sign.end)
             return Fraction(int(digits))
         self.enter()
         start = self.token.start
@@ -177,7 +262,7 @@ class _Reader:
         self.nesting -= 1
         if value is None:
             end = self.before.end if self.before else start
-            raise mistakes.exponent(sign, start, end)
+            raise _no_exponent(sign, start, end)
         return value
 
     def atom(self) -> Node:
@@ -199,15 +284,16 @@ class _Reader:
             root = Function("sqrt", self.atom())
             self.nesting -= 1
             return root
-        raise mistakes.no_factor(self.text, self.before, token)
+        raise _no_factor(self.before, token)
 
     def parentheses(self) -> Node:
         opening = self.take()
         if self.token.kind == ")":
-            raise mistakes.empty_parentheses(opening, self.token)
+            message = "there is nothing between these parentheses"
+            raise _fault(opening, message, "write what belongs there", self.token.end)
         inner = self.sum()
         if self.token.kind != ")":
-            raise mistakes.unclosed(self.text, opening, self.token)
+            raise _unclosed(self.text, opening, self.token)
         self.take()
         return inner
 
@@ -218,11 +304,18 @@ class _Reader:
             return self.function(token)
         name = normalize(token.text)
         follower = self.token
-        if follower.kind == "(" and (error := mistakes.unknown_function(token, name)):
+        if follower.kind == "(" and (error := _unknown_function(token, name)):
             raise error
-        if name in ("pi", "deg") or (token.text[0] == "π" and token.text != "π"):
-            return self.constant(token, name)
-        star = self.stars and follower.kind == "*" and follower.start == token.end and self.star_is_mark()
+        if name == "deg":
+            raise _bare_degrees(token)
+        if token.text[0] == "π" and token.text != "π":
+            help = f"products are written out: π*{token.text[1:]}"
+            raise ReadError(f"a `*` is missing after the π of `{token.text}`", token.start, 1, help)
+        if name == "pi":
+            return Symbol("pi")
+        star = self.stars and follower.kind == "*" and follower.start == token.end
+        if star and self.tokens[self.position + 1].kind in _BEGINS_FACTOR:
+            star = False  # a product: only where no factor follows is it the mark of a joint variable
         if star:
             self.take()
         self.names.append(Name(name, token.start, token.end - token.start, star))
@@ -233,23 +326,18 @@ class _Reader:
                 return Symbol(name[:-4], 1, star)
         return Symbol(name, 0, star)
 
-    def constant(self, token: FormulaToken, name: str) -> Node:
-        if name == "deg":
-            raise mistakes.bare_degrees(token)
-        if token.text[0] == "π" and len(token.text) > 1:
-            raise mistakes.glued_pi(token)
-        return Symbol("pi")
-
-    def star_is_mark(self) -> bool:
-        """Whether the star at the token is a joint variable's mark: no factor begins after it."""
-        return self.tokens[self.position + 1].kind not in _BEGINS_FACTOR
-
     def function(self, name: FormulaToken) -> Node:
         """`sin(x)`, or `sin^2(x)` for its square."""
         sign = self.token
-        exponent = self.function_power(name) if sign.kind in ("raised", "^") else None
+        exponent = self.exponent() if sign.kind in ("raised", "^") else None
+        if exponent is not None and (exponent < 1 or name.text == "sqrt"):
+            end = (self.before or name).end
+            help = f"a power is written {name.text}(x)^2; there are no inverse functions"
+            raise _fault(name, f"this power of `{name.text}` cannot be read", help, end)
         if self.token.kind != "(":
-            raise mistakes.no_argument(self.text, name, self.token)
+            argument = self.token.text if self.token.kind in ("name", "number", "degrees") else "..."
+            message = f"`{name.text}` needs its argument in parentheses"
+            raise _fault(name, message, f"write {name.text}({argument})")
         node = Function(name.text, self.two_arguments(name) if name.text == "atan2" else self.parentheses())
         return node if exponent is None else _power(node, exponent, sign)
 
@@ -258,20 +346,13 @@ class _Reader:
         opening = self.take()
         y = self.sum()
         if self.token.kind != ",":
-            length = name.end - name.start
-            raise ReadError(f"{name.text} has two arguments", name.start, length, "write atan2(y, x)")
+            raise _fault(name, f"{name.text} has two arguments", "write atan2(y, x)")
         self.take()
         x = self.sum()
         if self.token.kind != ")":
-            raise mistakes.unclosed(self.text, opening, self.token)
+            raise _unclosed(self.text, opening, self.token)
         self.take()
         return Arguments((y, x))
-
-    def function_power(self, name: FormulaToken) -> Fraction:
-        value = self.exponent()
-        if value < 1 or name.text == "sqrt":
-            raise mistakes.inverse_function(name, self.before or name)
-        return value
 
 
 def _product(factors: list[Node]) -> Node:
@@ -282,7 +363,7 @@ def _power(base: Node, exponent: Fraction, sign: FormulaToken) -> Node:
     if exponent == Fraction(1, 2):
         return Function("sqrt", base)
     if exponent.denominator != 1 or abs(exponent) > MAX_EXPONENT:
-        raise mistakes.exponent(sign, sign.start, sign.end)
+        raise _no_exponent(sign, sign.start, sign.end)
     whole = Number(abs(exponent.numerator))
     return Power(base, Negative(whole) if exponent < 0 else whole)
 
@@ -301,3 +382,114 @@ def _constant(node: Node) -> Fraction | None:
         case Power(Number() as base, Number() as exponent) if base.p <= MAX_EXPONENT and base.q == 1:
             return Fraction(base.p) ** exponent.p
     return None
+
+
+# -- what cannot be read -----------------------------------------------------------------------------
+
+_FUNCTIONS = ", ".join(FUNCTIONS[:-1]) + f" and {FUNCTIONS[-1]}"
+_KNOWN_ELSEWHERE = frozenset(
+    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh sec csc cot sgn abs pow max min "
+    "sind cosd sine cosine tangent root".split()
+)
+_UNITS = frozenset("m cm mm kg g s N Nm rad".split())
+_EXCERPT = 60
+
+
+def _fault(token: FormulaToken, message: str, help: str = "", end: int | None = None) -> ReadError:
+    """What is wrong with a token, or with the text from there to `end`, and the remedy."""
+    return ReadError(message, token.start, (token.end if end is None else end) - token.start, help)
+
+
+def _missing_product(text: str, tokens: Sequence[FormulaToken], position: int) -> ReadError:
+    """Two factors side by side: the remedy shows the text with its `*`."""
+    before, after = tokens[position - 1], tokens[position]
+    if after.text.startswith("deg"):
+        return _bare_degrees(after)
+    offset, length = before.end, max(after.start - before.end, 1)
+    both_numbers = before.kind == after.kind == "number"
+    what = "an operator" if both_numbers else "a `*`"
+    message = f"{what} is missing between `{before.text}` and `{after.text}`"
+    if both_numbers:
+        return ReadError(message, offset, length, "a decimal is written with one point: 9.81")
+    left, right = text[max(0, before.end - _EXCERPT) : before.end], text[after.start : after.start + _EXCERPT]
+    left = left if before.end <= _EXCERPT else "..." + left
+    right = right if after.start + _EXCERPT >= len(text) else right + "..."
+    help = f"products are written out: {' '.join(f'{left}*{right}'.split())}"
+    if before.kind == "number" and after.text in _UNITS:
+        help += f"; if `{after.text}` is the unit, leave it out"
+    return ReadError(message, offset, length, help)
+
+
+def _unknown_function(token: FormulaToken, name: str) -> ReadError | None:
+    """The error about `name(`, or None where a product with a parenthesis is the likelier reading."""
+    message = f"unknown function `{token.text}`"
+    if name.lower() in FUNCTIONS:
+        return _fault(token, message, f"did you mean `{name.lower()}`?")
+    if name in _KNOWN_ELSEWHERE:
+        return _fault(token, message, f"functions are {_FUNCTIONS}")
+    if name.isalpha() and len(name) > 2 and name not in GREEK:
+        from difflib import get_close_matches
+
+        if close := get_close_matches(name, FUNCTIONS, 1):
+            return _fault(token, message, f"did you mean `{close[0]}`, or the product `{token.text}*(...)`?")
+        if len(name) > 3:
+            help = f"functions are {_FUNCTIONS}; a product is written `{token.text}*(...)`"
+            return _fault(token, message, help)
+    return None
+
+
+def _with_point(text: str, comma: FormulaToken) -> str:
+    """What is said of a comma: the number that it was meant in, where digits stand on both sides."""
+    before = re.search(r"[0-9]+\Z", text[: comma.start])
+    after = re.match(r"[0-9]+", text[comma.end :])
+    if before and after:
+        return f"did you mean {before[0]}.{after[0]}? A decimal is written with a point"
+    return "a decimal is written with a point: 9.81"
+
+
+def _unexpected(text: str, token: FormulaToken) -> ReadError:
+    """A token that cannot follow a whole formula."""
+    if token.kind == ")":
+        return _fault(token, "this `)` closes nothing", "delete it, or add the `(` that it belongs to")
+    if token.kind == ",":
+        return _fault(token, "a `,` has no meaning here", _with_point(text, token))
+    return _fault(token, f"`{token.text}` cannot stand here")
+
+
+def _no_factor(before: FormulaToken | None, token: FormulaToken) -> ReadError:
+    """A number, a name or a parenthesis is expected, and `token` is none."""
+    what = "a number, a name or a parenthesis"
+    if token.kind == "end":
+        after = before or token
+        help = f"write {what} after it, or delete it"
+        if after.kind == "*":
+            help += (
+                "; the star that marks a joint variable stands directly after its name, in theta and d alone"
+            )
+        return _fault(after, f"the formula ends after `{after.text}`", help)
+    begins = f"the formula begins with `{token.text}`"
+    message = f"`{token.text}` cannot follow `{before.text}`" if before else begins
+    return _fault(token, message, f"{what} is expected here")
+
+
+def _unclosed(text: str, opening: FormulaToken, token: FormulaToken) -> ReadError:
+    """A parenthesis that does not close before `token`."""
+    if token.kind == "end":
+        return _fault(opening, "this `(` is never closed", "add the `)` that it belongs to")
+    if token.kind == ",":
+        help = f"functions take one argument; {_with_point(text, token)}"
+        return _fault(token, "a `,` has no meaning here", help)
+    return _unexpected(text, token)
+
+
+def _no_exponent(sign: FormulaToken, start: int, end: int) -> ReadError:
+    """An exponent that is no small whole number."""
+    message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
+    return ReadError(message, start, max(end - start, 1), "a square root is written sqrt(x) or x^(1/2)")
+
+
+def _bare_degrees(token: FormulaToken) -> ReadError:
+    """A `deg` that follows no number."""
+    if token.text != "deg":
+        return _fault(token, f"degrees are written `deg`, not `{token.text}`", "write 90deg")
+    return _fault(token, "`deg` stands directly after a number", "write 90deg, or x*pi/180")

@@ -16,8 +16,7 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
 from dynsolve.errors import AlgebraError, ReadError
-from dynsolve.notation.text import Name, read
-from dynsolve.notation.tokens import rational, tokens
+from dynsolve.notation.text import Name, rational, read, tokens
 from dynsolve.notation.tree import (
     Function,
     Negative,

@@ -16,8 +16,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.angles import angle_from_tree, names_of
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.text import read
-from dynsolve.notation.tokens import ARCS
+from dynsolve.notation.text import ARCS, read
 from dynsolve.notation.tree import Function, Node, names_in, walk
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem.actions import ParsedLoad, ParsedWeights

@@ -7,7 +7,7 @@
 Words: `prose` finds the mathematics among them.
 Formulas: `line_breaking` cuts them into pieces and these into lines, and numbers them; `typesetting` sets a
 displayed formula to a width, or many short ones beside each other; `latex_displays` writes them for LaTeX;
-`html_pieces` puts formulas together for a browser, which ends the lines; `terminal_boxes` lays them out in
+`html` puts them together for a browser, which ends the lines; `terminal_boxes` lays them out in
 the cells of a terminal, a matrix that is too wide entry by entry.
 
 To add a format, derive its page from one in `page` and enter its name and suffixes in

@@ -29,7 +29,7 @@ from dynsolve.document import (
 )
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.extent import FLAT
-from dynsolve.notation.latex import SIGNS, LatexPrinter
+from dynsolve.notation.markup import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Row, Words
 from dynsolve.render.latex_displays import HEIGHTS, DisplayRow, aligned, gathered, height_around, in_columns

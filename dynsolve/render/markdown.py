@@ -22,7 +22,7 @@ from dynsolve.document import (
     Text,
     Verbatim,
 )
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Words
 from dynsolve.render.latex import latex_notation

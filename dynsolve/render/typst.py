@@ -21,9 +21,9 @@ from dynsolve.document import (
 )
 from dynsolve.errors import UsageError
 from dynsolve.notation.extent import FLAT
+from dynsolve.notation.markup import TypstPrinter, quoted
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
-from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.latex_displays import HEIGHTS, height_around
 from dynsolve.render.line_breaking import (
     FormulaSplitter,

@@ -22,7 +22,7 @@ from dynsolve.document import Inline, Prose, Reference, Verbatim
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.writing import by_itself
 from dynsolve.notation.build import times
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Degrees, Matrix, Node, Symbol, Words, mapped
 from dynsolve.notation.unicode import UnicodePrinter

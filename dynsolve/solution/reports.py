@@ -1,4 +1,4 @@
-"""Solutions in the form their reader uses: text, JSON, LaTeX, PDF, HTML, Markdown.
+"""Solutions in the form their reader uses: text, JSON, LaTeX, PDF, HTML, Markdown, a notebook.
 
 What a further format needs, and where, is listed in `.github/CONTRIBUTING.md` under "How to add".
 """
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.notation.printing import Style
+    from dynsolve.notation.tree import Node
     from dynsolve.problem.model import Problem
     from dynsolve.solution.depths import Drawn
     from dynsolve.solution.dynamics import Dynamics
@@ -136,3 +137,46 @@ def rendered(document: Document, style: Style, format: Format, fragment: bool) -
     from dynsolve.render import terminal
 
     return "".join(f"{line.text}\n" for line in terminal.render(document, style=style)).encode()
+
+
+# How a notebook shows a solution: its results first, the worked solution folded away behind them
+
+_FOLDED = "Worked solution"
+
+
+def _results_and_worked(solution: Dynamics) -> tuple[Document, Document]:
+    from dynsolve.explain.step import Detail
+    from dynsolve.solution.documents import solution_documents
+
+    results, worked = solution_documents(solution, (Detail.RESULTS, Detail.NORMAL))
+    return results, worked
+
+
+def notebook_html(solution: Dynamics) -> str:
+    """A part of a page."""
+    from dynsolve.render import html
+
+    return html.render_folded(*_results_and_worked(solution), _FOLDED, solution.style)
+
+
+def notebook_markdown(solution: Dynamics) -> str:
+    """Markdown, the worked solution in a fold of HTML."""
+    from dynsolve.render import markdown
+
+    results, worked = (markdown.render(each, solution.style) for each in _results_and_worked(solution))
+    return f"{results}\n<details><summary>{_FOLDED}</summary>\n\n{worked}\n</details>\n"
+
+
+def notebook_latex(solution: Dynamics) -> str:
+    """The results alone, each a displayed formula, as MathJax sets them."""
+    from dynsolve.document import Equations, Formula
+    from dynsolve.notation.markup import LatexPrinter
+
+    printer = LatexPrinter(solution.style)
+    shown: list[Node] = []
+    for block in _results_and_worked(solution)[0].blocks:
+        if isinstance(block, Formula):
+            shown.append(block.node)
+        elif isinstance(block, Equations):
+            shown += block.nodes
+    return "\n".join(f"$${printer.text(node)}$$" for node in shown)

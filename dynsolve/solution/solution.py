@@ -146,19 +146,19 @@ class Solution(Dynamics, frozen=True, dict=True):
         return f"<Solution of {self.problem.title}, verified (relative error {error})>"
 
     def _repr_html_(self) -> str:
-        from dynsolve.solution.notebook import as_html
+        from dynsolve.solution.reports import notebook_html
 
-        return as_html(self)
+        return notebook_html(self)
 
     def _repr_markdown_(self) -> str:
-        from dynsolve.solution.notebook import as_markdown
+        from dynsolve.solution.reports import notebook_markdown
 
-        return as_markdown(self)
+        return notebook_markdown(self)
 
     def _repr_latex_(self) -> str:
-        from dynsolve.solution.notebook import as_latex
+        from dynsolve.solution.reports import notebook_latex
 
-        return as_latex(self)
+        return notebook_latex(self)
 
     def symbolic(self, name: str) -> Any:
         """A quantity as SymPy, by its name in an answer file: `H2`, `Jv1`, `Kw1`, `dLdqd1`, `D`.

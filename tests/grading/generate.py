@@ -7,7 +7,7 @@ import re
 from functools import cache, lru_cache
 from pathlib import Path
 
-from dynsolve.notation.latex import to_latex
+from dynsolve.notation.markup import to_latex
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.python import to_python
 from dynsolve.notation.text import read

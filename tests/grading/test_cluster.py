@@ -17,8 +17,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import UsageError
-from dynsolve.grading.cluster import PATIENCE, ClusterPool, _quiet, run_bounded
-from dynsolve.grading.pool import Bounds, Data
+from dynsolve.grading.pool import PATIENCE, Bounds, ClusterPool, Data, _quiet, run_bounded
 from tests.cli.running import dynsolve, environment
 from tests.grading.generate import course, problem_set
 from tests.support import ROOT

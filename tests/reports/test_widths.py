@@ -10,7 +10,7 @@ import pytest
 import dynsolve
 from dynsolve.explain.step import Detail
 from dynsolve.notation.extent import Ruler
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.markup import LatexPrinter
 from dynsolve.render.line_breaking import formulas
 from dynsolve.solution.documents import solution_document
 from tests.reports.tools import typeset

@@ -22,7 +22,7 @@ from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, shorthands
 from dynsolve.explain.step import Detail
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Derivative, Letter, Node, Number, Slashed, Symbol, children, walk
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode

@@ -19,7 +19,7 @@ from dynsolve.answers.verdict import Part
 from dynsolve.derivation.configurations import reaches, solution_of
 from dynsolve.derivation.reached import angle_rows, near, same_configuration
 from dynsolve.notation.printing import PLAIN
-from dynsolve.notation.tokens import ARCS
+from dynsolve.notation.text import ARCS
 from dynsolve.notation.tree import Function, Node, Symbol, names_in, walk, with_atan2_exchanged
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.notation.unicode import to_unicode

@@ -44,7 +44,7 @@ from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.printing import PLAIN
-from dynsolve.notation.tokens import ARCS
+from dynsolve.notation.text import ARCS
 from dynsolve.notation.tree import Function, Node, Number, Symbol, mapped, names_in, walk
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.notation.unicode import to_unicode

@@ -17,7 +17,7 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from dynsolve.grading.autograder.package import COURSE
+from dynsolve.grading.autograder import COURSE
 from dynsolve.grading.public import Grades, grade
 
 SUBMISSION = "submission_1"

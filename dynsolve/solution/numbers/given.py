@@ -22,8 +22,7 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, Finding, InputError, ReadError
 from dynsolve.explain.writing import and_joined
 from dynsolve.notation.characters import normalize
-from dynsolve.notation.text import read
-from dynsolve.notation.tokens import tokens
+from dynsolve.notation.text import read, tokens
 from dynsolve.notation.tree import Degrees, Negative, Node, Number, Product, number
 from dynsolve.problem import Problem
 from dynsolve.quantities.family import Family

@@ -7,9 +7,8 @@ import pytest
 import dynsolve
 from dynsolve.document.figures import ArmFigure
 from dynsolve.draw.figure import drawn_arm
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.pose_search import held_pose
-from dynsolve.draw.skeleton import numbers, skeleton
+from dynsolve.draw.skeleton import numbers, orientation, skeleton
 from dynsolve.draw.vectors import dot, length, subtract
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Symbol

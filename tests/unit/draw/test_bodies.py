@@ -8,12 +8,10 @@ import pytest
 from msgspec.structs import replace
 
 from dynsolve.draw.mass_centers import DrawnBody, Form, drawn_bodies, sleeves, with_masses
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import flattened
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.primitives import BODY
-from dynsolve.draw.skeleton import numbers, skeleton
-from dynsolve.draw.solids import body_solids
+from dynsolve.draw.skeleton import numbers, orientation, skeleton
+from dynsolve.draw.solids import BODY, body_solids
 from dynsolve.draw.vectors import dot
 from dynsolve.problem import load, read_problem
 from dynsolve.problem.model import Problem

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.scene import as_drawn, scene
-from dynsolve.draw.skeleton import numbers, skeleton
+from dynsolve.draw.skeleton import numbers, orientation, skeleton
 from dynsolve.draw.vectors import dot, facing
 from dynsolve.problem import read_problem
 from tests.unit.problem.test_drawing import FOUR_JOINTS, OFFSET_ARM, RPR, RRRP

@@ -9,11 +9,10 @@ import pytest
 
 from dynsolve.draw.joint_angles import has_offsets, joint_angles, names_of_angles, parallels
 from dynsolve.draw.labels import Taken
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import GREY, VARIABLE, flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import Notes, Pose, reach_of_axis
-from dynsolve.draw.skeleton import numbers
+from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.vectors import Point, Vector, cross, dot
 from dynsolve.notation.printing import Style
 from dynsolve.notation.unicode import to_unicode

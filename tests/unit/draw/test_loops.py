@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.pose_search import closing_links
 from dynsolve.draw.scene import allowed_pose, scene
-from dynsolve.draw.skeleton import generic_numbers, numbers, skeleton
+from dynsolve.draw.skeleton import generic_numbers, numbers, orientation, skeleton
 from dynsolve.draw.vectors import subtract
 from dynsolve.problem import load, read_problem
 from dynsolve.robot.model import Robot

@@ -10,7 +10,7 @@ import pytest
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.kinematics import base_transform, dh_matrix, frame
 from dynsolve.draw import PictureFormat, draw, picture
-from dynsolve.draw.convert import to_pdf, to_png
+from dynsolve.draw.figure import to_pdf, to_png
 from dynsolve.draw.labels import Box, Taken
 from dynsolve.draw.paths import circle, flattened, typeset
 from dynsolve.draw.skeleton import numbers, skeleton
@@ -143,8 +143,8 @@ def test_the_latex_has_balanced_groups() -> None:
 
 @pytest.mark.slow
 def test_parts_of_a_robot_keep_apart() -> None:
-    from dynsolve.draw.orientation import orientation
     from dynsolve.draw.pose_search import best_pose
+    from dynsolve.draw.skeleton import orientation
 
     for path in LIBRARY:
         robot, values = load(path).robot, numbers(load(path))

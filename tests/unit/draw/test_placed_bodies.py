@@ -10,9 +10,8 @@ from random import Random
 import pytest
 
 from dynsolve.draw import draw, is_drawn
-from dynsolve.draw.placed_bodies import BALLS, BOXES, DISKS, RODS, placed_scene
+from dynsolve.draw.placed_bodies import BALLS, BOXES, DAMPERS, DISKS, NOT_DRAWN, RODS, SPRINGS, placed_scene
 from dynsolve.draw.placed_pose import Kind, Piece, Place, placed_pose, ways
-from dynsolve.draw.placed_springs import DAMPERS, NOT_DRAWN, SPRINGS
 from dynsolve.draw.skeleton import finite
 from dynsolve.draw.vectors import NEAR, cross, distance, dot, scale
 from dynsolve.errors import UsageError

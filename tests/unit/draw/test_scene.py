@@ -14,13 +14,12 @@ from msgspec.structs import replace
 
 from dynsolve.draw.figure import font_size, to_svg
 from dynsolve.draw.labels import Taken, bounds
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.parts import HALF_HEIGHT
 from dynsolve.draw.paths import BLACK, FRAME, GREY, SIZE, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.scene import OFF_LINKS, Scene, scene
-from dynsolve.draw.skeleton import numbers
+from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.solids import solids
 from dynsolve.draw.vectors import Point, distance, dot, segment_distance
 from dynsolve.problem import load, read_problem

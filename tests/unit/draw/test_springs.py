@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, joint_springs
-from dynsolve.draw.skeleton import numbers
+from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.problem import read_problem
 from tests.support import LIBRARY
 from tests.unit.draw.pictures import drawn, drawn_text, names, overlapping

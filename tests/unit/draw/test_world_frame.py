@@ -8,11 +8,10 @@ import pytest
 
 from dynsolve.draw.labels import Taken
 from dynsolve.draw.lengths import WORLD, has_world, moves, world_frame
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import BLACK, flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import Notes, Pose
-from dynsolve.draw.skeleton import numbers
+from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.vectors import ORIGIN, dot, subtract
 from dynsolve.notation.printing import Style
 from dynsolve.problem import read_problem

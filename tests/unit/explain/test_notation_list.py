@@ -15,10 +15,8 @@ from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.step import Detail
 from dynsolve.notation.formulas import FormulaPrinter
-from dynsolve.notation.latex import LatexPrinter
-from dynsolve.notation.mathml import MathMLPrinter
+from dynsolve.notation.markup import LatexPrinter, MathMLPrinter, TypstPrinter
 from dynsolve.notation.tree import Function, Letter, Node, Sum, Symbol
-from dynsolve.notation.typst import TypstPrinter
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.render import latex, markdown
 from dynsolve.solution.documents import solution_document

@@ -13,7 +13,7 @@ import pytest
 from dynsolve.errors import ProblemError
 from dynsolve.grading.platforms import canvas, gradescope, moodle
 from dynsolve.grading.platforms.gradescope import FileOwner, Person
-from dynsolve.grading.platforms.members import Groups
+from dynsolve.grading.platforms.registry import Groups
 from dynsolve.grading.platforms.roster import Roster, read_roster
 from dynsolve.grading.set_file import Membership, read_groups
 

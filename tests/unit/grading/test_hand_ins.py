@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from dynsolve.errors import ProblemError
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.platforms.gradescope import read_metadata
-from dynsolve.grading.platforms.members import FileOwners
+from dynsolve.grading.platforms.registry import FileOwners
 from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import Uploads, read_extensions
 from tests.unit.grading.taken import ANSWER, taken_in

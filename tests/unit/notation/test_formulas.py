@@ -7,12 +7,10 @@ from collections.abc import Sequence
 import pytest
 
 from dynsolve.notation.formulas import FormulaPrinter
-from dynsolve.notation.latex import LatexPrinter
-from dynsolve.notation.mathml import MathMLPrinter
+from dynsolve.notation.markup import LatexPrinter, MathMLPrinter, TypstPrinter
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Function, Letter, Node, Number, Power, Product, Symbol, Transpose, Words
-from dynsolve.notation.typst import TypstPrinter
 from dynsolve.notation.unicode import UnicodePrinter
 from tests.unit.notation.trees import ONE_OF_EACH
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 
-from dynsolve.notation.latex import escaped, to_latex
+from dynsolve.notation.markup import escaped, to_latex
 from dynsolve.notation.printing import Style
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.notation.latex import to_latex
+from dynsolve.notation.markup import to_latex
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Cross,

@@ -6,8 +6,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from dynsolve.notation.latex import to_latex
-from dynsolve.notation.mathml import MathMLPrinter, to_mathml
+from dynsolve.notation.markup import MathMLPrinter, TypstPrinter, to_latex, to_mathml, to_typst
 from dynsolve.notation.printing import Style
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
@@ -25,7 +24,6 @@ from dynsolve.notation.tree import (
     Transpose,
     Words,
 )
-from dynsolve.notation.typst import TypstPrinter, to_typst
 
 TREES: dict[str, Node] = {
     "sum": read("m1*g - m2*(a - b)^2/2 + sqrt(3)/2").tree,

@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 
 from dynsolve.document import Document, Formula
 from dynsolve.notation.extent import Ruler
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.markup import LatexPrinter, TypstPrinter
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Number, Product, Relation, Symbol, equation
-from dynsolve.notation.typst import TypstPrinter
 from dynsolve.render.latex import latex_notation, render_fragment
 from dynsolve.render.line_breaking import FormulaSplitter, Piece, lines, together
 from dynsolve.render.typesetting import INDENT, INSIDE, Typesetter

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.latex import latex_text

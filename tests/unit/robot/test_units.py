@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 import dynsolve
-from dynsolve.notation.latex import to_latex
+from dynsolve.notation.markup import to_latex
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot import units

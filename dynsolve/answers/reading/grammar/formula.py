@@ -22,7 +22,7 @@ from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS, MARKS, For
 from dynsolve.answers.reading.grids import Grid, Value, divided, negative, times, total
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation import tokens as plain
+from dynsolve.notation import text as plain
 from dynsolve.notation.tree import Degrees, Node, Number, Power, Product, Quotient
 
 # Numbers as they are written: decimals, and degrees as `90°`, `90 deg` or `90^\circ`

@@ -13,7 +13,7 @@ from dynsolve.answers.reading.files import FORMATS, as_report, pandoc, read_subm
 from dynsolve.answers.verdict import Submission
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import style_of
-from dynsolve.notation.latex import to_latex
+from dynsolve.notation.markup import to_latex
 from tests.unit.answers.hands import checker, problem
 from tests.unit.answers.reading.test_yaml_libraries import trees
 

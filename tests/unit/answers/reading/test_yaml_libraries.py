@@ -17,7 +17,7 @@ from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.verdict import Submission
 from dynsolve.explain.context import style_of
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.latex import to_latex
+from dynsolve.notation.markup import to_latex
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Matrix
 from dynsolve.notation.unicode import to_unicode

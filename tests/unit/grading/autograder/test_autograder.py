@@ -18,8 +18,8 @@ import jsonschema
 import pytest
 
 from dynsolve.errors import ProblemError
+from dynsolve.grading.autograder import write_autograder
 from dynsolve.grading.autograder.__main__ import FAILED, lateness, main
-from dynsolve.grading.autograder.package import write_autograder
 from dynsolve.problem.reader import find
 from tests.support import with_files
 from tests.unit.grading.platforms.test_exports import RESULTS
