@@ -12,18 +12,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from fractions import Fraction
-from functools import lru_cache
 from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
-import dynsolve
 from dynsolve.answers.marking.marks import Policy, mark, shown, to_data
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.grading.hand_ins import HandIn, Intake
-from dynsolve.grading.pool import Bounds
+from dynsolve.grading.pool import Bounds, program
 from dynsolve.grading.record import Key, Record
 from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.quantities.index import quantities
@@ -41,19 +37,6 @@ _CAUSES = {
 
 OF_MARKS_ALONE = frozenset(("marks", "policy"))
 """The causes that touch marks alone."""
-
-
-@lru_cache(maxsize=1)
-def program() -> str:
-    """What identifies the program: every source file that a result depends on."""
-    root = Path(dynsolve.__file__).parent
-    found = sha256()
-    for path in sorted(root.rglob("*.py")):
-        name = path.relative_to(root).as_posix()
-        if not name.startswith(("cli/", "draw/")):
-            with suppress(FileNotFoundError):  # the program is changed just now
-                found.update(name.encode() + b"\0" + path.read_bytes())
-    return found.hexdigest()[:16]
 
 
 def causes(problems: ProblemSet, hand_in: HandIn, bounds: Bounds | None = None) -> dict[str, str]:

@@ -26,14 +26,13 @@ from dynsolve.grading.fingerprints import (
     causes,
     fingerprint,
     fingerprints,
-    program,
     row_of_result,
     rows_of_absent,
     short,
     touches_marks_alone,
 )
 from dynsolve.grading.hand_ins import File, HandIn, Intake
-from dynsolve.grading.pool import Bounds
+from dynsolve.grading.pool import Bounds, program
 from dynsolve.grading.record import Record, rescored
 from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.grading.uploads import Uploads, digest
