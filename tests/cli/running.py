@@ -46,8 +46,13 @@ def environment(**extra: str) -> dict[str, str]:
     return {**kept, "PYTHONIOENCODING": "utf-8", "TERM": "xterm-256color", **extra}
 
 
-def dynsolve(*words: str, stdin: str | bytes = "", cwd: Path = ROOT, **extra: str) -> Ran:
-    """Run `dynsolve words...` with files for its standard streams, in a process of its own."""
+def dynsolve(
+    *words: str, stdin: str | bytes = "", cwd: Path = ROOT, workers: bool = False, **extra: str
+) -> Ran:
+    """Run `dynsolve words...` with files for its standard streams, in a process of its own.
+
+    `grade` does the work in that process, unless it is to have `workers`.
+    """
     assert not any(name.startswith("PYTHON") for name in extra), "read as Python starts: `dynsolve_afresh`"
     data = stdin.encode() if isinstance(stdin, str) else stdin
     with ExitStack() as stack:
@@ -55,7 +60,7 @@ def dynsolve(*words: str, stdin: str | bytes = "", cwd: Path = ROOT, **extra: st
         files[0].write(data)
         for file in files:
             file.seek(0)
-        request = Request(words, str(cwd), environment(**extra))
+        request = Request(words, str(cwd), environment(**extra), workers)
         code = request.sent(_server(), [file.fileno() for file in files])
         out, err = (_contents(file.fileno()) for file in files[1:])
     return Ran(code, out, err)

@@ -8,9 +8,16 @@ from pathlib import Path
 
 import pytest
 
+from dynsolve.solution.reports import Format, report
 from tests.cli.running import dynsolve, dynsolve_afresh
+from tests.support import solved
 
 pytestmark = pytest.mark.slow
+
+
+def page(form: Format, abbreviate: str = "auto") -> str:
+    """What a person reads of the model of a long arm."""
+    return report(solved("stanford-6"), form, stages=["vectorized"], abbreviate=abbreviate).decode()
 
 
 def test_a_long_model_is_written_in_names() -> None:
@@ -24,9 +31,9 @@ def test_a_long_model_is_written_in_names() -> None:
 
 
 def test_never_writes_everything_out() -> None:
-    ran = dynsolve("solve", "stanford-6", "--abbreviate", "never", "--stage", "vectorized")
-    assert "Abbreviations" not in ran.out
-    assert "κ" not in ran.out
+    shown = page(Format.TEXT, abbreviate="never")
+    assert "Abbreviations" not in shown
+    assert "κ" not in shown
 
 
 def test_always_names_what_recurs_in_a_short_model() -> None:
@@ -46,12 +53,11 @@ def test_a_robot_without_masses_has_nothing_to_name(tmp_path: Path) -> None:
     assert dynsolve("solve", str(file), "--abbreviate", "always").code == 0
 
 
-@pytest.mark.parametrize("form", ["--latex", "--html", "--markdown"])
-def test_every_form_has_them(form: str) -> None:
-    ran = dynsolve("solve", "stanford-6", "--stage", "vectorized", form)
-    assert ran.code == 0
-    assert "Abbreviations" in ran.out
-    assert ("\\kappa_{1} " in ran.out or "\\kappa_1 " in ran.out) if form != "--html" else "κ" in ran.out
+@pytest.mark.parametrize("form", [Format.LATEX, Format.HTML, Format.MARKDOWN])
+def test_every_form_has_them(form: Format) -> None:
+    shown = page(form)
+    assert "Abbreviations" in shown
+    assert ("\\kappa_{1} " in shown or "\\kappa_1 " in shown) if form is not Format.HTML else "κ" in shown
 
 
 def test_json_carries_everything_and_the_names_where_they_are_asked_for() -> None:

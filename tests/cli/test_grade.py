@@ -108,7 +108,7 @@ def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, se
     long = "problem: in3140-rp\nanswers:\n" + "  P: (m1 + m2 + L1 + g + I1zz)^18*L2\n" * 2000
     hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": long, "b/in3140-rp.yaml": RIGHT})
     out = tmp_path / "out"
-    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out), "--timeout", "0.3")
+    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out), "--timeout", "0.3", workers=True)
     assert ran.code == 0, ran.err
     verdicts = [(row["student"], row["verdict"]) for row in table(out / "answers.csv")]
     assert verdicts == [("a", "unreadable")] * 2 + [("b", "correct")] * 2

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import os
-from concurrent.futures import Future
 from fractions import Fraction
 from math import floor
 from pathlib import Path
@@ -16,41 +15,20 @@ import dynsolve
 from dynsolve.answers.marking.marks import Policy
 from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
+from dynsolve.grading import public
 from dynsolve.grading.hand_ins import take_in
-from dynsolve.grading.pool import Bounds, Data
 from dynsolve.grading.record import Record
 from dynsolve.grading.run import Done, grade_all
 from dynsolve.grading.set_file import ProblemSet, load_set
 from dynsolve.grading.uploads import Uploads
-from dynsolve.grading.work import grade_one
 from tests.grading.generate import PROBLEMS, course, problem_set
+from tests.grading.here import Here
 from tests.support import ROOT
 
 pytestmark = pytest.mark.slow
 
 RIGHT = "answers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n"
 WRONG = "answers:\n  K: 0\n"
-
-
-class Here:
-    """A pool that works in this process."""
-
-    jobs = 1
-    bounds = Bounds()
-
-    def prepare(self, count: int) -> None:
-        pass
-
-    def submit(self, payload: Data) -> Future[Data]:
-        future: Future[Data] = Future()
-        future.set_result({"result": grade_one(payload)})
-        return future
-
-    def check(self) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
 
 
 @pytest.fixture
@@ -89,6 +67,7 @@ def test_a_file_that_changes_during_a_run_is_graded_by_the_next(tmp_path: Path, 
 def test_what_went_over_a_bound_is_tried_again_when_that_is_changed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(public, "LocalPool", pool_module.LocalPool)
     monkeypatch.setattr(pool_module, "MODULE", "tests.grading.heavy_worker")
     monkeypatch.setenv("PYTHONPATH", str(ROOT), prepend=os.pathsep)
     (tmp_path / "in").mkdir()

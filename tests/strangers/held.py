@@ -28,8 +28,8 @@ from dynsolve.notation.tree import Derivative, Letter, Node, Number, Slashed, Sy
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.render.files import Format
-from dynsolve.solution.documents import solution_document
-from dynsolve.solution.reports import report
+from dynsolve.solution.documents import solution_documents
+from dynsolve.solution.reports import rendered, report
 from tests.strangers.oracle import Unknown, random_point, relations, untrue
 from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
 
@@ -40,7 +40,7 @@ READ = 1e-3
 """The relative difference that printed decimals, of four digits and more, may make."""
 
 TOLD_IN_WORDS = {TRANSPOSED, *(("", "name", name) for name in COUNTING)}
-TEXTS = (Format.TEXT, Format.LATEX, Format.HTML, Format.MARKDOWN)
+TEXTS = (Format.LATEX, Format.HTML, Format.MARKDOWN)
 
 PROGRAM_TEXT = re.compile(
     r"\b(?:Row|Letter|Symbol|Sum|Product|Number|Power|Quotient|Negative|Function|Words|Fraction|Expr|Matrix)\("
@@ -97,23 +97,29 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
     except InputError as error:
         raise Refused(str(error)) from None
     report(solution, Format.JSON)
-    ways = list(product(Detail, Abbreviate))
-    for place, (detail, abbreviate) in enumerate(ways):
-        document = solution_document(solution, detail, None, abbreviate)
+    ways = list(product(Abbreviate, Detail))
+    documents = [one for way in Abbreviate for one in solution_documents(solution, tuple(Detail), None, way)]
+    for place, ((abbreviate, detail), document) in enumerate(zip(ways, documents, strict=True)):
+        if place == which % len(ways):
+            yield from _misread(solution, document, which)
+            format = TEXTS[place % 3]
+            page = report(solution, format, detail=detail, abbreviate=abbreviate)
+            yield from _program_text(page.decode(), format)
+        if document in documents[:place]:  # nothing is long enough to be abbreviated
+            continue
         for one in untrue(document.blocks, random_point(solution, which)):
             yield Fault(
                 "untrue", f"{one.where}: {to_unicode(one.left)} = {to_unicode(one.right)}: {one.numbers}"
             )
         yield from _unknown_letters(solution, document, abbreviate)
-        is_read = place == which % len(ways)
-        if is_read:
-            yield from _misread(solution, document, which)
-        formats = (Format.TEXT, *([TEXTS[1 + place % 3]] if is_read else []))
-        for format in formats:
-            page = report(solution, format, detail=detail, abbreviate=abbreviate).decode()
-            words = _words(page, format)
-            for match in PROGRAM_TEXT.finditer(words):
-                yield Fault("program text", f"{format.value}: {_around(words, match)}")
+        page = rendered(document, solution.style, Format.TEXT, fragment=False)
+        yield from _program_text(page.decode(), Format.TEXT)
+
+
+def _program_text(page: str, format: Format) -> Iterator[Fault]:
+    words = _words(page, format)
+    for match in PROGRAM_TEXT.finditer(words):
+        yield Fault("program text", f"{format.value}: {_around(words, match)}")
 
 
 def _misread(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
 from dynsolve.algebra.expr import Expr
@@ -39,9 +41,13 @@ def names(problem: str) -> Abbreviated:
     return found
 
 
+@cache
+def steps(problem: str) -> dict[str, Step]:
+    return {step.id: step for step in solved(problem).explain(short=names(problem))}
+
+
 def told(problem: str, name: str) -> Step:
-    solution = solved(problem)
-    return next(step for step in solution.explain(short=names(problem)) if step.id == name)
+    return steps(problem)[name]
 
 
 def values(problem: str, equation: Node) -> list[Expr]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from unicodedata import normalize
 
 import pytest
@@ -23,6 +24,7 @@ from tests.unit.explain.working.evaluated import evaluated
 LONG = ("stanford-6", pytest.param("puma560", marks=pytest.mark.slow))
 
 
+@cache
 def steps(problem: str) -> dict[str, Step]:
     return {step.id: step for step in solved(problem).explain(short=solved(problem).abbreviated())}
 
