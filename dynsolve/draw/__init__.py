@@ -18,6 +18,7 @@ What is drawn of it:
     solids        the joints as paths, the tubes between them and the bodies, with all else from back to
                   front; drums, blocks and balls
     joint_angles  the angles of the joints, from the line from which each is measured
+    forces        forces from outside, each at its point
     lengths       lengths with their heads; the world where the base is moved in it or leans
     labels        where labels stand, and which places on paper are taken
     scene         all of it together, and how thick bodies are

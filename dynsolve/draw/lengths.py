@@ -16,7 +16,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Box, Label, Wanted, place
 from dynsolve.draw.paths import Path
-from dynsolve.draw.poses import MARK, Notes, Pose, axis_arrow, axis_end_on
+from dynsolve.draw.poses import MARK, Notes, Pose, axis_arrow, seen_end_on
 from dynsolve.draw.skeleton import RobotNumbers
 from dynsolve.draw.vectors import (
     IDENTITY,
@@ -289,7 +289,7 @@ def _axes(origin: Vector, pose: Pose, notes: Notes) -> None:
     for letter, axis in zip("xyz", IDENTITY, strict=True):
         tip = axis_arrow(at, axis, pose, notes)
         if tip == at:
-            axis_end_on(at, dot(axis, pose.view.toward) > 0, notes)
+            seen_end_on(at, dot(axis, pose.view.toward) > 0, notes)
         toward = tip[0] - at[0], tip[1] - at[1]
         radius = MARK if tip == at else 0.0
         notes.label(letters.bold(letter, Words("w")), [tip], toward, paths.FRAME, "axis", radius)

@@ -341,7 +341,7 @@ def axes_end_on(pose: Pose, notes: Notes) -> None:
     for frame in pose.skeleton.frames:
         for axis in (frame.x, frame.z):
             if _is_end_on(axis, pose):
-                axis_end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
+                seen_end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
 
 
 def reach_of_axis(direction: Point, pose: Pose) -> float:
@@ -354,16 +354,15 @@ def _is_end_on(axis: Vector, pose: Pose) -> bool:
     return math.hypot(*pose.view.direction(axis)) < _END_ON
 
 
-def axis_end_on(origin: Point, toward: bool, notes: Notes) -> None:
-    """An axis seen end on: a point for the tip of the arrow, a cross for its feathers."""
-    radius = MARK
-    notes.draw(Path(paths.circle(origin, radius), paths.FRAME, 1.4, paths.WHITE))
+def seen_end_on(center: Point, toward: bool, notes: Notes, colour: str = paths.FRAME) -> None:
+    """An arrow seen end on: a point for its tip, a cross for its feathers."""
+    notes.draw(Path(paths.circle(center, MARK), colour, 1.4, paths.WHITE))
     if toward:
-        notes.draw(Path(paths.circle(origin, 2.0), None, fill=paths.FRAME))
+        notes.draw(Path(paths.circle(center, 2.0), None, fill=colour))
         return
-    (x, y), s = origin, 0.7 * radius
+    (x, y), s = center, 0.7 * MARK
     for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
-        notes.draw(Path(paths.line(a, b), paths.FRAME, 1.4))
+        notes.draw(Path(paths.line(a, b), colour, 1.4))
 
 
 # -- mass centres and gravity ----------------------------------------------------------------------

@@ -18,6 +18,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
+from dynsolve.draw.forces import FORCES, NOT_DRAWN, drawn_forces, forces
 from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, names_of_angles, parallels
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place
 from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, world_frame
@@ -175,6 +176,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
         under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
     springs(robot, values, pose, notes)
+    forces(robot, values, pose, notes)
     poses.masses(pose, notes)
     poses.axes_end_on(pose, notes)
     thicknesses(robot, pose, notes)
@@ -205,6 +207,7 @@ def allowed_pose(robot: Robot, values: RobotNumbers, world: Orientation) -> Pose
 def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[Label]) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
+    pushed = [load for load, *_ in drawn_forces(robot, values, pose)]
     said = (
         (WORLD, has_world(robot, values)),
         (_axis_of_base(robot), has_world(robot, values) and len(robot.base_turns) == 1),
@@ -217,6 +220,8 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (SPRINGS, bool(at_joints)),
         (OTHER_SPRINGS, len(at_joints) < len(robot.actions.springs)),
         (NO_DAMPERS, bool(robot.actions.dampers)),
+        (FORCES, bool(pushed)),
+        (NOT_DRAWN, any(not load.moment.is_zero or load not in pushed for load in robot.questions.loads)),
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
     return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.document import Block, Inline, List, Prose, Text
+from dynsolve.document import Block, Formula, Inline, List, Prose, Text
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
@@ -25,6 +25,7 @@ from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
+from dynsolve.notation import tree
 from dynsolve.notation.tree import (
     ZERO,
     Negative,
@@ -36,6 +37,7 @@ from dynsolve.notation.tree import (
     Words,
     equation,
     mapped,
+    walk,
 )
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
@@ -44,7 +46,7 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.actions import JointFriction, Motor
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
-from dynsolve.robot.questions import TIP, Load
+from dynsolve.robot.questions import TIP, Load, Target
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
 if TYPE_CHECKING:
@@ -93,7 +95,7 @@ def statement(forms: Forms, problem: Problem, sines: Iterable[Line] = ()) -> Ite
     """Given: the arm or the mechanism, what acts on it, what is asked of it; its symbols; To be found."""
     given = [sentence for sentence in _sentences(forms, problem) if sentence]
     if given:
-        yield Text(("Given: ", *sentences(given)))
+        yield from displayed(("Given: ", *sentences(given)))
     names: list[Prose] = []
     for line in problem_names(forms.robot):  # l₁, l₂: length of link i (m)
         unit: Prose = (" (", units.node(line.unit), ")") if line.unit else ()
@@ -104,6 +106,36 @@ def statement(forms: Forms, problem: Problem, sines: Iterable[Line] = ()) -> Ite
     found = [called for name in problem.find if (called := _called(forms, name))]
     if found:
         yield Text(("To be found: ", *listed(found), "."))
+
+
+def displayed(prose: Prose) -> Iterator[Text | Formula]:
+    """A paragraph, in which what has a matrix of several rows stands in a display of its own.
+
+    >>> matrix = tree.Matrix(((ZERO,), (ZERO,)))
+    >>> [type(block).__name__ for block in displayed(("To be reached: ", matrix, ". Then."))]
+    ['Text', 'Formula', 'Text']
+    """
+    words: list[Inline] = []
+    for part in prose:
+        if isinstance(part, Node) and any(isinstance(n, tree.Matrix) and len(n.rows) > 1 for n in walk(part)):
+            yield from _paragraph(words)
+            yield Formula(part)
+            words = []
+        else:
+            words.append(part)
+    yield from _paragraph(words)
+
+
+def _paragraph(words: list[Inline]) -> Iterator[Text]:
+    """The words, without the stop of a display before them."""
+    match words:
+        case [str(first), *rest]:
+            words = [first.removeprefix(".").lstrip(), *rest]
+    while words and words[0] in ("", " "):
+        words = words[1:]
+    if words:
+        *before, last = words
+        yield Text((*before, last.rstrip() if isinstance(last, str) else last))
 
 
 def sentences(parts: Sequence[Prose]) -> Iterator[Inline]:
@@ -502,7 +534,7 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     if task is not None and task.entries and not task.is_default:
         yield ("The task is ", equation(letters.TASK, _flat(map(_in_letters, task.entries))), ".")
     if questions.target is not None:
-        yield ("To be reached: ", equation(letters.TASK, _flat(questions.target.values)), ".")
+        yield ("To be reached: ", _target(forms.robot, questions.target), ".")
     for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
         if value is not None:
             yield (equation(letters.bold("r", dots=dots), _flat(map(forms.of, value.entries))), ".")
@@ -523,6 +555,16 @@ def _questions(forms: Forms) -> Iterator[Prose]:
 
         written = SetForms(forms.robot, forms.values)
         yield ("Assumed: ", *listed([written.inequality(bound) for bound in assumed]), ".")
+
+
+def _target(robot: Robot, target: Target) -> Node:
+    """The task, or the frame, and what it is to be."""
+    task, values = robot.questions.task, target.values
+    if task is None or not task.is_pose:
+        return equation(letters.TASK, _flat(values))
+    rows = [(*values[3 * k + 3 : 3 * k + 6], values[k]) for k in range(3)]
+    pose = tree.Matrix((*rows, (ZERO, ZERO, ZERO, Number(1))))
+    return equation(letters.H(robot, len(robot.joints)), pose)
 
 
 def _load(forms: Forms, load: Load) -> Prose:

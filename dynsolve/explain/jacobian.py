@@ -428,7 +428,7 @@ def how_read_off(context: Context, joint: Joint) -> Prose:
 def _in_a_row(entries: Sequence[Node]) -> Node:
     """(a, b, c)ᵀ, a column within a sentence."""
     a, b, c = entries
-    return Transpose(Parenthesized(Row((a, Words(","), b, Words(","), c))))
+    return Transpose(Parenthesized(Row((a, Words(", "), b, Words(", "), c))))
 
 
 def parallel(context: Context, link: int, name: Node, point: algebra.Matrix) -> Prose:

@@ -20,7 +20,7 @@ from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.explain.writing import agreeing, and_joined
+from dynsolve.explain.writing import agreeing, and_joined, turns
 from dynsolve.notation.characters import split
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.tree import names_in as names_in_trees
@@ -28,7 +28,8 @@ from dynsolve.notation.unicode import lowered, to_unicode
 from dynsolve.quantities import letters
 from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions
-from dynsolve.robot.model import Body, Convention, Joint, Robot
+from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
+from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import AXES, MASS, Shape
 from dynsolve.robot.units import ENERGY, si
 
@@ -94,6 +95,17 @@ class Role(Enum):
     VISCOUS = "coefficient|coefficients of viscous friction"
     COULOMB = "coefficient|coefficients of Coulomb friction"
     DAMPING = "coefficient|coefficients of a|the damper|dampers"
+    SPRING = "parameter|parameters of a|the spring|springs"
+    DOWN = "angle|angles of gravity to the axes of the base"
+    FORCE = "force|forces from outside"
+    MOMENT = "moment|moments from outside"
+    PLACE = "place of a|the point|points in its|their link|links"
+    SPEED = "given velocity|velocities of the task"
+    ACCELERATION = "given acceleration|accelerations of the task"
+    STATE = "value|values of a|the coordinate|coordinates in the given state"
+    RATE = "rate|rates of a|the coordinate|coordinates in the given state"
+    STEADY = "constant rate|rates of a|the coordinate|coordinates"
+    CONSTRAINT = "constant|constants in the constraints"
     OTHER = "parameter|parameters of the problem"
 
     def of(self, count: int) -> str:
@@ -106,11 +118,24 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
     found: dict[str, Role] = {}
     for role, name, _ in _places(robot):
         found.setdefault(name, role)
-    dimensions = _dimensions(robot)
-    return {
-        name: (role := found.get(name, Role.OTHER), "rad" if role is Role.TURN else dimensions.get(name, ""))
-        for name in robot.parameters
-    }
+    dimensions, at_state = _dimensions(robot), _units_of_values(robot)
+
+    def unit(name: str, role: Role) -> str:
+        own = dimensions.get(name) or at_state.get(name, "")
+        is_torsion = role is Role.STIFFNESS and own == "N m"
+        is_angle = role is Role.REST and not own and all(map(turns, robot.coordinates))
+        return "rad" if is_angle or role in (Role.TURN, Role.DOWN) else "N m/rad" if is_torsion else own
+
+    return {name: (role := found.get(name, Role.OTHER), unit(name, role)) for name in robot.parameters}
+
+
+def _units_of_values(robot: Robot) -> dict[str, str]:
+    """Units of the parameters that are the value of a coordinate or of a rate."""
+    base = {q.name: "m" if q.type is JointType.PRISMATIC else "rad" for q in robot.coordinates}
+    given = [*robot.questions.state.values, *robot.questions.model.linearize]
+    given += [(name, 1, value) for name, value in robot.questions.model.steady]
+    per = ("", "/s", "/s^2")
+    return {value.name: base[name] + per[dots] for name, dots, value in given if isinstance(value, Symbol)}
 
 
 def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
@@ -131,7 +156,7 @@ def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
 
 def _dimensions(robot: Robot) -> dict[str, str]:
     """Units of the parameters: a torque, or the stiffness of a torsion spring, is no energy."""
-    known = Dimensions(robot.ring, robot)
+    known = Dimensions(robot.ring, robot, with_questions=True)
     units: dict[str, str] = {}
     for generator in robot.ring.generators:
         if generator.kind == "symbol" and not generator.dots:
@@ -170,6 +195,7 @@ def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
     """Where parameters stand, and what they are there; the strongest role first."""
     for entry in robot.gravity.entries:
         yield from _untold(Role.GRAVITY, names_in(entry))
+        yield from _untold(Role.DOWN, angles_in(entry))
     for joint in robot.joints:
         for name in names_in(joint.a):
             yield Role.LENGTH, name, _along_x(robot, joint, name) if _is(joint.a, name) else _in_row(joint)
@@ -193,6 +219,7 @@ def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
         rates = (rate for turn in body.turns for rate in turn.rates.entries)
         yield from _untold(Role.POSITION, *map(names_in, rates))
     yield from _acting(robot.actions)
+    yield from _asked(robot.questions)
 
 
 def _untold(role: Role, *names: Iterable[str]) -> Iterator[tuple[Role, str, Meaning]]:
@@ -205,6 +232,8 @@ def _acting(actions: Actions) -> Iterator[tuple[Role, str, Meaning]]:
     for motor in actions.motors:
         yield from _untold(Role.ROTOR, names_in(motor.inertia))
         yield from _untold(Role.RATIO, names_in(motor.ratio))
+    for spring in (spring for spring in actions.springs if not spring.law):
+        yield from _untold(Role.SPRING, names_in(spring.energy))
     for law in (spring.law for spring in actions.springs if spring.law):
         yield from _untold(Role.STIFFNESS, names_in(law.stiffness))
         yield from _untold(Role.REST, names_in(law.rest))
@@ -213,6 +242,29 @@ def _acting(actions: Actions) -> Iterator[tuple[Role, str, Meaning]]:
         yield from _untold(Role.COULOMB, names_in(one.coulomb))
     for damper in actions.dampers:
         yield from _untold(Role.DAMPING, names_in(damper.damping))
+
+
+def _asked(questions: Questions) -> Iterator[tuple[Role, str, Meaning]]:
+    """Where the parameters of what is asked stand: in forces, points, rates, a state, constraints."""
+    loads, points = questions.loads, questions.points
+    of_exact = (
+        (Role.FORCE, [load.force for load in loads]),
+        (Role.MOMENT, [load.moment for load in loads]),
+        (Role.PLACE, [*(load.position for load in loads), *(point.position for point in points)]),
+        (Role.SPEED, [questions.velocity]),
+        (Role.ACCELERATION, [questions.acceleration]),
+    )
+    for role, values in of_exact:
+        entries = [entry for value in values if value is not None for entry in value.entries]
+        yield from _untold(role, *map(names_in, entries))
+    for _, dots, formula in questions.state.values:
+        yield from _untold(Role.RATE if dots else Role.STATE, names_in_trees(formula))
+    for _, formula in questions.model.steady:
+        yield from _untold(Role.STEADY, names_in_trees(formula))
+    for _, _, formula in questions.model.linearize:
+        yield from _untold(Role.STATE, names_in_trees(formula))
+    for constraint in questions.constraints:
+        yield from _untold(Role.CONSTRAINT, names_in_trees(constraint.entry))
 
 
 # -- the table -------------------------------------------------------------------------------------
@@ -432,6 +484,13 @@ def letters_of(body: Body) -> Iterator[tuple[str, Expr]]:
     if body.shape is not None and body.shape.formulas:
         yield MASS, body.mass
         yield from body.shape.letters
+
+
+def angles_in(expr: Expr) -> Iterator[str]:
+    """The symbols in the angles of a value."""
+    for generator, degree in zip(expr.ring.generators, expr.poly.degrees(), strict=True):
+        if degree > 0 and generator.kind in ("sin", "cos") and generator.angle is not None:
+            yield from names_of(generator.angle)
 
 
 def names_in(expr: Expr) -> Iterator[str]:

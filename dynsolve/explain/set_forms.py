@@ -66,11 +66,13 @@ class SetForms:
 
     def existence(self, name: str, exist: Sequence[Sequence[Bound]]) -> Iterator[Prose]:
         """For which parameters the alternatives of a set are there that are not for all."""
-        for case, bounds in zip(self.alternatives(name), exist, strict=True):
+        cases = self.alternatives(name)
+        for case, bounds in zip(cases, exist, strict=True):
             if bounds:
+                zeros = side_by_side([equation(value, Number(0)) for value in case])
                 yield say(
                     "{these} has solutions where {conditions}.",
-                    these=side_by_side([equation(value, Number(0)) for value in case]),
+                    these="This" if len(cases) == 1 else zeros,
                     conditions=side_by_side([*map(self.inequality, bounds)]),
                 )
 

@@ -110,7 +110,7 @@ class Step(Struct, frozen=True):
     from there to the `result`, what comes out, one operation after the other, the last one being
     said in `concluding`.  `uses` names the earlier steps that it is computed from, unless these are
     the inputs of its rule; `x#2` is the second result of x alone.  `names` are the labels of lines that
-    define what it is written in.
+    define what it is written in; `defines` are those of its results that define names for later ones.
 
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
@@ -153,6 +153,7 @@ class Step(Struct, frozen=True):
     also: tuple[str, ...] = ()
     uses: tuple[str, ...] | None = None
     names: tuple[str, ...] = ()
+    defines: tuple[Node, ...] = ()
     hint: Prose = ()
     hint_title: str = ""
     task: Node | None = None

@@ -72,6 +72,7 @@ SPONG = Book(
         "4.9": "Singularities",
         "4.10": "Static Force/Torque Relationships",
         "4.11": "Inverse Velocity and Acceleration",
+        "4.12": "Manipulability",
         "7.1": "The Euler-Lagrange Equations",
         "7.2": "Kinetic and Potential Energy",
         "7.2.1": "The Inertia Tensor",

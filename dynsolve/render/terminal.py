@@ -249,8 +249,10 @@ def _set_member(
             row = beside([row, TextBox.of(lead), piece])
         elif len(piece.lines) > 1:
             multiplies = not lead.strip() and len(row.lines) > 1
-            lines += [*_flushed(row), *[""] * multiplies]
             sign = "· " if multiplies else lead.lstrip()
+            is_apart = width(sign) + piece.width > room  # then the sign has a line for itself
+            lines += [*_flushed(row), *[" " * hang + sign.strip() if is_apart else ""] * multiplies]
+            sign = "" if multiplies and is_apart else sign
             margin = max(0, min(hang, room - width(sign) - piece.width))
             row = beside([TextBox.of(" " * margin), TextBox.of(sign), piece])
         else:

@@ -66,17 +66,22 @@ def entries_by_value(matrix: Matrix) -> list[tuple[Node, list[tuple[int, int]]]]
     return [*places.items(), *([(ZERO, zeros)] if zeros else [])]
 
 
+MOST_ZEROS = 6
+"""So many entries that are 0 are named."""
+
+
 def entry_equations(matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[Relation]:
     """`d_12 = d_21 = ...`: equal entries in one chain, those that are 0 last.
 
-    Zeros of what has no letter of its own, (A - B)_12, are told in words: their names are long.
+    Many zeros are told in words, and so are those of what has no letter of its own, (A - B)_12.
     """
     found = entries_by_value(matrix)
     for value, places in found:
         names = [entry_name(i, j, matrix, left, formula) for i, j in places]
         first = names[0]
         has_letter = not isinstance(first, Entry) or isinstance(first.of, Letter)
-        if value == ZERO and len(names) > 1 < len(found) and not has_letter:
+        many = MOST_ZEROS if has_letter else 1
+        if value == ZERO and len(names) > many and len(found) > 1:
             names = [_OTHERS]
         yield equation(*names, value)
 

@@ -13,12 +13,14 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr, Generator, is_sign
 from dynsolve.algebra.ring import Ring
+from dynsolve.notation.tree import Node, Reference, Symbol, walk
 from dynsolve.notation.tree_values import recalled
 from dynsolve.robot.actions import GivenModel
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.units import (
     ACCELERATION,
     ENERGY,
+    FORCE,
     INERTIA,
     LENGTH,
     MASS,
@@ -33,9 +35,12 @@ MOST_REMEMBERED = 10_000
 
 
 class Dimensions:
-    """The dimensions of the generators of a ring; `known` is False where the problem has bare numbers."""
+    """The dimensions of the generators of a ring; `known` is False where the problem has bare numbers.
 
-    def __init__(self, ring: Ring, robot: Robot) -> None:
+    They follow from the model, and `with_questions` from what is asked of it, too: from forces, and rates.
+    """
+
+    def __init__(self, ring: Ring, robot: Robot, *, with_questions: bool = False) -> None:
         self.ring = ring
         self.robot = robot
         self.known = True
@@ -43,8 +48,9 @@ class Dimensions:
         self._products: dict[tuple[int, ...], Dimension | None] = {}
         self._coordinates()
         roles = [(e, d) for e, d in _roles(robot) if not e.is_zero]
+        asked = [(e, d) for e, d in _roles_of_questions(robot) if not e.is_zero] if with_questions else []
         for _ in range(3):
-            for expr, role in roles:
+            for expr, role in (*roles, *asked):
                 self._learn(expr, role)
         self._products.clear()
         self.known = all(self._sound(expr, role) for expr, role in roles)
@@ -166,6 +172,34 @@ def _given_roles(robot: Robot, given: GivenModel) -> Iterator[tuple[Expr, Dimens
         for entry, other in zip(row, robot.coordinates, strict=True):
             lengths = (q.type is JointType.PRISMATIC) + (other.type is JointType.PRISMATIC)
             yield entry, times(INERTIA, LENGTH, -lengths)
+
+
+def _roles_of_questions(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
+    """The same of what is asked: forces from outside, points, the rates of the task."""
+    asked = robot.questions
+    for load in asked.loads:
+        yield from ((entry, FORCE) for entry in load.force.entries)
+        yield from ((entry, ENERGY) for entry in load.moment.entries)
+        yield from ((entry, LENGTH) for entry in load.position.entries)
+    for point in asked.points:
+        yield from ((entry, LENGTH) for entry in point.position.entries)
+    task = asked.task
+    if task is None:
+        return
+    kinds = [LENGTH] * 3 + [NONE] * 3 if task.is_twist else [_of_component(robot, e) for e in task.entries]
+    for dots, values in ((1, asked.velocity), (2, asked.acceleration)):
+        for kind, entry in zip(kinds, values.entries if values is not None else (), strict=False):
+            if kind is not None:
+                yield entry, times(kind, dimension(time=-dots))
+
+
+def _of_component(robot: Robot, entry: Node) -> Dimension | None:
+    """A component of a task: a length where points or sliding joints make it, a number where angles do."""
+    if any(isinstance(part, Reference) for part in walk(entry)):
+        return LENGTH
+    types = {q.name: q.type for q in robot.coordinates}
+    found = {types.get(part.name) for part in walk(entry) if isinstance(part, Symbol)}
+    return NONE if found == {JointType.REVOLUTE} else LENGTH if found == {JointType.PRISMATIC} else None
 
 
 def _roles_of_actions(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:

@@ -361,11 +361,15 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     kept = side_by_side([equation(Symbol(of, 1), value) for of, value in steady]) if steady else ""
     of_motion = say(" with {kept}", kept=kept) if steady else ""
     yield Text(say(f"{called[0].upper()}{called[1:]}{{of_motion}}:", of_motion=of_motion))
-    if step.table is not None:
-        unknowns = {f"{name}_{q.name}" for q in robot.coordinates} & set(step.uses or ())
-        formulas = tuple(result for one in steps if one.id in unknowns for result in one.result)
-        yield from (Equations(formulas),) if formulas else ()
-        yield Table(step.table.header, step.table.rows)
+    unknowns = {f"{name}_{q.name}" for q in robot.coordinates} & set(step.uses or ())
+    used = [one for one in steps if one.id in (step.uses or ())]
+    found = [node for one in used for node in (one.result if one.id in unknowns else one.defines)]
+    if step.table is not None or unknowns:
+        for matrices, nodes in groupby(found, lambda node: any(isinstance(n, Matrix) for n in walk(node))):
+            together = tuple(nodes)
+            yield from map(Formula, together) if matrices else (Equations(together),)
+        yield from (Text(step.outcome),) if step.outcome else ()
+        yield from (Table(step.table.header, step.table.rows),) if step.table is not None else ()
     elif step.result:
         yield Equations(step.result)
         yield from (Text(step.outcome),) if step.outcome and name == "equilibria" else ()
@@ -410,12 +414,37 @@ def solution_documents(
 
     def made(short: Abbreviated | None) -> tuple[Document, ...]:
         steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
-        parts = (_Parts(solution, detail, stages, steps, drawn, short) for detail in details)
+        needed = None if stages is not None else needed_stages(solution)
+
+        def of(detail: Detail) -> Sequence[Step]:
+            is_whole = needed is None or detail is Detail.FULL
+            return steps if is_whole else [step for step in steps if step.stage in needed]
+
+        parts = (_Parts(solution, detail, stages, of(detail), drawn, short) for detail in details)
         return tuple(each.document() for each in parts)
 
     names = "what is written in names"
     short = attempted(lambda: solution.abbreviated(abbreviate), lambda: None, names)
     return made(None) if short is None else attempted(lambda: made(short), lambda: made(None), names)
+
+
+_FROM_AXES = frozenset({Stage.ENERGY, Stage.STATICS, Stage.TASK_INERTIA})
+"""The stages in which points move about the axes that the stage of the Jacobian tells of."""
+
+
+def needed_stages(solution: Dynamics) -> frozenset[Stage] | None:
+    """The stages of what is asked and of what that is derived from; None where all of them are told."""
+    known, values = quantities(solution.robot), solution.values
+    asked = [known[name].rule if name in known else "" for name in solution.problem.find]
+    if not asked or not all(name in values.rules for name in asked):
+        return None
+    leading = values.leading_to(asked)
+    found = {one.family.stage for one in known.values() if one.rule in leading}
+    if found & _FROM_AXES or solution.robot.questions.points:
+        found.add(Stage.JACOBIAN)
+    return frozenset(
+        found | {stage for stage in Stage if stage.asked_for}
+    )  # these tell of what is asked alone
 
 
 _IN_NUMBERS = (

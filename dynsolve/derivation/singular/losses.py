@@ -36,9 +36,9 @@ MOST_WORK = 2_500
 class Loss(Struct, frozen=True):
     """The rank where some conditions hold, and the directions that are lost; none where they are long.
 
-    `jacobian` is the matrix there, up to a factor that is never 0.  With `rank_holds` the rank is that
-    wherever the conditions hold, and with `are_independent` the directions are independent there; else
-    both are so almost everywhere.
+    The last `everywhere` of the `directions` are lost in every configuration.  `jacobian` is the matrix
+    there, up to a factor that is never 0.  With `rank_holds` the rank is that wherever the conditions hold,
+    and with `are_independent` those `here` are independent there; else both are so almost everywhere.
     """
 
     rank: int
@@ -46,12 +46,27 @@ class Loss(Struct, frozen=True):
     jacobian: Matrix
     rank_holds: bool
     are_independent: bool
+    everywhere: int = 0
+
+    @property
+    def here(self) -> tuple[Direction, ...]:
+        """The directions that are lost there and not everywhere."""
+        return self.directions[: len(self.directions) - self.everywhere]
+
+
+def lost_everywhere(jacobian: Matrix, rank: int) -> tuple[Direction, ...]:
+    """The directions w with wᵀ J = 0 in every configuration, of a Jacobian of this rank."""
+    return tuple(_directions(jacobian, rank, ()))
 
 
 def loss(
-    jacobian: Matrix, core_of_it: tuple[int, Matrix], conditions: Sequence[Condition], greatest: int
+    jacobian: Matrix,
+    core_of_it: tuple[int, Matrix],
+    conditions: Sequence[Condition],
+    greatest: int,
+    everywhere: Sequence[Direction] = (),
 ) -> Loss:
-    """What a Jacobian of greatest rank `greatest` loses where all conditions hold."""
+    """What a Jacobian of greatest rank `greatest` loses where conditions hold, beside what is lost anyhow."""
     pivots, rest = core_of_it
     more, there = core(_held(rest, conditions))
     pivots += more
@@ -59,17 +74,41 @@ def loss(
     left = next((k for k in sizes if _has_rank(there, k, conditions)), 0)
     rank = pivots + left
     held = _held(jacobian, conditions)
-    directions = tuple(_directions(held, rank, conditions))
+    directions, many = _parted(tuple(_directions(held, rank, conditions)), everywhere, conditions)
     is_short = all(sum(map(len, direction)) <= LONGEST for direction in directions)
     shown = directions if is_short else ()
+    here = shown[: len(shown) - many] if shown else ()
     return Loss(
         rank,
         shown,
         held,
         rank_holds=not left or _has_rank_everywhere(there, left, conditions),
-        are_independent=not shown
-        or _has_rank_everywhere(Matrix.of(jacobian.ring, shown), len(shown), conditions),
+        are_independent=not here
+        or _has_rank_everywhere(Matrix.of(jacobian.ring, here), len(here), conditions),
+        everywhere=many if shown else 0,
     )
+
+
+def _parted(
+    directions: tuple[Direction, ...], everywhere: Sequence[Direction], conditions: Sequence[Condition]
+) -> tuple[tuple[Direction, ...], int]:
+    """The directions, behind those of one configuration those that are lost anyhow, and how many these are.
+
+    What is lost anyhow may be no longer independent there: then nothing is parted.
+    """
+    if not directions or not everywhere:
+        return directions, 0
+    ring = directions[0][0].ring
+    kept = [_without_shared(_reduced(one, conditions)) for one in everywhere]
+    if not _has_rank(Matrix.of(ring, kept), len(kept), conditions):
+        return directions, 0
+    found: list[Direction] = []
+    for one in directions:
+        if len(found) + len(kept) == len(directions):
+            break
+        if _has_rank(Matrix.of(ring, (*kept, *found, one)), len(kept) + len(found) + 1, conditions):
+            found.append(one)
+    return (*found, *kept), len(kept)
 
 
 def _held(matrix: Matrix, conditions: Sequence[Condition]) -> Matrix:

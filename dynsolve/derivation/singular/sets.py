@@ -12,7 +12,7 @@ from dynsolve.algebra.factors import is_positive, squares, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix, minors, parts, work
 from dynsolve.derivation.elimination import ParameterSigns, conditions
-from dynsolve.derivation.singular.losses import Loss, loss
+from dynsolve.derivation.singular.losses import Loss, loss, lost_everywhere
 from dynsolve.derivation.singular.zeros import Condition, can_hold, core, exceptions, follows, obstacles
 
 Alternative = tuple[Condition, ...]
@@ -32,6 +32,10 @@ MOST_WORK = 3000
 
 MOST_CORE_WORK = 30_000
 """Nor is a core whose minors may come to more."""
+
+
+MOST_SPECIAL_TERMS = 8
+"""Of special parameters with more terms it is only said that there may be some."""
 
 
 class TooLong(Exception):
@@ -67,7 +71,8 @@ class SingularSet(Struct, frozen=True):
 
     `minors` are the expressions that vanish there, all in one ring: those of the Jacobian, or of its
     `core`, whose rank is less by `pivots`.  `losses` are the rank and what is lost at each alternative,
-    `exist` what the parameters must satisfy for it to be there.
+    `exist` what the parameters must satisfy for it to be there.  Where one of the `special` polynomials
+    in parameters is 0 there may be others, and with `may_be_others` for further special parameters.
     """
 
     rank: int
@@ -77,6 +82,8 @@ class SingularSet(Struct, frozen=True):
     exist: tuple[tuple[Bound, ...], ...] = ()
     pivots: int = 0
     core: Matrix | None = None
+    special: tuple[Expr, ...] = ()
+    may_be_others: bool = False
 
 
 def singular_set(jacobian: Matrix) -> SingularSet | None:
@@ -96,12 +103,14 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
         shown, found = None, tuple(minors(jacobian, pivots + rank))
     else:
         shown, found = rest, tuple(minors(rest, rank)) if rank else ()
+    special = Special(ParameterSigns())
     try:
-        alternatives = common_zeros(found) if found else ()
+        alternatives = common_zeros(found, special) if found else ()
     except TooLong:
         return None
     exist = {one: bounds for one in alternatives if (bounds := existence(one)) is not None}
-    losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank) for one in exist)
+    everywhere = lost_everywhere(jacobian, pivots + rank) if exist else ()
+    losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank, everywhere) for one in exist)
     return SingularSet(
         pivots + rank,
         found,
@@ -110,6 +119,8 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
         tuple(exist.values()),
         0 if shown is None else pivots,
         shown,
+        tuple(factor for factor in special.factors if len(factor) <= MOST_SPECIAL_TERMS),
+        special.is_open or any(len(factor) > MOST_SPECIAL_TERMS for factor in special.factors),
     )
 
 

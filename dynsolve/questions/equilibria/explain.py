@@ -192,7 +192,8 @@ def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[N
     if at:
         where = ("At ", side_by_side(at))
     elif case:
-        where = ("Where ", vanishing(case))
+        cases = shown.equilibria
+        where = ("There",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
     return say("{where}: {said}{along}.", where=where, said=said, along=along)
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from math import inf
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from math import inf, prod
 
 from msgspec.structs import replace
 
@@ -11,7 +11,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_nonnegative, is_positive
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.document import Prose, Table
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
 from dynsolve.explain.step import Part as Shown
@@ -32,6 +32,7 @@ from dynsolve.notation.tree import (
     names_in,
     with_formulas,
 )
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.questions.inverse.equations import (
     Direct,
@@ -176,7 +177,7 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
         why = (*_origin([e.origin for e in step.equations]), *say(_form(step), q=Symbol(step.coordinate)))
     return Step(
         id=f"inverse_{step.coordinate}",
-        title=f"Solving for {step.coordinate}",
+        title=f"Solving for {to_unicode(Symbol(step.coordinate))}",
         why=why,
         working=working,
         lines=lines,
@@ -417,6 +418,7 @@ def _starting(forms: InverseFormulas, part: Part, number: int, before: Sequence[
             title=title,
             why=(why,),
             result=(*defined, equation(known, forms.matrix(part.point.made))),
+            defines=defined,
             source=spong("3.3.2"),
             detail=Detail.NORMAL,
             uses=("inverse_task", *((f"inverse_turn_{number}",) if part.turn else ())),
@@ -473,6 +475,7 @@ def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[S
         source=spong("3.3.2"),
         concluding=("From the given pose and the joints that are known:",) if values else (),
         result=values or (rotation,),
+        defines=values,
         listed=True,
         uses=("inverse_task", *(f"inverse_{step.coordinate}" for step in before)),
     )
@@ -498,23 +501,36 @@ def _wrist_notes(formulas: InverseFormulas, turn: Turn, step: Solved) -> Iterato
 
 
 def _branches(forms: InverseForms, solving: Solving) -> Step:
-    """All of them, each put into r(q)."""
+    """All of them, each put into r(q); a table where not every choice goes with every other."""
     names, count = [step.coordinate for step in solving.solved], len(forms.inverse)
     task = letters.FRAME_OF_Q if _is_pose(forms.robot) else letters.TASK_OF_Q
+    choices = _choices(forms, solving)
+    is_free = forms.target is None and len(set(forms.when)) <= 1 and _is_every_choice(forms, choices)
+    there_are = f"there are {count} solutions" if count > 1 else "there is one solution"
+    if is_free and choices:
+        two = "{q} has two values: {there_are}."
+        each = "{q} have two values each, and every choice gives a solution: {there_are}."
+        chosen = listed([Symbol(step.coordinate) for step in choices.values()])
+        together = say(each if len(choices) > 1 else two, q=chosen, there_are=there_are)
+    else:
+        together = (f"{opened(there_are)}.",)
+    starts = tuple(f"inverse_{what}_{number}" for what, number in _defined(solving))
     return Step(
         id=_id_of_branches(forms),
         title="The solution" if count == 1 else f"The {count} solutions",
         why=say(
-            "{count}, each put into {task} to see that it gives what is asked. A coordinate that stands in a "
-            "formula is that of the same line.",
-            count="There is one solution" if count == 1 else f"Together there are {count} solutions",
+            "{together} Each is put into {task} to see that it gives what is asked. A coordinate that stands "
+            "in a formula is that of the same {solution}.",
+            together=together,
             task=task,
+            solution="solution" if is_free else "line",
         ),
-        table=Table(("", *map(Symbol, names)), tuple(_rows(forms, solving))),
+        table=None if is_free else _table(forms, choices),
         notes=(*_conditions(forms, task), *_free_coordinates(solving)),
+        outcome=together if is_free and choices else (),
         normal=NOTED,
         detail=Detail.BRIEF,
-        uses=tuple(f"inverse_{name}" for name in names),
+        uses=(*(f"inverse_{name}" for name in names), *starts),
         hint=say(
             "Put every choice among these into {task}: those that give what is asked are the solutions.",
             task=task,
@@ -523,21 +539,40 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     )
 
 
-def _rows(forms: InverseForms, solving: Solving) -> Iterator[tuple[Node | str, ...]]:
-    """A branch a row: formulas that are short, and of the others which of their two is meant."""
+def _defined(solving: Solving) -> Iterator[tuple[str, int]]:
+    """The steps that define names for what the unknowns are found from, by their kinds and numbers."""
+    for number, part in enumerate(solving.parts, 1):
+        if part.turn is not None and part.turn.definitions:
+            yield "turn", number
+        if part.point is not None and part.point.definitions:
+            yield "point", number
+
+
+def _choices(forms: InverseForms, solving: Solving) -> dict[int, Solved]:
+    """The unknowns that have two values, by their places among all."""
+    found = enumerate(solving.solved)
+    return {k: step for k, step in found if len(forms.inverse_formulas.solutions(step)) > 1}
+
+
+def _is_every_choice(forms: InverseForms, choices: Collection[int]) -> bool:
+    """Whether every choice of a value goes with every other."""
     assert forms.solved is not None
+    return len(forms.solved.branches) == prod(2 for _ in choices)
+
+
+def _table(forms: InverseForms, choices: Mapping[int, Solved]) -> Table:
+    """A branch a row: the values of the unknowns that have two, or which of them is meant."""
+    assert forms.solved is not None
+    rows = []
     for number, branch in enumerate(forms.solved.branches, 1):
         row: list[Node | str] = [str(number)]
-        for step, index in zip(solving.solved, branch.choice, strict=True):
-            solutions = forms.inverse_formulas.solutions(step)
-            if cost(solutions[index]) <= SHORT:
-                row.append(solutions[index])
-            elif len(solutions) == 1:
-                row.append("as above")
-            else:
-                signs = forms.inverse_formulas.has_signs(step)
-                row.append((("with +", "with -") if signs else ("the first", "the second"))[index])
-        yield tuple(row)
+        for k, step in choices.items():
+            solutions, index = forms.inverse_formulas.solutions(step), branch.choice[k]
+            signs = forms.inverse_formulas.has_signs(step)
+            which = (("with +", "with -") if signs else ("the first", "the second"))[index]
+            row.append(solutions[index] if cost(solutions[index]) <= SHORT else which)
+        rows.append(tuple(row))
+    return Table(("", *(Symbol(step.coordinate) for step in choices.values())), tuple(rows))
 
 
 def _conditions(forms: InverseForms, task: Node) -> Iterator[Prose]:

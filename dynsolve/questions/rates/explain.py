@@ -36,7 +36,7 @@ def steps(context: Context) -> Iterator[Step]:
         right = wanted_by_accelerations(context.robot, asked.acceleration, context.values["Jr_dot"])
         why = say(
             "$𝐫̈ = 𝐉_r 𝐪̈ + 𝐉̇_r 𝐪̇$: what $𝐉̇$ brings without the joints' accelerations is taken off first. "
-            "The rest "
+            "The rest"
         )
         title = "The accelerations of the joints"
         yield _solution(context, "qdd", title, right, formula("𝐫̈ - 𝐉̇_r 𝐪̇"), why)
@@ -121,32 +121,35 @@ _SPACES = {
         "The motions of the joints in which nothing of the task changes.",
         letters.NULLSPACE,
         formula("𝐉_r 𝐪̇ = 𝟎"),
+        spong("4.11"),
     ),
     "rangespace": (
         "Velocities of the task that are possible",
         "All the velocities that the joints can give: what the columns of the Jacobian span.",
         letters.RANGESPACE,
         formula("𝐫̇ = 𝐉_r 𝐪̇"),
+        spong("4.9"),
     ),
     "lost": (
         "Motions of the task that are lost",
         "What is orthogonal to all possible velocities. A force along it needs no torque of the joints.",
         letters.LOST,
         formula("𝐉_rᵀ 𝐅 = 𝟎"),
+        spong("4.10"),
     ),
 }
-"""What a space is called, what it is, its letter, and the condition of what is in it."""
+"""What a space is called, what it is, its letter, the condition of what is in it, and where that stands."""
 
 
 def _space(context: Context, name: str) -> Step:
-    title, what, letter, condition = _SPACES[name]
+    title, what, letter, condition, source = _SPACES[name]
     too_long = " In symbols its vectors are too long to be read: give the coordinates values under `state`."
     found = Step(
         id=name,
         title=title,
         why=(what, too_long),
         formula=condition,
-        source=spong("4.9"),
+        source=source,
         detail=Detail.BRIEF,
     )
     if isinstance(context.values[name], Skipped):
@@ -161,7 +164,6 @@ def _space(context: Context, name: str) -> Step:
     return replace(
         found,
         why=(f"{what} ", *state_prose(context)) if state else (what,),
-        source=spong("4.10" if name == "lost" else "4.9"),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
         notes=((f"The rank is {rank}, and the dimension of this space {count}.",),),

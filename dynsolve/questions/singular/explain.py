@@ -43,7 +43,7 @@ def steps(context: Context) -> Iterator[Step]:
     yield replace(_alternatives(forms, found), group=_SETS, normal=NOTED)
     lost = Group("singular_lost", "What is lost", (), _in_general(context), _LOST)
     for case in range(len(found.losses)):
-        yield replace(_loss(context, forms, found, case), group=lost if all(forms.lost) else None)
+        yield replace(_loss(context, forms, found, case), group=lost if all(forms.lost_here) else None)
 
 
 def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
@@ -100,13 +100,14 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
 
 
 def _alternatives(forms: SingularForms, found: SingularSet) -> Step:
-    cases = forms.singular
+    cases, special = forms.singular, tuple(_of_special(forms, found))
     none = ", as no factor of the minors becomes 0" if found.rank > found.pivots else ""
     step = Step(
         id="singular",
         title="No singular configuration",
         why=(f"The rank is {found.rank} in every configuration{none}.",),
         detail=Detail.BRIEF,
+        notes=special,
         hint=("A product is 0 where one of its factors is. Constant lengths are not 0.",),
         hint_title=_TITLE,
     )
@@ -124,27 +125,37 @@ def _alternatives(forms: SingularForms, found: SingularSet) -> Step:
         title=_TITLE,
         why=(one if len(cases) == 1 else several,),
         result=tuple(map(vanishing, cases)),
-        notes=tuple(forms.existence("singular", found.exist)),
+        notes=(*forms.existence("singular", found.exist), *special),
         uses=("singular_minors",),
     )
 
 
+def _of_special(forms: SingularForms, found: SingularSet) -> Iterator[Prose]:
+    """For which parameters these are all."""
+    if found.special:
+        where = listed([forms.comparison(factor, "≠") for factor in found.special])
+        yield say("This is so where {where}; for other parameters there may be more.", where=where)
+    if found.may_be_others:
+        yield ("For special values of the parameters there may be others.",)
+
+
 def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int) -> Step:
     """The rank at one of the alternatives, the matrix there, and what is lost."""
-    loss, lost, J = found.losses[case], forms.lost[case], _letter(context)
+    loss, lost, J = found.losses[case], forms.lost_here[case], _letter(context)
     several = [formula("𝐰_{k}", k=k) for k in range(1, len(lost) + 1)]
     names = [formula("𝐰")] if len(lost) == 1 else several
     told: Prose = ()
-    if lost and not any(forms.lost[:case]):
+    if lost and not any(forms.lost_here[:case]):
         task = context.robot.questions.task
         is_force = _matrix(context) != "J" and (task is None or task.is_default)
         told = say(
             " Every velocity that the joints can give is orthogonal to {w}: {lost} lost. A force"
-            "{moment} along {it} no torque of the joints.",
+            "{moment} along {it} no torque of the joints.{everywhere}",
             w=listed(names),
             lost="that motion is" if len(names) == 1 else "these motions are",
             moment="" if is_force else " and a moment",
             it=f"{'it' if len(names) == 1 else 'them'} {'needs' if is_force else 'need'}",
+            everywhere=_elsewhere(loss.everywhere, len(names)),
         )
     if not loss.are_independent:
         told += say(
@@ -178,6 +189,14 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
         task=_in_general(context),
         is_task=case == 0,
     )
+
+
+def _elsewhere(count: int, here: int) -> str:
+    """That some motions of the task are impossible anyhow, which are not said to be lost there."""
+    if not count:
+        return ""
+    beside = "Beside it" if here == 1 else "Beside them"
+    return agreeing(f" {beside} {count} motion|motions is|are impossible in every configuration.", count)
 
 
 def _in_general(context: Context) -> Node:

@@ -3,20 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
+from dynsolve.derivation.singular.losses import Direction
 from dynsolve.derivation.singular.sets import SingularSet
-from dynsolve.notation.tree import (
-    Matrix,
-    Node,
-    column,
-)
-
-if TYPE_CHECKING:
-    pass
-
-
 from dynsolve.explain.set_forms import SetForms
+from dynsolve.notation.tree import Matrix, Node, column
 
 
 class SingularForms(SetForms):
@@ -37,6 +28,13 @@ class SingularForms(SetForms):
     def lost(self) -> tuple[tuple[Matrix, ...], ...]:
         """At each alternative the directions that are lost, each a column."""
         losses = () if self.singular_set is None else self.singular_set.losses
-        return tuple(
-            tuple(column(*map(self.compactor(d[0].ring).form, d)) for d in loss.directions) for loss in losses
-        )
+        return tuple(tuple(map(self._column, loss.directions)) for loss in losses)
+
+    @cached_property
+    def lost_here(self) -> tuple[tuple[Matrix, ...], ...]:
+        """The same without those that are lost in every configuration."""
+        losses = () if self.singular_set is None else self.singular_set.losses
+        return tuple(tuple(map(self._column, loss.here)) for loss in losses)
+
+    def _column(self, direction: Direction) -> Matrix:
+        return column(*map(self.compactor(direction[0].ring).form, direction))

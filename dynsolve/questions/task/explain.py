@@ -150,7 +150,7 @@ def _determinant(context: Context) -> Step:
         title="The determinant of the Jacobian",
         why=why,
         formula=equation(letter, formula("det {matrix}", matrix=shown)) if is_small(shown) else None,
-        source=spong("4.9"),
+        source=spong("4.9" if rows == columns else "4.12"),
         lines=way.lines,
         concluding=way.concluding,
         result=(equation(letter, context.form("det")),),

@@ -71,7 +71,7 @@ def test_a_passive_coordinate_has_no_force_to_read_off() -> None:
 
 def test_how_a_product_is_read_off_is_said_where_it_is_used() -> None:
     text = told(ARM + "find: [K]")
-    assert "(-u₂,u₁,0)ᵀ" in text and "read off as in" not in text
+    assert "(-u₂, u₁, 0)ᵀ" in text and "read off as in" not in text
 
 
 def test_what_is_conserved_is_what_is_there() -> None:
