@@ -417,8 +417,9 @@ def solution_documents(
         needed = None if stages is not None else needed_stages(solution)
 
         def of(detail: Detail) -> Sequence[Step]:
-            is_whole = needed is None or detail is Detail.FULL
-            return steps if is_whole else [step for step in steps if step.stage in needed]
+            if needed is None or detail is Detail.FULL:
+                return steps
+            return [step for step in steps if step.stage in needed]
 
         parts = (_Parts(solution, detail, stages, of(detail), drawn, short) for detail in details)
         return tuple(each.document() for each in parts)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.draw.forces import FORCES, NOT_DRAWN, drawn_forces
-from dynsolve.draw.orientation import orientation
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.skeleton import numbers
+from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.problem import read_problem
 from tests.unit.draw.pictures import drawn_text, names, overlapping
 
