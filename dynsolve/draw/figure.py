@@ -23,13 +23,13 @@ from dynsolve.document import Picture
 from dynsolve.document.figures import ArmArrow, ArmFigure, Figure, FigureAngle, FigureLine, LineKind, Place
 from dynsolve.draw import paths, poses
 from dynsolve.draw.labels import Label, Taken, place
-from dynsolve.draw.paths import SIZE, WHITE, Commands, Path, Run
+from dynsolve.draw.paths import SIZE, WHITE, Path, Run
 from dynsolve.draw.pose_search import held_pose
 from dynsolve.draw.poses import Notes, Pose
 from dynsolve.draw.scene import Scene, framed, leads
 from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.solids import ground, solids
-from dynsolve.draw.vectors import NEAR, Point, Vector, length, unit
+from dynsolve.draw.vectors import NEAR, Point, Vector, from_to, length, moved, unit
 from dynsolve.errors import UsageError
 from dynsolve.notation.markup import LatexPrinter, quoted
 from dynsolve.notation.printing import Style
@@ -83,7 +83,10 @@ def number(value: float) -> str:
 
 
 def _svg_path(path: Path) -> str:
-    attributes = [f'd="{_svg_commands(path.commands)}"', f'fill="{path.fill or "none"}"']
+    commands = "".join(
+        letter + " ".join(f"{number(x)} {number(y)}" for x, y in points) for letter, points in path.commands
+    )
+    attributes = [f'd="{commands}"', f'fill="{path.fill or "none"}"']
     if path.stroke == WHITE:
         attributes.append('class="halo"')
     if path.stroke:
@@ -91,12 +94,6 @@ def _svg_path(path: Path) -> str:
     if path.dashed:
         attributes.append('stroke-dasharray="4 3"')
     return f"<path {' '.join(attributes)}/>"
-
-
-def _svg_commands(commands: Commands) -> str:
-    return "".join(
-        letter + " ".join(f"{number(x)} {number(y)}" for x, y in points) for letter, points in commands
-    )
 
 
 def _svg_label(label: Label) -> str:
@@ -176,16 +173,12 @@ def _path(path: Path, left: float, bottom: float) -> Iterator[str]:
         state.append(f"{_colour(path.fill)} rg")
     state.append("[4 3] 0 d" if path.dashed else "[] 0 d")
     yield " ".join(state)
-    yield from _commands(path.commands, left, bottom)
+    for letter, points in path.commands:
+        places = " ".join(f"{number(x - left)} {number(bottom - y)}" for x, y in points)
+        yield f"{places} {_OPERATORS[letter]}".strip()
     yield {(True, True): "B", (True, False): "S", (False, True): "f"}.get(
         (path.stroke is not None, path.fill is not None), "n"
     )
-
-
-def _commands(commands: Commands, left: float, bottom: float) -> Iterator[str]:
-    for letter, points in commands:
-        places = " ".join(f"{number(x - left)} {number(bottom - y)}" for x, y in points)
-        yield f"{places} {_OPERATORS[letter]}".strip()
 
 
 def _colour(colour: str) -> str:
@@ -254,9 +247,13 @@ def figure_scene(figure: Figure, style: Style) -> Scene:
         _name_line(line, notes)
     for angle in figure.angles:
         _name_angle(angle, notes)
+    return _with_labels(figure.caption, notes)
+
+
+def _with_labels(caption: str, notes: Notes, under: tuple[Path, ...] = ()) -> Scene:
     labels = place(notes.wanted, notes.taken)
-    drawn_paths = (*notes.paths, *leads(labels))
-    return Scene("", figure.caption, figure.caption, drawn_paths, labels, framed(drawn_paths, labels), style)
+    lines = (*under, *notes.paths, *leads(labels))
+    return Scene("", caption, caption, lines, labels, framed(lines, labels), notes.style)
 
 
 _LOOKS = {
@@ -271,7 +268,7 @@ def _line(line: FigureLine) -> Iterator[Path]:
     colour, width = _LOOKS[line.kind]
     yield Path(paths.line(a, b), colour, width, dashed=line.kind is LineKind.HELP)
     if line.kind is LineKind.AXIS:
-        yield Path(paths.head(b, (b[0] - a[0], b[1] - a[1])), None, fill=colour)
+        yield Path(paths.head(b, from_to(a, b)), None, fill=colour)
 
 
 def _name_line(line: FigureLine, notes: Notes) -> None:
@@ -279,11 +276,11 @@ def _name_line(line: FigureLine, notes: Notes) -> None:
         return
     a, b = _on_paper(line.start), _on_paper(line.end)
     colour, _ = _LOOKS[line.kind]
-    along = (b[0] - a[0], b[1] - a[1])
+    along = from_to(a, b)
     if line.kind is LineKind.AXIS:
         notes.label(line.name, [b], along, colour, "axis")
         return
-    anchors = [(a[0] + part * along[0], a[1] + part * along[1]) for part in (0.5, 0.4, 0.6, 0.3, 0.7)]
+    anchors = [moved(a, along, part) for part in (0.5, 0.4, 0.6, 0.3, 0.7)]
     colour = paths.BLACK if line.kind is LineKind.HELP else colour
     notes.label(line.name, anchors, (along[1], -along[0]), colour, "length")
 
@@ -296,14 +293,14 @@ def _angle(angle: FigureAngle) -> Iterator[Path]:
     tip, before = (_on_arc(angle, t) for t in (angle.end, short))
     center = _on_paper(angle.at)
     yield Path(paths.arc(center, (radius, 0.0), (0.0, -radius), angle.start, short), paths.VARIABLE, 1.4)
-    yield Path(paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.0), None, fill=paths.VARIABLE)
+    yield Path(paths.head(tip, from_to(before, tip), 8.0), None, fill=paths.VARIABLE)
 
 
 def _name_angle(angle: FigureAngle, notes: Notes) -> None:
     size = angle.end - angle.start
     anchors = [_on_arc(angle, angle.start + part * size) for part in (0.5, 0.35, 0.65)]
-    x, y = _on_paper(angle.at)
-    notes.label(angle.name, anchors, (anchors[0][0] - x, anchors[0][1] - y), paths.VARIABLE, "variable")
+    toward = from_to(_on_paper(angle.at), anchors[0])
+    notes.label(angle.name, anchors, toward, paths.VARIABLE, "variable")
 
 
 def _radius(angle: FigureAngle) -> float:
@@ -341,9 +338,7 @@ def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | No
     notes.taken.add(body)
     for arrow in figure.arrows:
         _arrow(arrow, at, pose, notes)
-    labels = place(notes.wanted, notes.taken)
-    lines = (*body, *notes.paths, *leads(labels))
-    scene = Scene("", figure.caption, figure.caption, lines, labels, framed(lines, labels), style)
+    scene = _with_labels(figure.caption, notes, body)
     return Picture(to_svg(scene), figure.caption, to_latex_picture(scene))
 
 
@@ -361,13 +356,8 @@ def _arrow(arrow: ArmArrow, at: Mapping[str, float], pose: Pose, notes: poses.No
         )
         notes.label(arrow.name, [tip], (1.0, -1.0), paths.VARIABLE, "axis", 8.0)
         return
-    end = (tip[0] + dx * _ARROW, tip[1] + dy * _ARROW)
-    short = (tip[0] + dx * (_ARROW - 7.0), tip[1] + dy * (_ARROW - 7.0))
-    notes.draw(
-        Path(paths.line(tip, short), paths.WHITE, 5.0),
-        Path(paths.line(tip, short), paths.VARIABLE, 2.4),
-        Path(paths.head(end, (dx, dy), 11.0), None, fill=paths.VARIABLE),
-    )
+    back, end = moved(tip, (dx, dy), _ARROW - 7.0), moved(tip, (dx, dy), _ARROW)
+    notes.draw(*paths.arrow(tip, back, end, (dx, dy), paths.VARIABLE, 2.4, halo=5.0, size=11.0))
     notes.label(arrow.name, [end], (dx, dy), paths.VARIABLE, "axis")
 
 

@@ -27,6 +27,7 @@ from dynsolve.draw.vectors import (
     cross,
     distance,
     dot,
+    from_to,
     length,
     moved,
     scale,
@@ -166,7 +167,7 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
         Path(paths.arc(center, p, q, 0.0, short), paths.VARIABLE, 1.4), _head(center, p, q, angle, short)
     )
     middle = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in _PARTS[:3]]
-    notes.label(node, middle, _from_to(center, middle[0]), paths.VARIABLE, "variable")
+    notes.label(node, middle, from_to(center, middle[0]), paths.VARIABLE, "variable")
 
 
 def _offset(center: Vector, leg: Leg, pose: Pose, notes: Notes) -> None:
@@ -187,7 +188,7 @@ def _offset(center: Vector, leg: Leg, pose: Pose, notes: Notes) -> None:
     middle = paths.on_ellipse(at, p, q, leg.offset / 2)
     degrees = Fraction(math.degrees(size)).limit_denominator(1000)
     node = Degrees(degrees.numerator, degrees.denominator)
-    notes.label(node, [middle], _from_to(at, middle), paths.GREY, "angle")
+    notes.label(node, [middle], from_to(at, middle), paths.GREY, "angle")
 
 
 def _before_here(pose: Pose, part: JointBody) -> int:
@@ -200,11 +201,7 @@ def _before_here(pose: Pose, part: JointBody) -> int:
 def _head(center: Point, p: Point, q: Point, end: float, short: float) -> Path:
     """The head of an arrow along an ellipse, its tip at `end`."""
     tip, before = paths.on_ellipse(center, p, q, end), paths.on_ellipse(center, p, q, short)
-    return Path(paths.head(tip, _from_to(before, tip), 8.0), None, fill=paths.VARIABLE)
-
-
-def _from_to(a: Point, b: Point) -> Point:
-    return b[0] - a[0], b[1] - a[1]
+    return Path(paths.head(tip, from_to(before, tip), 8.0), None, fill=paths.VARIABLE)
 
 
 # -- in space --------------------------------------------------------------------------------------
@@ -225,19 +222,14 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
     angle = leg.turn
     short = angle - min(0.25, angle / 2)
     for start, end, behind in _seen(leg.before, side, view.toward, short):
-        arc = paths.arc(center, p, q, start, end)
-        halo = () if behind else (_halo(center, p, q, start, end),)
-        notes.draw(*halo, Path(arc, paths.VARIABLE, 1.4), behind=behind)
+        if not behind:  # the white edge leaves the axis whole at which the arc begins
+            clear = paths.arc(center, p, q, start or min(_OFF_SHAFT / ARC, end), end)
+            notes.draw(Path(clear, paths.WHITE, 3.6))
+        notes.draw(Path(paths.arc(center, p, q, start, end), paths.VARIABLE, 1.4), behind=behind)
     notes.draw(_head(center, p, q, angle, short), behind=_depth(leg.before, side, view.toward, angle) < 0)
     places = sorted(_PARTS, key=lambda part_of: _depth(leg.before, side, view.toward, angle * part_of) < 0)
     anchors = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in places]
-    notes.label(node, anchors, _from_to(center, anchors[0]), paths.VARIABLE, "variable")
-
-
-def _halo(center: Point, p: Point, q: Point, start: float, end: float) -> Path:
-    """The white edge of an arc, which leaves the axis whole at which the arc begins."""
-    clear = start if start else min(_OFF_SHAFT / ARC, end)
-    return Path(paths.arc(center, p, q, clear, end), paths.WHITE, 3.6)
+    notes.label(node, anchors, from_to(center, anchors[0]), paths.VARIABLE, "variable")
 
 
 def _depth(first: Vector, second: Vector, toward: Vector, t: float) -> float:
@@ -271,4 +263,4 @@ def _ring(pose: Pose, part: JointBody, node: Node, notes: Notes) -> None:
         _head(center, p, q, half, half - 0.22),
     )
     anchors = [paths.on_ellipse(center, p, q, t) for t in (half, -half, half / 2, -half / 2, 0.0)]
-    notes.label(node, anchors, _from_to(center, anchors[0]), paths.VARIABLE, "variable")
+    notes.label(node, anchors, from_to(center, anchors[0]), paths.VARIABLE, "variable")

@@ -17,7 +17,7 @@ from random import Random
 from msgspec import Struct
 
 from dynsolve.draw.paths import LabelLine, Path, flattened
-from dynsolve.draw.vectors import Point, segment_distance
+from dynsolve.draw.vectors import Point, from_to, moved, segment_distance, toward
 from dynsolve.notation.tree import Node
 
 # The grid of the places on paper that are occupied, so that labels find free ones
@@ -112,8 +112,7 @@ class Taken:
         self._rows = {}
         steps = max(1, math.ceil(math.dist(a, b) / (CELL * 0.7)))
         for k in range(steps + 1):
-            t = k / steps
-            self._cells.add(_cell((a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t)))
+            self._cells.add(_cell(moved(a, from_to(a, b), k / steps)))
 
     def _fill(self, pieces: list[tuple[Point, Point]]) -> None:
         """Take the cells whose middle is inside, by counting the edges to its left."""
@@ -143,18 +142,14 @@ class Taken:
     def inside(self, box: Box) -> int:
         """How many taken cells a box touches."""
         first, last = math.floor(box.left / CELL), math.floor(box.right / CELL)
-        rows = self._in_rows()
-        return sum(
-            bisect_right(columns, last) - bisect_left(columns, first)
-            for row in range(math.floor(box.top / CELL), math.floor(box.bottom / CELL) + 1)
-            if (columns := rows.get(row))
-        )
-
-    def _in_rows(self) -> dict[int, list[int]]:
         if not self._rows:
             for column, row in sorted(self._cells):
                 self._rows.setdefault(row, []).append(column)
-        return self._rows
+        return sum(
+            bisect_right(columns, last) - bisect_left(columns, first)
+            for row in range(math.floor(box.top / CELL), math.floor(box.bottom / CELL) + 1)
+            if (columns := self._rows.get(row))
+        )
 
 
 def _steps(a: Point, b: Point) -> int:
@@ -311,7 +306,6 @@ def _beside(anchor: Point, away: float, angle: float, wide: float, high: float) 
 def _way(anchor: Point, box: Box, radius: float) -> tuple[Point, Point]:
     """The straight way from an anchor's symbol to a box."""
     end = box.nearest(anchor)
-    reach = math.dist(end, anchor) or 1.0
-    x, y = (end[0] - anchor[0]) / reach, (end[1] - anchor[1]) / reach
-    start = min(radius, reach / 2)
-    return (anchor[0] + start * x, anchor[1] + start * y), (end[0] - 2.0 * x, end[1] - 2.0 * y)
+    way = toward(anchor, end)
+    start = min(radius, (math.dist(end, anchor) or 1.0) / 2)
+    return moved(anchor, way, start), moved(end, way, -2.0)

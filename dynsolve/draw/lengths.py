@@ -28,10 +28,12 @@ from dynsolve.draw.vectors import (
     cross,
     distance,
     dot,
+    from_to,
     moved,
     scale,
     scaled,
     segment_distance,
+    toward,
 )
 from dynsolve.notation.tree import Degrees, Negative, Node, Words
 from dynsolve.quantities import letters
@@ -161,7 +163,7 @@ def _dimension(
             middle = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
             notes.label(measured.node, [middle], (0.0, 0.0), colour, kind)
         return None
-    along = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    along = toward(a, b)
     shift, crowded = _shift(a, b, along, notes, reserved)
     if measured.optional and crowded > _CROWDED:
         return None
@@ -253,9 +255,11 @@ def world_frame(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -
     if numbers.moved != ORIGIN:
         _axes(scale(numbers.moved, -1.0), pose, notes)
     _lean(robot, numbers, pose, notes)
-    way = tuple(_way(numbers, pose))
-    notes.taken.add(way)
-    return way
+    points = [pose.view.point(corner) for corner in _corners(numbers)]
+    way = Path(paths.line(*points), paths.GREY, 1.0, dashed=True)
+    ways = () if numbers.moved == ORIGIN else (way,)
+    notes.taken.add(ways)
+    return ways
 
 
 def moves(robot: Robot, numbers: RobotNumbers) -> list[Length]:
@@ -277,12 +281,6 @@ def _corners(numbers: RobotNumbers) -> list[Vector]:
     return at
 
 
-def _way(numbers: RobotNumbers, pose: Pose) -> Iterator[Path]:
-    points = [pose.view.point(corner) for corner in _corners(numbers)]
-    if numbers.moved != ORIGIN:
-        yield Path(paths.line(*points), paths.GREY, 1.0, dashed=True)
-
-
 def _axes(origin: Vector, pose: Pose, notes: Notes) -> None:
     """The frame of the world."""
     at = pose.view.point(origin)
@@ -290,9 +288,8 @@ def _axes(origin: Vector, pose: Pose, notes: Notes) -> None:
         tip = axis_arrow(at, axis, pose, notes)
         if tip == at:
             seen_end_on(at, dot(axis, pose.view.toward) > 0, notes)
-        toward = tip[0] - at[0], tip[1] - at[1]
         radius = MARK if tip == at else 0.0
-        notes.label(letters.bold(letter, Words("w")), [tip], toward, paths.FRAME, "axis", radius)
+        notes.label(letters.bold(letter, Words("w")), [tip], from_to(at, tip), paths.FRAME, "axis", radius)
 
 
 def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
@@ -313,17 +310,12 @@ def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None
     p, q = scaled(view.direction(first), _LEAN), scaled(view.direction(side), _LEAN)
     arc = paths.arc(at, p, q, 0.0, size)
     tip, before = (paths.on_ellipse(at, p, q, size * part) for part in (1.0, 0.8))
-    head = paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), _WORLD_FRAME_HEAD)
+    head = paths.head(tip, from_to(before, tip), _WORLD_FRAME_HEAD)
     notes.draw(Path(arc, paths.WHITE, 3.6), Path(arc, paths.BLACK, 1.1), Path(head, None, fill=paths.BLACK))
     anchors = [paths.on_ellipse(at, p, q, size * part) for part in _PARTS]
-    toward = anchors[0][0] - at[0], anchors[0][1] - at[1]
-    notes.label(_size_of(node), anchors, toward, paths.BLACK, "angle")
+    size_of = Degrees(abs(node.p), node.q) if isinstance(node, Degrees) else unsigned(node)
+    notes.label(size_of, anchors, from_to(at, anchors[0]), paths.BLACK, "angle")
     if numbers.moved == ORIGIN:
         name = letters.bold("xyz"[turned], Words("w"))
         tip = view.point(along(ORIGIN, first, view.space(_LEAN + _BEYOND)))
         notes.label(name, [tip], view.direction(first), paths.GREY, "axis")
-
-
-def _size_of(node: Node) -> Node:
-    """An angle without the sign that says which way it is turned."""
-    return Degrees(abs(node.p), node.q) if isinstance(node, Degrees) else unsigned(node)

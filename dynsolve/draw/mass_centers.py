@@ -92,7 +92,7 @@ def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton, clear: Clea
         slides = robot.joints[body.link - 1].type is JointType.PRISMATIC and body.shape is not None
         shares = _OF_SLIDING_SHAPES if slides else _SHARES
         tried = [_mass(robot, numbers, bare, body, free, share) for share in shares]
-        apart = (mass for mass in tried if _is_apart(mass, masses))
+        apart = (m for m in tried if all(distance(m.center, other.center) > _APART for other in masses))
         found = next(apart, tried[0])
         if clear is not None and len(free) > 1:
             found = _clearest(found, clear, masses, partial(_mass, robot, numbers, bare, body, free, 1.0))
@@ -136,10 +136,6 @@ def _number(robot: Robot, numbers: RobotNumbers, body: Body) -> float | None:
         return None
     along = [size for entry in center if (size := abs(finite(entry, numbers.values))) > NEAR]
     return along[0] if len(along) == 1 else None
-
-
-def _is_apart(mass: MassCenter, others: Sequence[MassCenter]) -> bool:
-    return all(distance(mass.center, other.center) > _APART for other in others)
 
 
 def _mass(
@@ -188,9 +184,13 @@ def _local_center(
         return x, y, z
 
     middle = between(near, far, 0.5)
-    usual = _past_axis(robot, body) if distance(near, far) < NEAR else _OFF_AXIS
+    around = robot.joints[body.link : body.link + 1]
+    slides = any(joint.type is JointType.PRISMATIC for joint in around)
+    usual = _OFF_AXIS
     if is_open(robot, body.link):
         usual = _AT_END if body.is_point else _ON_OPEN
+    elif distance(near, far) < NEAR:
+        usual = _PAST_AXIS if slides and body.shape is None else _ON_AXIS
     try:
         start = center()
         for name, part in zip(free, cycle(uneven)):
@@ -206,11 +206,6 @@ def _local_center(
         return middle, None, 0.0, ()
     measured = len(free) == 1 and rate > NEAR and distance(start, found) > NEAR
     return found, start if measured else None, rate, tuple((name, values[name]) for name in free)
-
-
-def _past_axis(robot: Robot, body: Body) -> float:
-    slides = any(joint.type is JointType.PRISMATIC for joint in robot.joints[body.link : body.link + 1])
-    return _PAST_AXIS if slides and body.shape is None else _ON_AXIS
 
 
 def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols: int, uneven: float) -> float:
@@ -409,8 +404,8 @@ def _axes(robot: Robot, numbers: RobotNumbers, body: Body, pose: Skeleton, rest:
 
 
 def _columns(robot: Robot, numbers: RobotNumbers, R: Matrix) -> Rotation:
-    rows: Sequence[Sequence[float]] = [[finite(entry, numbers.values) for entry in row] for row in R.rows]
-    x, y, z = ((rows[0][k], rows[1][k], rows[2][k]) for k in range(3))
+    rows = ([finite(entry, numbers.values) for entry in row] for row in R.rows)
+    x, y, z = zip(*rows, strict=True)
     return x, y, z
 
 

@@ -77,7 +77,8 @@ def arrange(pose: Skeleton, view: View, up: Vector, sleeves: Mapping[int, float]
         )
         if row in sleeves:
             places = [along(leg.foot, leg.axis, sleeves[row]), *places]
-        center = next((p for p in places if _is_clear(p, joints, view)), places[0])
+        clear = (p for p in places if all(distance(p, j.center) * view.size >= _CLEAR * 0.98 for j in joints))
+        center = next(clear, places[0])
         joints.append(JointBody(row, leg.type, center, leg.axis))
     ground, normal = _ground(pose, joints, view, up)
     side = next(
@@ -86,10 +87,6 @@ def arrange(pose: Skeleton, view: View, up: Vector, sleeves: Mapping[int, float]
         if length(level := subtract(axis, scale(normal, dot(axis, normal)))) > _LEVEL
     )
     return Parts(tuple(joints), _links(pose, joints, ground), ground, normal, side)
-
-
-def _is_clear(place: Vector, joints: Sequence[JointBody], view: View) -> bool:
-    return all(distance(place, part.center) * view.size >= _CLEAR * 0.98 for part in joints)
 
 
 def _places(pose: Skeleton, row: int, leg: Leg, view: View, up: Vector, first: bool) -> list[Vector]:

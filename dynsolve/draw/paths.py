@@ -114,6 +114,22 @@ def head(tip: Point, direction: Point, size: float = 9.0) -> Commands:
     return polygon([tip, (back[0] - y * half, back[1] + x * half), (back[0] + y * half, back[1] - x * half)])
 
 
+def arrow(
+    start: Point,
+    back: Point,
+    tip: Point,
+    direction: Point,
+    colour: str,
+    width: float,
+    halo: float = 0.0,
+    size: float = 9.0,
+) -> tuple[Path, ...]:
+    """A line from `start` to `back` and a head at the tip, last; with a white edge that is `halo` wide."""
+    shaft = line(start, back)
+    edge = (Path(shaft, WHITE, halo),) if halo else ()
+    return (*edge, Path(shaft, colour, width), Path(head(tip, direction, size), None, fill=colour))
+
+
 def flattened(commands: Commands) -> Iterator[tuple[Point, Point]]:
     """The straight pieces that a path is near to."""
     start = here = (0.0, 0.0)

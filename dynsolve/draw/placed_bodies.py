@@ -38,9 +38,12 @@ from dynsolve.draw.vectors import (
     any_normal,
     cross,
     dot,
+    from_to,
     length,
     moved,
     scale,
+    scaled,
+    toward,
     unit,
 )
 from dynsolve.notation.tree import Node, Number, Symbol
@@ -144,7 +147,7 @@ def _way(piece: Piece, pose: PlacedPose) -> Path:
 
 
 def _between(a: Point, b: Point, part: float) -> Point:
-    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])
+    return moved(a, from_to(a, b), part)
 
 
 def _length(piece: Piece, pose: PlacedPose, notes: Notes) -> None:
@@ -156,7 +159,7 @@ def _length(piece: Piece, pose: PlacedPose, notes: Notes) -> None:
     reach = math.dist(a, b)
     if reach < NEAR:
         return
-    way = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    way = toward(a, b)
     across = -way[1], way[0]
     shared = [p for p in pose.pieces if (p.start, p.direction) == (piece.start, piece.direction)]
     if piece.kind is Kind.ROD and len(shared) == 1:
@@ -174,23 +177,16 @@ def _length(piece: Piece, pose: PlacedPose, notes: Notes) -> None:
 
     offset = min((side * away for away in _OFFSETS for side in (1.0, -1.0)), key=cost)
     start, end = moved(a, across, offset), moved(b, across, offset)
-    beyond = offset + math.copysign(5.0, offset)
-    line = Path(paths.line(start, moved(end, way, -6.0)), colour, 1.2)
-    heads = [Path(paths.head(end, way), None, fill=colour)]
+    near, beyond = math.copysign(4.0, offset), offset + math.copysign(5.0, offset)
+    for p in (a, b):
+        notes.draw(Path(paths.line(moved(p, across, near), moved(p, across, beyond)), paths.GREY, 0.8))
+    line, head = paths.arrow(start, moved(end, way, -6.0), end, way, colour, 1.2)
+    notes.draw(line, head)
     if piece.kind is not Kind.SLIDE:
-        heads.append(Path(paths.head(start, (-way[0], -way[1])), None, fill=colour))
-    ticks = [
-        Path(
-            paths.line(moved(p, across, 4.0 * math.copysign(1, offset)), moved(p, across, beyond)),
-            paths.GREY,
-            0.8,
-        )
-        for p in (a, b)
-    ]
-    notes.draw(*ticks, line, *heads)
+        notes.draw(Path(paths.head(start, scaled(way, -1.0)), None, fill=colour))
     notes.lengths.add([line])
     anchors = [_between(start, end, part) for part in (0.5, 0.6, 0.4, 0.7, 0.3)]
-    notes.label(name, anchors, (across[0] * offset, across[1] * offset), colour, "length")
+    notes.label(name, anchors, scaled(across, offset), colour, "length")
 
 
 # -- bodies ----------------------------------------------------------------------------------------
@@ -272,11 +268,7 @@ def _world(pose: PlacedPose, notes: Notes) -> None:
             continue
         tip = moved(at, (x, y), _AXIS)
         back = moved(at, (x, y), _AXIS - 6.0 / math.hypot(x, y))
-        arrow = (
-            Path(paths.line(at, back), paths.WHITE, 4.2),
-            Path(paths.line(at, back), paths.FRAME, 1.6),
-            Path(paths.head(tip, (x, y)), None, fill=paths.FRAME),
-        )
+        arrow = paths.arrow(at, back, tip, (x, y), paths.FRAME, 1.6, halo=4.2)
         notes.draw(*arrow)
         notes.solid.add(arrow)
         notes.label(letters.bold(letter, Number(0)), [tip], (x, y), paths.FRAME, "axis")
@@ -297,11 +289,10 @@ def _angle(turned: Turning, pose: PlacedPose, notes: Notes) -> None:
     tip, before = way[-1], way[-4]
     notes.draw(
         Path(paths.line(*way[:-3]), colour, 1.4),
-        Path(paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.0), None, fill=colour),
+        Path(paths.head(tip, from_to(before, tip), 8.0), None, fill=colour),
     )
     anchors = [way[k] for k in (_STEPS // 2, _STEPS // 3, 2 * _STEPS // 3)]
-    toward = anchors[0][0] - at[0], anchors[0][1] - at[1]
-    notes.label(Symbol(turned.name), anchors, toward, colour, "variable")
+    notes.label(Symbol(turned.name), anchors, from_to(at, anchors[0]), colour, "variable")
 
 
 # -- springs and dampers -----------------------------------------------------------------------------
@@ -364,8 +355,7 @@ def _ends(of: Expr, pose: PlacedPose) -> tuple[Place, Place] | None:
 def _apart(first: Place, second: Place, pose: PlacedPose, notes: Notes) -> tuple[Point, Point, float]:
     """The ends on paper, at the edge of a body, and how far beside their line there is room."""
     a, b = pose.point(first), pose.point(second)
-    reach = math.dist(a, b) or 1.0
-    way = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    way = toward(a, b)
     centers = {pieces[-1].end for pieces in pose.ways if pieces}
     a, b = (
         moved(a, way, _HALF if first in centers else 0.0),
@@ -383,8 +373,7 @@ def _apart(first: Place, second: Place, pose: PlacedPose, notes: Notes) -> tuple
 
 def _dashpot(a: Point, b: Point, beside: float, name: Node, notes: Notes) -> None:
     """A cup that opens to the second end, and the piston in it."""
-    reach = math.dist(a, b) or 1.0
-    way = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    reach, way = math.dist(a, b) or 1.0, toward(a, b)
     across = -way[1], way[0]
 
     def at(along: float, aside: float) -> Point:

@@ -154,18 +154,14 @@ def _angles(ring: Ring, entry: int, exponents: tuple[int, ...]) -> object:
     return frozenset(k for k, pair in enumerate(ring.pairs) if exponents[pair.sine] or exponents[pair.cosine])
 
 
-def _entry(ring: Ring, entry: int, exponents: tuple[int, ...]) -> object:
-    return entry
-
-
 def _straight(ring: Ring, group: _Terms) -> Iterator[Place]:
     """A group as vectors whose direction has a constant length; else along the world's axes."""
-    for key in (None, _angles, _entry):
-        parts = [group] if key is None else list(_grouped(group, key))
-        vectors = [_sum(ring, part) for part in parts]
-        if key is _entry or all(_keeps(ring, _parted(ring, vector)[1]) for vector in vectors):
-            yield from vectors
-            return
+    vectors: list[Place] = []
+    for key in (lambda *_: None, _angles, lambda _, entry, __: entry):
+        vectors = [_sum(ring, part) for part in _grouped(group, key)]
+        if all(_keeps(ring, _parted(ring, vector)[1]) for vector in vectors):
+            break
+    yield from vectors
 
 
 def _sum(ring: Ring, terms: _Terms) -> Place:
@@ -280,13 +276,8 @@ class PlacedPose(Struct, frozen=True):
     def rolls(self, body: Body) -> tuple[Vector, Vector] | None:
         """ω and v of a body for the first length that turns it; None where none does."""
         robot = self.robot
-        columns = zip(
-            robot.coordinates,
-            angular_jacobian(robot, body).T.rows,
-            position_jacobian(robot, body.center).T.rows,
-            strict=True,
-        )
-        for q, spin, moved in columns:
+        spins, moves = angular_jacobian(robot, body).T.rows, position_jacobian(robot, body.center).T.rows
+        for q, spin, moved in zip(robot.coordinates, spins, moves, strict=True):
             if q.type is JointType.PRISMATIC and not all(entry.is_zero for entry in spin):
                 return self.vector(spin), self.vector(moved)
         return None
@@ -351,7 +342,9 @@ def _values(problem: Problem, pieces: Sequence[Piece], random: Random) -> dict[s
     values |= {name: random.uniform(*_SLOPES) for name in sorted(turned & set(values))}
     given = {name: float(value) for name, value in problem.values.items() if name in values}
     entries = [entry for piece in pieces for entry in (*piece.start, *piece.end)]
-    lengths = {name: value for name, value in given.items() if name not in turned and _occurs(name, entries)}
+    indices = {name: robot.ring.symbol_indices[name, 0] for name in given if name not in turned}
+    degrees = [entry.poly.degrees() for entry in entries if not entry.is_zero]
+    lengths = {name: given[name] for name, k in indices.items() if any(each[k] > 0 for each in degrees)}
     longest = max(map(abs, lengths.values()), default=0.0)
     values |= {name: value for name, value in given.items() if name not in lengths and name not in rolled}
     values |= {name: drawn_length(value / longest) for name, value in lengths.items() if longest}
@@ -374,30 +367,20 @@ def _kept(robot: Robot, held: Sequence[Expr], values: dict[str, float]) -> dict[
     return values
 
 
-def _occurs(name: str, entries: Iterable[Expr]) -> bool:
-    return any(
-        entry.poly.degrees()[entry.ring.symbol_indices[name, 0]] > 0 for entry in entries if not entry.is_zero
-    )
-
-
 def _views(robot: Robot, found: Iterable[Iterable[Piece]], gravity: Vector | None) -> Iterator[View]:
     """The plane from its front, where all moves in one of the world's planes; else some from above."""
     places = [piece.end for way in found for piece in way]
+    axes = [turn.axis.entries for body in robot.bodies for turn in body.turns]
     for k, toward in ((2, IDENTITY[2]), (1, scale(IDENTITY[1], -1.0)), (0, IDENTITY[0])):
         level = gravity is None or abs(gravity[k]) < NEAR
-        if level and all(place[k].is_zero for place in places) and _turn_about(robot, k):
+        about = all(entry.is_zero for axis in axes for j, entry in enumerate(axis) if j != k)
+        if level and about and all(place[k].is_zero for place in places):
             up = scale(gravity, -1.0) if gravity else IDENTITY[1 if k == 2 else 2]
             yield facing(toward, up)
             return
     up = scale(gravity, -1.0) if gravity else IDENTITY[2]
     ahead = next(axis for axis in IDENTITY if abs(dot(axis, up)) < 0.9)
     yield from (oblique(up, ahead, azimuth, _ELEVATION) for azimuth in _AZIMUTHS)
-
-
-def _turn_about(robot: Robot, k: int) -> bool:
-    """Whether all bodies turn about one axis of the world."""
-    turns = [turn.axis.entries for body in robot.bodies for turn in body.turns]
-    return all(entry.is_zero for axis in turns for j, entry in enumerate(axis) if j != k)
 
 
 def _points(pieces: Sequence[Piece], values: Mapping[str, float], view: View) -> dict[Place, Point]:

@@ -49,6 +49,7 @@ from dynsolve.draw.vectors import (
     dot,
     facing,
     into,
+    moved,
     oblique,
     point_to_segment,
     subtract,
@@ -94,8 +95,7 @@ def _axes(pose: Pose) -> Iterator[tuple[Point, Point]]:
     for frame in pose.skeleton.frames:
         start = pose.view.point(frame.origin)
         for axis in (frame.x, frame.z):
-            x, y = pose.view.direction(axis)
-            yield start, (start[0] + x * AXIS, start[1] + y * AXIS)
+            yield start, moved(start, pose.view.direction(axis), AXIS)
 
 
 def _links(pose: Pose) -> Iterator[tuple[Point, Point]]:
@@ -132,15 +132,10 @@ def _is_beside(mass: MassCenter, origin: Vector, pose: Skeleton) -> bool:
     if distance(mass.center, origin) < NEAR:
         return False
     way = unit(subtract(mass.center, origin))
-    links = (b if distance(a, origin) < NEAR else a for a, b in pairwise(pose.path) if _touches(a, b, origin))
-    return any(abs(dot(way, axis)) > _ALIKE for axis in pose.frames[mass.link].axes) and all(
-        dot(way, unit(subtract(other, origin))) < _ALIKE for other in links
-    )
-
-
-def _touches(a: Vector, b: Vector, point: Vector) -> bool:
-    """Whether a way begins or ends at a point."""
-    return distance(a, point) < NEAR or distance(b, point) < NEAR
+    ways = [*pairwise(pose.path), *((b, a) for a, b in pairwise(pose.path))]
+    links = [unit(subtract(b, origin)) for a, b in ways if distance(a, origin) < NEAR]
+    is_on_axis = any(abs(dot(way, axis)) > _ALIKE for axis in pose.frames[mass.link].axes)
+    return is_on_axis and all(dot(way, link) < _ALIKE for link in links)
 
 
 # Linkages that a table with branches opens
@@ -163,13 +158,8 @@ def closing_links(robot: Robot, pose: Skeleton) -> tuple[tuple[Vector, Vector], 
         (pose.legs[link - 1].start, pose.frames[end].origin)
         for end in ends
         for link in range(1, len(robot.joints) + 1)
-        if _are_apart(robot, end, link) and _stays(probes, end, link)
+        if all(joint.index != link for joint in path_to(robot.joints, end)) and _stays(probes, end, link)
     )
-
-
-def _are_apart(robot: Robot, end: int, link: int) -> bool:
-    """Whether a link is not on the way from the base to an end."""
-    return all(joint.index != link for joint in path_to(robot.joints, end))
 
 
 def _stays(probes: list[tuple[DrawnFrame, ...]], end: int, link: int) -> bool:
@@ -223,7 +213,7 @@ def best_pose(
             remembered[choice] = round(cost_of(pose, orientation) + taste(robot, pose, choice), 6)
         return remembered[choice]
 
-    tried = [tuple(_pick(random, values) for values in options) for _ in range(_SAMPLES)]
+    tried = [tuple(values[int(random.random() * len(values))] for values in options) for _ in range(_SAMPLES)]
     starts = sorted(set(tried), key=lambda choice: (cost(choice), choice))[:_IMPROVED]
     best = min((improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
     return dressed(robot, numbers, pose_of(robot, numbers, orientation, best, slid_in))
@@ -235,10 +225,6 @@ def dressed(robot: Robot, numbers: RobotNumbers, pose: Pose) -> Pose:
     more = (*closing_links(robot, body), *last_links(robot, body, pose.view.space(_BEYOND)))
     parts = replace(pose.parts, links=(*pose.parts.links, *more))
     return replace(pose, skeleton=body, parts=parts, bodies=drawn_bodies(robot, numbers, body))
-
-
-def _pick(random: Random, values: Sequence[float]) -> float:
-    return values[int(random.random() * len(values))]
 
 
 def options_of(robot: Robot, orientation: Orientation) -> list[tuple[float, ...]]:
@@ -329,11 +315,8 @@ class _Formulas:
     def values(self, q: Sequence[float]) -> dict[str, float]:
         """The value of every symbol."""
         pairs = zip(self.robot.coordinates, q, strict=True)
-        lengths = {c.name: x * self._unit(c.type) for c, x in pairs}
+        lengths = {c.name: x * self.numbers.unit if c.type is JointType.PRISMATIC else x for c, x in pairs}
         return {**self.numbers.values, **lengths}
-
-    def _unit(self, kind: JointType) -> float:
-        return self.numbers.unit if kind is JointType.PRISMATIC else 1.0
 
     def at(self, q: Sequence[float]) -> list[float]:
         """The formulas' values."""
@@ -364,8 +347,8 @@ class _Formulas:
     def _slopes(self, q: Sequence[float], f: Sequence[float]) -> Iterator[list[float]]:
         """∂f/∂q_k, for each k."""
         for k in range(len(q)):
-            moved = [*q[:k], q[k] + _DIFFERENCE, *q[k + 1 :]]
-            yield [(b - a) / _DIFFERENCE for a, b in zip(f, self.at(moved), strict=True)]
+            beside = [*q[:k], q[k] + _DIFFERENCE, *q[k + 1 :]]
+            yield [(b - a) / _DIFFERENCE for a, b in zip(f, self.at(beside), strict=True)]
 
     def _wrapped(self, k: int, x: float) -> float:
         if self.robot.coordinates[k].type is JointType.PRISMATIC:

@@ -35,11 +35,13 @@ from dynsolve.draw.vectors import (
     cross,
     distance,
     dot,
+    from_to,
     moved,
     point_to_segment,
     scale,
     segment_distance,
     subtract,
+    toward,
 )
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words
@@ -77,17 +79,19 @@ Choice = tuple[float, ...]
 
 def cost_of(pose: Pose, orientation: Orientation) -> float:
     """How far a pose is from good, 0 at best."""
-    view = pose.view
+    view, size = pose.view, pose.view.space(AXIS)
     path = [view.point(point) for point in _with_hand(pose)]
+    links = list(pairwise(path))
     centers = [view.point(part.center) for part in pose.parts.joints]
-    tips = _tips(pose)
+    tips = [view.point(along(origin, axis, size)) for origin, axis in _axes_to_see(pose)]
+    on_links = sum(_shortfall(point_to_segment(tip, *link), 13.0) for tip in tips for link in links)
     return (
         30.0 * max(0.0, 120.0 / view.size - 1.0)
         + 40.0 * _crowding(path, 60.0)
         + 25.0 * _crowding(centers, 48.0)
-        + 14.0 * _crowding([tip for _, tip in tips], 30.0)
-        + 30.0 * _crossings(pose, 36.0)
-        + 10.0 * _tips_on_links(path, tips)
+        + 14.0 * _crowding(tips, 30.0)
+        + 30.0 * _crossings(links)
+        + 10.0 * on_links
         + _foreshortening(pose)
         + _lowness(pose.skeleton, orientation)
     )
@@ -113,40 +117,29 @@ def _crowding(points: Sequence[Point], wanted: float) -> float:
     return sum(_shortfall(math.dist(a, b), wanted) for a, b in combinations(points, 2))
 
 
-def _tips(pose: Pose) -> list[tuple[Point, Point]]:
-    """(origin, tip) of the axes of frames on paper."""
-    view, size = pose.view, pose.view.space(AXIS)
-    return [
-        (view.point(frame.origin), view.point(along(frame.origin, axis, size)))
-        for frame in pose.skeleton.frames
-        for axis in (frame.x, frame.z)
-        if not (view.flat and abs(dot(axis, view.toward)) > 0.9)
-    ]
+def _axes_to_see(pose: Pose) -> Iterator[tuple[Vector, Vector]]:
+    """The x and z axes with their origins, but for those that a flat view shows end on."""
+    for frame in pose.skeleton.frames:
+        for axis in (frame.x, frame.z):
+            if not (pose.view.flat and abs(dot(axis, pose.view.toward)) > 0.9):
+                yield frame.origin, axis
 
 
-def _tips_on_links(path: Sequence[Point], tips: Sequence[tuple[Point, Point]]) -> float:
-    segments = list(pairwise(path))
-    return sum(_shortfall(point_to_segment(tip, *segment), 13.0) for _, tip in tips for segment in segments)
-
-
-def _crossings(pose: Pose, wanted: float) -> float:
+def _crossings(links: Sequence[tuple[Point, Point]]) -> float:
     """How near links come to each other that do not meet."""
-    view = pose.view
-    path = [view.point(point) for point in _with_hand(pose)]
-    segments = list(pairwise(path))
     total = 0.0
-    for (i, first), (j, second) in combinations(enumerate(segments), 2):
+    for (i, first), (j, second) in combinations(enumerate(links), 2):
         if j == i + 1:
             total += 0.6 * _fold(first, second)
         else:
-            total += _shortfall(segment_distance(first, second), wanted)
+            total += _shortfall(segment_distance(first, second), 36.0)
     return total
 
 
 def _fold(first: tuple[Point, Point], second: tuple[Point, Point]) -> float:
     """1 where a link lies straight back on the one before it, 0 where it is far from that."""
     (a, b), (_, c) = first, second
-    u, v = (a[0] - b[0], a[1] - b[1]), (c[0] - b[0], c[1] - b[1])
+    u, v = from_to(b, a), from_to(b, c)
     sizes = math.hypot(*u) * math.hypot(*v)
     if sizes < NEAR:
         return 1.0
@@ -156,11 +149,9 @@ def _fold(first: tuple[Point, Point], second: tuple[Point, Point]) -> float:
 def _foreshortening(pose: Pose) -> float:
     view = pose.view
     total = 0.0
-    for frame in pose.skeleton.frames:
-        for axis in (frame.x, frame.z):
-            if not (view.flat and abs(dot(axis, view.toward)) > 0.9):
-                total += 6.0 * _shortfall(math.hypot(*view.direction(axis)), 0.6)
-    for a, b in zip(pose.skeleton.path, pose.skeleton.path[1:], strict=False):
+    for _, axis in _axes_to_see(pose):
+        total += 6.0 * _shortfall(math.hypot(*view.direction(axis)), 0.6)
+    for a, b in pairwise(pose.skeleton.path):
         seen = math.dist(view.point(a), view.point(b)) / (distance(a, b) * view.size)
         total += 8.0 * _shortfall(seen, 0.7)
     return total
@@ -303,16 +294,10 @@ def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
             else:
                 groups.append((origin, tip, [name]))
     for origin, tip, names in groups:
-        toward = (tip[0] - origin[0], tip[1] - origin[1])
+        listed = [names[0], *(part for name in names[1:] for part in (Words(", "), name))]
+        node = names[0] if len(names) == 1 else Row(tuple(listed))
         radius = MARK if tip == origin else 0.0
-        notes.label(_listed(names), [tip], toward, paths.FRAME, "axis", radius)
-
-
-def _listed(names: Sequence[Node]) -> Node:
-    parts: list[Node] = [names[0]]
-    for name in names[1:]:
-        parts += [Words(", "), name]
-    return parts[0] if len(parts) == 1 else Row(tuple(parts))
+        notes.label(node, [tip], from_to(origin, tip), paths.FRAME, "axis", radius)
 
 
 def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
@@ -322,17 +307,12 @@ def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     if _is_end_on(axis, pose):
         notes.taken.add([Path(paths.circle(origin, MARK))])  # drawn last, by `axes_end_on`
         return origin
-    reach = reach_of_axis((x, y), pose)
-    tip = (origin[0] + x * reach, origin[1] + y * reach)
-    back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
-    head = Path(paths.head(tip, (x, y)), None, fill=paths.FRAME)
-    notes.draw(
-        Path(paths.line(origin, back), paths.WHITE, 4.2),
-        Path(paths.line(origin, back), paths.FRAME, 1.6),
-        head,
-    )
-    notes.tips.append(head)
-    notes.heads.add([head])
+    tip = moved(origin, (x, y), reach_of_axis((x, y), pose))
+    back = moved(tip, (x / math.hypot(x, y), y / math.hypot(x, y)), -6.0)
+    arrow = paths.arrow(origin, back, tip, (x, y), paths.FRAME, 1.6, halo=4.2)
+    notes.draw(*arrow)
+    notes.tips.append(arrow[-1])
+    notes.heads.add([arrow[-1]])
     return tip
 
 
@@ -360,9 +340,13 @@ def seen_end_on(center: Point, toward: bool, notes: Notes, colour: str = paths.F
     if toward:
         notes.draw(Path(paths.circle(center, 2.0), None, fill=colour))
         return
-    (x, y), s = center, 0.7 * MARK
-    for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
-        notes.draw(Path(paths.line(a, b), colour, 1.4))
+    notes.draw(*_cross(center, 0.7 * MARK, colour))
+
+
+def _cross(center: Point, size: float, colour: str) -> Iterator[Path]:
+    """The feathers of an arrow that points away from the viewer."""
+    for way in ((1.0, 1.0), (1.0, -1.0)):
+        yield Path(paths.line(moved(center, way, -size), moved(center, way, size)), colour, 1.4)
 
 
 # -- mass centres and gravity ----------------------------------------------------------------------
@@ -376,7 +360,10 @@ def masses(pose: Pose, notes: Notes) -> None:
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
             notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
         radius = _AROUND if _is_under_axis(center, pose) else MARK
-        notes.draw(*(_ball(center, radius) if mass.is_point else _quartered(center, radius)))
+        if mass.is_point:
+            notes.draw(Path(paths.circle(center, radius), paths.WHITE, 1.2, paths.BLACK))
+        else:
+            notes.draw(*_quartered(center, radius))
         name = letters.bold("r", Row((Words("c"), letters.index_of(mass.name))))
         notes.label(name, [center], (0.0, 0.0), paths.BLACK, "mass", radius)
 
@@ -402,10 +389,6 @@ def _is_on_link(center: Point, pose: Pose) -> bool:
     return any(point_to_segment(center, a, b) < 2 * TUBE for a, b in lines)
 
 
-def _ball(center: Point, radius: float) -> tuple[Path, ...]:
-    return (Path(paths.circle(center, radius), paths.WHITE, 1.2, paths.BLACK),)
-
-
 def _quartered(center: Point, radius: float) -> tuple[Path, ...]:
     quarters = tuple(
         Path(
@@ -426,19 +409,13 @@ def gravity(place: Point, direction: Point | None, notes: Notes) -> None:
     """The arrow of gravity; a cross in a circle where it points away from the viewer."""
     node = Symbol("g")
     if direction is None:
-        notes.draw(Path(paths.circle(place, 8.0), paths.BLACK, 1.4))
-        (x, y), s = place, 5.6
-        for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
-            notes.draw(Path(paths.line(a, b), paths.BLACK, 1.4))
-        notes.label(node, [(x + 8.0, y)], (1.0, 0.0), paths.BLACK, "gravity")
-        return
-    x, y = direction
-    tip = moved(place, (x, y), 46.0)
-    notes.draw(
-        Path(paths.line(place, moved(place, (x, y), 38.0)), paths.BLACK, 2.0),
-        Path(paths.head(tip, (x, y), 11.0), None, fill=paths.BLACK),
-    )
-    notes.label(node, [moved(place, (x, y), 22.0)], (1.0, 0.0), paths.BLACK, "gravity")
+        notes.draw(Path(paths.circle(place, 8.0), paths.BLACK, 1.4), *_cross(place, 5.6, paths.BLACK))
+        beside = moved(place, (1.0, 0.0), 8.0)
+    else:
+        back, tip = moved(place, direction, 38.0), moved(place, direction, 46.0)
+        notes.draw(*paths.arrow(place, back, tip, direction, paths.BLACK, 2.0, size=11.0))
+        beside = moved(place, direction, 22.0)
+    notes.label(node, [beside], (1.0, 0.0), paths.BLACK, "gravity")
 
 
 # Springs at joints
@@ -503,8 +480,7 @@ def spiral(center: Vector, axis: Vector, view: View, inner: float = _INNER) -> I
 
 def zigzag(a: Point, b: Point, beside: float) -> Iterator[Point]:
     """From a point to another, that far beside the line between them."""
-    reach = math.dist(a, b) or 1.0
-    way = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    reach, way = math.dist(a, b) or 1.0, toward(a, b)
     across = -way[1], way[0]
     ends = max(min(_ENDS, reach / 4), (reach - _LONGEST) / 2)
     teeth = max(2, round((reach - 2 * ends) / _TOOTH))

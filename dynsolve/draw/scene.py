@@ -28,7 +28,20 @@ from dynsolve.draw.pose_search import best_pose, dressed, held_pose
 from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, Notes, Pose, joint_springs, springs
 from dynsolve.draw.skeleton import Orientation, RobotNumbers, numbers, orientation
 from dynsolve.draw.solids import ground, solids
-from dynsolve.draw.vectors import NEAR, Point, Vector, View, along, cross, dot, length, moved, scaled, unit
+from dynsolve.draw.vectors import (
+    NEAR,
+    Point,
+    Vector,
+    View,
+    along,
+    cross,
+    dot,
+    length,
+    moved,
+    scaled,
+    toward,
+    unit,
+)
 from dynsolve.notation.characters import SUBSCRIPT_DIGITS
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
@@ -74,7 +87,10 @@ def _ways(body: DrawnBody, axis: int, view: View) -> Iterator[tuple[Point, Point
     lengthwise = max(range(3), key=lambda k: halves[k]) if is_box else body.main
     across = body.axes[axis] if is_box else cross(body.axes[body.main], view.toward)
     if body.form is Form.BALL or (axis != lengthwise and length(across) < NEAR):
-        yield from _diameters(view.point(body.center), halves[axis])
+        center = view.point(body.center)
+        for turn in _TURNS:
+            way = math.cos(turn), math.sin(turn)
+            yield moved(center, way, -halves[axis]), moved(center, way, halves[axis])
     elif axis != lengthwise and math.hypot(*view.direction(unit(across))) > _FACING:
         half = scaled(view.direction(unit(across)), halves[axis])
         third = 3 - axis - lengthwise
@@ -86,21 +102,9 @@ def _ways(body: DrawnBody, axis: int, view: View) -> Iterator[tuple[Point, Point
             yield moved(at, half, -1.0), moved(at, half, 1.0)
 
 
-def _diameters(center: Point, radius: float) -> Iterator[tuple[Point, Point]]:
-    """Through the middle of a circle."""
-    for turn in _TURNS:
-        way = math.cos(turn), math.sin(turn)
-        yield moved(center, way, -radius), moved(center, way, radius)
-
-
-def _outward(p: Point, q: Point) -> Point:
-    reach = math.dist(p, q)
-    return (p[0] - q[0]) / reach, (p[1] - q[1]) / reach
-
-
 def _crowded(p: Point, q: Point, notes: Notes) -> tuple[int, int]:
     """How much is in the way of the arrows, and of a label at the freer one; and of one at the other."""
-    out = _outward(p, q)
+    out = toward(q, p)
     tips = (p, out), (q, scaled(out, -1.0))
     tails = sum(notes.taken.cells_on(moved(tip, way, 4.0), moved(tip, way, _TAIL)) for tip, way in tips)
     rooms = (Box.around(moved(tip, way, _TAIL + _LABEL / 2), _LABEL, _LABEL) for tip, way in tips)
@@ -109,16 +113,12 @@ def _crowded(p: Point, q: Point, notes: Notes) -> tuple[int, int]:
 
 
 def _arrows(p: Point, q: Point, name: Node, notes: Notes) -> None:
-    out = _outward(p, q)
+    out = toward(q, p)
     ends = []
     for tip, way in ((p, out), (q, scaled(out, -1.0))):
         ends.append(moved(tip, way, _TAIL))
-        shaft = paths.line(ends[-1], moved(tip, way, _HEAD - 2.0))
-        notes.draw(
-            Path(shaft, paths.WHITE, 3.4),
-            Path(shaft, paths.BLACK, 1.0),
-            Path(paths.head(tip, scaled(way, -1.0), _HEAD), None, fill=paths.BLACK),
-        )
+        back, inward = moved(tip, way, _HEAD - 2.0), scaled(way, -1.0)
+        notes.draw(*paths.arrow(ends[-1], back, tip, inward, paths.BLACK, 1.0, halo=3.4, size=_HEAD))
     notes.label(name, ends, (0.0, 0.0), paths.BLACK, "length")
 
 
@@ -208,9 +208,11 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
     """What stands under the picture, with what its lines are that are not always there."""
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
     pushed = [load for load, *_ in drawn_forces(robot, values, pose)]
+    turned_about = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
+    same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (
         (WORLD, has_world(robot, values)),
-        (_axis_of_base(robot), has_world(robot, values) and len(robot.base_turns) == 1),
+        (same_axis, has_world(robot, values) and len(robot.base_turns) == 1),
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, has_offsets(pose)),
         (RINGS, has_rings(pose)),
@@ -225,12 +227,6 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
     return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])
-
-
-def _axis_of_base(robot: Robot) -> str:
-    """The axis about which frame 0 is turned in the world: the same in both."""
-    axis = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
-    return f"{axis}₀, about which the base is turned, is that of the world, too."
 
 
 def _is_number(label: Label) -> bool:
@@ -276,9 +272,8 @@ def _center_lengths(pose: Pose) -> list[Length]:
             continue
         rate = Fraction(mass.rate).limit_denominator(12 if mass.symbol else _FINEST)
         if abs(rate - mass.rate) < NEAR:
-            node = (
-                _part(Symbol(mass.symbol), rate) if mass.symbol else Number(rate.numerator, rate.denominator)
-            )
+            number = Number(rate.numerator, rate.denominator)
+            node = _part(Symbol(mass.symbol), rate) if mass.symbol else number
             found.append(Length(mass.from_, mass.center, node, optional=True))
     return found
 

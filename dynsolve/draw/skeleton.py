@@ -118,7 +118,9 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
         values |= {name: unit * drawn_length(values[name] / unit) for name in named}
         unit, shortest = _range(robot, values)
 
-    if (factor, spread) != _RETRIES[-1] and _has_vanished(robot, values):
+    constant = [x for row in robot.joints for x in (row.a, *(() if row.variable == "d" else (row.d,)))]
+    has_vanished = any(not x.is_zero and abs(finite(x, values)) < _TINY for x in constant)
+    if has_vanished and (factor, spread) != _RETRIES[-1]:
         raise ValueError("a length came out as 0")
 
     def drawn(expr: Expr) -> float:
@@ -164,14 +166,6 @@ def turned_alone(robot: Robot, joint: Joint) -> str | None:
     return name if joint.theta.linear == Angle.of(name) else None
 
 
-def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:
-    """Whether a length that is not 0 in general is 0 for these values."""
-    constant = [
-        x for joint in robot.joints for x in (joint.a, *(() if joint.variable == "d" else (joint.d,)))
-    ]
-    return any(not x.is_zero and abs(finite(x, values)) < _TINY for x in constant)
-
-
 def _range(robot: Robot, values: Mapping[str, float]) -> tuple[float, float]:
     """The longest length of the table, and the shortest that is not 0; 1 where there is none."""
     lengths = [abs(finite(x, values)) for joint in robot.joints for x in (joint.d, joint.a)]
@@ -196,10 +190,8 @@ def _all_values(robot: Robot, given: Mapping[str, float], factor: float, spread:
 
 def _lengths(robot: Robot) -> list[str]:
     """The parameters that stand in the columns d and a."""
-    columns = [node for joint in robot.joints for node in joint.written[1:3]]
-    names = names_in(*columns)
-    coordinates = {q.name for q in robot.coordinates}
-    return [name for name in robot.ring.parameters if name in names - coordinates]
+    names = names_in(*(node for joint in robot.joints for node in joint.written[1:3]))
+    return [name for name in robot.ring.parameters if name in names]
 
 
 def finite(expr: Expr, values: Mapping[str, float]) -> float:
@@ -317,7 +309,7 @@ class Skeleton(Struct, frozen=True):
 
 def skeleton(robot: Robot, numbers: RobotNumbers, q: Sequence[float]) -> Skeleton:
     """The robot with these values of its coordinates, in radians and picture lengths; without masses."""
-    frames, legs = [base_frame(numbers)], []
+    frames, legs = [DrawnFrame(ORIGIN, numbers.base)], []
     for joint in robot.joints:
         leg, frame = _leg(robot, numbers, joint, q, frames[joint.parent])
         legs.append(leg)
@@ -332,11 +324,6 @@ def _path(legs: Sequence[Leg]) -> tuple[Vector, ...]:
             if distance(points[-1], point) > NEAR:
                 points.append(point)
     return tuple(points)
-
-
-def base_frame(numbers: RobotNumbers) -> DrawnFrame:
-    """Frame 0, rotated as the file says; its displacement does not matter to a picture."""
-    return DrawnFrame(ORIGIN, numbers.base)
 
 
 def _leg(
@@ -398,19 +385,16 @@ def orientation(robot: Robot, numbers: RobotNumbers, drawn: bool = False) -> Ori
     It is seen from a side of frame 0; a robot that is `drawn` from a side of the drawing's axes,
     wherever the table has put frame 0: from behind it would be mirrored.
     """
-    base = DrawnFrame(ORIGIN, IDENTITY) if drawn else base_frame(numbers)
+    base = DrawnFrame(ORIGIN, IDENTITY if drawn else numbers.base)
     gravity = _gravity(robot, numbers)
     normal = _normal(robot, numbers, base)
-    if normal is not None and not _leans(normal, gravity):
+    # a plane that is neither upright nor level would hide from its front how far it leans
+    leans = normal and gravity and _FLAT < abs(dot(normal, gravity)) < 1 - _FLAT
+    if normal is not None and not leans:
         return Orientation(_up_in_plane(normal, base, gravity), base.x, gravity, normal)
     up = scale(gravity, -1.0) if gravity else base.z
     ahead = base.x if abs(dot(base.x, up)) < 0.9 else base.z
     return Orientation(up, ahead, gravity, None)
-
-
-def _leans(normal: Vector, gravity: Vector | None) -> bool:
-    """Whether a plane is neither upright nor level: seen from its front, it would hide how far it leans."""
-    return gravity is not None and _FLAT < abs(dot(normal, gravity)) < 1 - _FLAT
 
 
 def _gravity(robot: Robot, numbers: RobotNumbers) -> Vector | None:
@@ -432,7 +416,8 @@ def _up_in_plane(normal: Vector, base: DrawnFrame, gravity: Vector | None) -> Ve
 
 def _normal(robot: Robot, numbers: RobotNumbers, base: DrawnFrame) -> Vector | None:
     """The normal of the plane that the robot moves in, towards the viewer; None in space."""
-    poses = [skeleton(robot, numbers, _probe(robot.n, start)) for start in _PROBES]
+    probes = ([start + 0.37 * k for k in range(robot.n)] for start in _PROBES)
+    poses = [skeleton(robot, numbers, q) for q in probes]
     candidate = _candidate(poses[0])
     if candidate is None or not all(_moves_across(pose, candidate) for pose in poses):
         return None
@@ -441,10 +426,6 @@ def _normal(robot: Robot, numbers: RobotNumbers, base: DrawnFrame) -> Vector | N
             toward = dot(direction, candidate) * (-1.0 if direction is base.axes[1] else 1.0)
             return candidate if toward > 0 else scale(candidate, -1.0)
     return candidate
-
-
-def _probe(n: int, start: float) -> list[float]:
-    return [start + 0.37 * k for k in range(n)]
 
 
 def _candidate(pose: Skeleton) -> Vector | None:

@@ -30,8 +30,10 @@ from dynsolve.draw.vectors import (
     distance,
     dot,
     length,
+    moved,
     scale,
     subtract,
+    toward,
     unit,
 )
 from dynsolve.robot.model import JointType
@@ -222,10 +224,8 @@ def covers(bodies: Sequence[DrawnBody], point: Vector, view: View) -> bool:
     for body in bodies:
         offset = subtract(point, body.center)
         halves = body.on_paper(view.size)
-        if all(
-            abs(dot(offset, axis)) * view.size < half - 0.5
-            for axis, half in zip(body.axes, halves, strict=True)
-        ):
+        pairs = zip(body.axes, halves, strict=True)
+        if all(abs(dot(offset, axis)) * view.size < half - 0.5 for axis, half in pairs):
             return True
     return False
 
@@ -270,12 +270,8 @@ def _tube(a: Vector, b: Vector, view: View, sink: float, tube: int) -> Iterator[
 
 def _drawn(a: Point, b: Point) -> tuple[Path, ...]:
     """A straight tube on paper: its area and its two sides."""
-    reach = math.dist(a, b)
-    x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
-    sides = [
-        ((a[0] - s * y * TUBE, a[1] + s * x * TUBE), (b[0] - s * y * TUBE, b[1] + s * x * TUBE))
-        for s in (1.0, -1.0)
-    ]
+    x, y = toward(a, b)
+    sides = [(moved(a, (-s * y, s * x), TUBE), moved(b, (-s * y, s * x), TUBE)) for s in (1.0, -1.0)]
     area = paths.polygon([*sides[0], *reversed(sides[1])])
     return (Path(area, None, fill=paths.LINK), *(Path(paths.line(*side)) for side in sides))
 
@@ -367,7 +363,11 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
     """The ground under the base: a hatched line, or a hatched plate where there is space."""
     normal, place = parts.ground_normal, parts.ground
     if view.flat:
-        return _hatched_line(place, cross(normal, view.toward), normal, view, _GROUND)
+        level = cross(normal, view.toward)
+        left = view.point(along(place, level, -view.space(_GROUND)))
+        right = view.point(along(place, level, view.space(_GROUND)))
+        strokes = _hatches(left, right, view.direction(scale(normal, -1.0)))
+        return (*strokes, Path(paths.line(left, right), width=1.6))
     first = parts.ground_side
     second = cross(normal, first)
     half = view.space(_PLATE)
@@ -387,26 +387,16 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
     return (*hatches, plate)
 
 
-def _hatched_line(
-    place: Vector, direction: Vector, normal: Vector, view: View, half: float
-) -> tuple[Path, ...]:
-    a = view.point(along(place, direction, -view.space(half)))
-    b = view.point(along(place, direction, view.space(half)))
-    return (*_hatches(a, b, view.direction(scale(normal, -1.0))), Path(paths.line(a, b), width=1.6))
-
-
 def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
     """Short slanted strokes under a line; none beside one so steep that they would run along it."""
     reach = math.dist(a, b)
     if reach < 1.0:
         return []
     drop = math.hypot(*down) or 1.0
-    x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    x, y = toward(a, b)
     if abs(x * down[0] + y * down[1]) > _STEEP * drop:
         return []
     slant = (down[0] / drop * 8.0 - x * 6.0, down[1] / drop * 8.0 - y * 6.0)
     count = max(2, round(reach / 7.5))
     starts = [(a[0] + x * reach * k / count, a[1] + y * reach * k / count) for k in range(1, count + 1)]
-    return [
-        Path(paths.line(start, (start[0] + slant[0], start[1] + slant[1])), width=0.8) for start in starts
-    ]
+    return [Path(paths.line(start, moved(start, slant, 1.0)), width=0.8) for start in starts]

@@ -114,6 +114,17 @@ def moved(point: Point, direction: Point, amount: float) -> Point:
     return point[0] + direction[0] * amount, point[1] + direction[1] * amount
 
 
+def from_to(a: Point, b: Point) -> Point:
+    """b - a, on paper."""
+    return b[0] - a[0], b[1] - a[1]
+
+
+def toward(a: Point, b: Point) -> Point:
+    """(b - a) / |b - a|, on paper; 0 where they are one."""
+    reach = math.dist(a, b) or 1.0
+    return (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+
+
 # -- distances on paper ----------------------------------------------------------------------------
 
 
