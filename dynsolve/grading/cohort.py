@@ -300,13 +300,10 @@ def counted(problems: ProblemSet, record: Record, waits: Sequence[Entry], names:
         if answer.of != "0" and (key in cohort.judged or (answer.said and key not in cohort.waiting)):
             which = (answer.problem, answer.answer)
             found = cohort.items.setdefault(which, Item(float(points(answer.of))))
-            found.add(float(points(answer.marks)), totals.get(answer.student), _is_right(answer))
+            is_right = answer.marks == answer.of if answer.said else answer.verdict == "correct"
+            found.add(float(points(answer.marks)), totals.get(answer.student), is_right)
     cohort.pages |= {(answer.student, answer.problem) for answer in cohort.by_hand}
     return cohort
-
-
-def _is_right(a: RecordedAnswer) -> bool:
-    return a.marks == a.of if a.said else a.verdict == "correct"
 
 
 def _count(cohort: Cohort, a: RecordedAnswer) -> None:

@@ -8,14 +8,16 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from hashlib import sha256
+from html import escape
 from pathlib import Path
 
 from dynsolve.answers.marking.marks import shown
 from dynsolve.render.files import temporary_of, write_changed
+from dynsolve.render.prose import visible
 
 
 def write(path: Path, text: str, *, durable: bool = True) -> None:
@@ -45,6 +47,17 @@ def remove_others(folder: Path, kept: set[Path], endings: tuple[str, ...]) -> No
     for place in sorted(folder.glob("*/")):
         if place.is_dir() and not any(place.iterdir()):
             place.rmdir()
+
+
+def text(of_student: object) -> str:
+    """Text that a student may have written, in HTML."""
+    return escape(visible(str(of_student)))
+
+
+def called(student: str, names: Mapping[str, str]) -> str:
+    """A student with the name that people use, where that is another."""
+    name = names.get(student, "")
+    return f"{name} ({student})" if name and name not in student else student
 
 
 # -- CSV ---------------------------------------------------------------------------------------------
@@ -88,5 +101,5 @@ def decimal(marks: Fraction) -> str:
     >>> decimal(Fraction(5, 2)), decimal(Fraction(1, 3))
     ('2.5', '0.3333')
     """
-    text = shown(marks)
-    return f"{float(marks):.4f}" if "/" in text else text
+    exact = shown(marks)
+    return f"{float(marks):.4f}" if "/" in exact else exact

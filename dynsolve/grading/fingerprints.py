@@ -68,15 +68,9 @@ def of_marks(item: Item) -> str:
     return short({name: str(of) for name, of in item.problem.marks.items()})
 
 
-def fingerprint(found: dict[str, str]) -> str:
-    """One hash of all causes: the fingerprint of a result."""
-    return short(found)
-
-
 def fingerprints(problems: ProblemSet, hand_in: HandIn, bounds: Bounds) -> tuple[str, str]:
     """The fingerprints of a result that still holds: within any bounds, or over these."""
-    within, over = causes(problems, hand_in), causes(problems, hand_in, bounds)
-    return fingerprint(within), fingerprint(over)
+    return short(causes(problems, hand_in)), short(causes(problems, hand_in, bounds))
 
 
 def short(data: Any) -> str:
@@ -148,7 +142,7 @@ def row_of_result(problems: ProblemSet, hand_in: HandIn, said: Data, bounds: Bou
     found = {} if said.get("again") else causes(problems, hand_in, bounds if over else None)
     return (
         hand_in.key,
-        fingerprint(found) if found else "",
+        short(found) if found else "",
         json.dumps(found, sort_keys=True),
         {
             **result,
@@ -205,7 +199,9 @@ def rows_of_absent(problems: ProblemSet, intake: Intake, known: Mapping[Key, str
             key = (student, item.stem)
             if key in handed_in:
                 continue
-            said = _some_of(reasons.get(key, []))
+            said = reasons.get(key, [])
+            if len(said) > MOST_LOST + 1:
+                said = [*said[:MOST_LOST], f"and {len(said) - MOST_LOST} more"]
             late = intake.late.get(key, 0)
             word, causes, row = _not_judged(problems, item, said, late) if said else missing[item.stem]
             if known.get(key) != word:
@@ -220,9 +216,3 @@ def _not_judged(problems: ProblemSet, item: Item, said: list[str], late: int) ->
     row = _unread(problems, item.stem, reason)
     rest = {"files": [], "left": [], "late": late, "reason": reason, "notes": []}
     return short(found), json.dumps(found, sort_keys=True), {**row, **rest}
-
-
-def _some_of(said: list[str]) -> list[str]:
-    """A few of many reasons, and how many more there are."""
-    more = len(said) - MOST_LOST
-    return said if more <= 1 else [*said[:MOST_LOST], f"and {more} more"]

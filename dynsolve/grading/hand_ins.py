@@ -163,15 +163,13 @@ def take_in(
             if student:
                 students[student] = students.get(student) or id
             waiting.add(Waiting(student, "", refused.name, refused.reason))
-    counting = (_counting(student, problem, found) for (student, problem), found in sorted(pieces.items()))
-    hand_ins = tuple(_extended(problems, hand_in, students[hand_in.student]) for hand_in in counting)
+    hand_ins = []
+    for (student, problem), found in sorted(pieces.items()):
+        hand_in = _counting(student, problem, found)
+        days = days_late(problems.extensions, student, students[student], problem, hand_in.late)
+        hand_ins.append(replace(hand_in, late=days))
     rows = dict(sorted(students.items()))
-    return Intake(rows, hand_ins, tuple(sorted(waiting)), in_groups, tuple(files), names, delays)
-
-
-def _extended(problems: ProblemSet, hand_in: HandIn, id: str) -> HandIn:
-    days = days_late(problems.extensions, hand_in.student, id, hand_in.problem, hand_in.late)
-    return replace(hand_in, late=days)
+    return Intake(rows, tuple(hand_ins), tuple(sorted(waiting)), in_groups, tuple(files), names, delays)
 
 
 def _metadata(uploads: Uploads, lists: Collection[PurePosixPath]) -> Submitters:

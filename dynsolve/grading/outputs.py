@@ -13,7 +13,6 @@ import io
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
-from html import escape
 from itertools import groupby
 from pathlib import Path
 
@@ -23,6 +22,7 @@ from dynsolve.answers.marking.marks import deduction, points, shown
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.cohort import Entry, for_a_human, most, queue, standings
 from dynsolve.grading.files import decimal, folder_name, remove_others, safe, table, write
+from dynsolve.grading.files import text as html_text
 from dynsolve.grading.queue_page import FILE as QUEUE_PAGE
 from dynsolve.grading.queue_page import queue_page
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
@@ -212,16 +212,16 @@ def _explained(row: RecordedHandIn, answers: list[RecordedAnswer]) -> Iterator[t
 def _html(head: _Head, page: str) -> str:
     """The page with its head."""
     rows = "".join(
-        "<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>\n" for cells in head.rows
+        "<tr>" + "".join(f"<td>{html_text(cell)}</td>" for cell in cells) + "</tr>\n" for cells in head.rows
     )
     names = "".join(f'<th scope="col">{name}</th>' for name in ("answer", "marks", "why"))
     body = f"<thead><tr>{names}</tr></thead><tbody>\n{rows}</tbody>"
-    title = _escaped(head.title)
+    title = html_text(head.title)
     parts = (
         f'<h1 dir="auto">{title}</h1>',
-        f"<p>{_escaped(head.assignment)}</p>" if head.assignment else "",
+        f"<p>{html_text(head.assignment)}</p>" if head.assignment else "",
         f"<p><strong>{head.total}</strong></p>",
-        *(f"<p>{_escaped(sentence)}</p>" for sentence in head.told),
+        *(f"<p>{html_text(sentence)}</p>" for sentence in head.told),
         f'<div class="scroll"><table class="marks">{body}</table></div>' if rows else "",
     )
     page = _put(page, "<title>[^<]*</title>", f"<title>{title}</title>")
@@ -242,7 +242,3 @@ def _put(page: str, place: str, text: str) -> str:
     """The page with a text put in at the first match, which is before anything a student wrote."""
     found = re.search(place, page)
     return page if found is None else page[: found.start()] + text + page[found.end() :]
-
-
-def _escaped(text: str) -> str:
-    return escape(visible(text))

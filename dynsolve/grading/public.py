@@ -33,7 +33,7 @@ from dynsolve.grading.platforms.registry import (
     names,
     people,
 )
-from dynsolve.grading.pool import Bounds, LocalPool
+from dynsolve.grading.pool import Bounds, ClusterPool, LocalPool
 from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all, keep_keys
 from dynsolve.grading.set_file import ProblemSet, load_set, store_set, stored_set
@@ -71,13 +71,9 @@ def meant_student(record: Record, said: str) -> str:
 
 def _listed(students: list[str], called: dict[str, str]) -> str:
     more = f" or {len(students) - _MOST} others" if len(students) > _MOST else ""
-    return " or ".join(_with_names(students[:_MOST], called)) + more
-
-
-def _with_names(students: list[str], called: dict[str, str]) -> Iterator[str]:
-    for student in students:
-        name = called.get(student, "")
-        yield f"`{student}` ({name})" if name and name not in student else f"`{student}`"
+    names = ((student, called.get(student, "")) for student in students[:_MOST])
+    named = [f"`{s}` ({name})" if name and name not in s else f"`{s}`" for s, name in names]
+    return " or ".join(named) + more
 
 
 def _words(name: str) -> list[str]:
@@ -153,13 +149,20 @@ def grade(
     >>> temporary.cleanup()
     """
     folder = Path(output)
-    _check_usage(folder, Path(submissions), lms, roster)
+    if folder.resolve() == Path(submissions).resolve():
+        raise UsageError(f"{folder} is the folder of the hand-ins: give another one for the results")
+    if roster is not None and not lms:
+        raise UsageError(f"--roster needs --lms, the platform that it is of: {', '.join(PLATFORMS)}")
     chosen = load_set(os.fspath(problems))
     listed = chosen_roster(chosen, lms, Path(roster) if roster is not None else None) if lms else None
     with closing(Uploads(Path(submissions), besides=folder)) as uploads, _opened(folder) as record:
         if lms and listed:
             keep_platform(record, lms, listed)
-        with closing(_pool(jobs, cluster, Bounds(timeout, memory << 20))) as pool:
+        bounds = Bounds(timeout, memory << 20)
+        made: Pool = (
+            ClusterPool(cluster, bounds) if cluster else LocalPool(jobs or os.cpu_count() or 1, bounds)
+        )
+        with closing(made) as pool:
             delays = late(record)
             unknown = _late_unknown(chosen, uploads, delays)
             if unknown and warn is not None:
@@ -198,13 +201,6 @@ def _late_unknown(problems: ProblemSet, uploads: Uploads, delays: dict[str, int]
         return ""  # Canvas writes LATE into the names
     said = "the policy takes marks for being late, and nothing says who was late: nobody loses any"
     return f"{said}; give the platform's list with --lms and --roster"
-
-
-def _check_usage(folder: Path, submissions: Path, lms: str | None, roster: object) -> None:
-    if folder.resolve() == submissions.resolve():
-        raise UsageError(f"{folder} is the folder of the hand-ins: give another one for the results")
-    if roster is not None and not lms:
-        raise UsageError(f"--roster needs --lms, the platform that it is of: {', '.join(PLATFORMS)}")
 
 
 def override(
@@ -281,14 +277,6 @@ def _points(record: Record, student: str, problem: str, answer: str, marks: str)
     if not 0 <= points <= of:
         raise UsageError(f"{answer} has {shown(of)} marks: give it from 0 to {shown(of)}")
     return points
-
-
-def _pool(jobs: int, cluster: str, bounds: Bounds) -> Pool:
-    if cluster:
-        from dynsolve.grading.pool import ClusterPool
-
-        return ClusterPool(cluster, bounds)
-    return LocalPool(jobs or os.cpu_count() or 1, bounds)
 
 
 @contextmanager

@@ -25,14 +25,14 @@ from dynsolve.answers.reading.files import ENDINGS, FORMATS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import ReadError
 from dynsolve.grading.cohort import Entry
-from dynsolve.grading.files import decimal, folder_name, safe
+from dynsolve.grading.files import called, decimal, folder_name, safe
+from dynsolve.grading.files import text as _text
 from dynsolve.grading.record import Key, Record, RecordedAnswer
 from dynsolve.grading.run import kept_keys
 from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import FOLDER, PICTURES, copy_name
 from dynsolve.grading.which_problem import as_text
-from dynsolve.render.html import stylesheet
-from dynsolve.render.prose import visible
+from dynsolve.render.html import stylesheet, whole_page
 
 FILE = "queue.html"
 
@@ -75,21 +75,9 @@ def queue_page(
     digest = base64.b64encode(sha256(f"\n{script}".encode()).digest()).decode()
     style = stylesheet() + (files("dynsolve.grading") / "queue.css").read_text(encoding="utf-8")
     title = f"{_text(problems.title)}: what waits for a human"
-    return (
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
-        f"style-src 'unsafe-inline'; script-src 'sha256-{digest}'; img-src 'self' data:\">\n"
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
-        f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
-        f"{_bar(stems, waits)}{body or '<p>Nothing waits.</p>'}</main>\n{templates}"
-        f"<script>\n{script}</script>\n</body>\n</html>\n"
-    )
-
-
-def _text(text: object) -> str:
-    """Text that a student may have written, escaped."""
-    return escape(visible(str(text)))
+    main = f"<h1>{title}</h1>\n{_bar(stems, waits)}{body or '<p>Nothing waits.</p>'}"
+    whole = f"<main>\n{main}</main>\n{templates}<script>\n{script}</script>"
+    return whole_page(title, f"script-src 'sha256-{digest}'; img-src 'self' data:", style, whole)
 
 
 def _bar(stems: Sequence[str], waits: Sequence[Entry]) -> str:
@@ -121,9 +109,7 @@ def _entry(course: _Course, entries: list[Entry]) -> str:
     entry = entries[0]
     waiting = [e.answer for e in entries if e.answer]
     others = [] if waiting else course.answers.get((entry.student, entry.problem), [])
-    name = course.names.get(entry.student, "")
-    who = f"{name} ({entry.student})" if name and name not in entry.student else entry.student
-    heading = " · ".join(filter(None, (who, entry.problem, entry.what)))
+    heading = " · ".join(filter(None, (called(entry.student, course.names), entry.problem, entry.what)))
     reason = f"{entry.what}: {entry.why}"
     rows = "".join(_answer(course, a, reason, "") for a in waiting)
     rows += "".join(_answer(course, a, "", " data-extra") for a in others if a.of != "0")
@@ -192,7 +178,12 @@ def _hand_in(course: _Course, entry: Entry) -> str:
     """The links to the files, and the text around the line that is meant."""
     paths = course.uploads.get((entry.student, entry.problem), ())
     every = dict.fromkeys((*([entry.what] if entry.what not in paths else []), *paths))
-    links = " ".join(filter(None, (_linked(course.folder, path) for path in every)))
+    copied = ((PurePosixPath(path).name, _copy(course.folder, path)) for path in every)
+    links = " ".join(
+        f'<a href="{copy}" target="_blank" rel="noopener noreferrer">{_text(name)}</a>'
+        for name, copy in copied
+        if copy
+    )
     page = f"feedback/{folder_name(entry.student)}/{entry.problem}.html"
     if (course.folder / page).is_file():
         links += f' · <a href="{quote(page)}" target="_blank">what the student reads</a>'
@@ -220,11 +211,6 @@ def _copy(folder: Path, path: str) -> str:
     """Where the copy of a file lies, nothing where there is none."""
     copy = copy_name(path)
     return f"{FOLDER}/{quote(copy)}" if (folder / FOLDER / copy).is_file() else ""
-
-
-def _linked(folder: Path, path: str) -> str:
-    where, name = _copy(folder, path), _text(PurePosixPath(path).name)
-    return f'<a href="{where}" target="_blank" rel="noopener noreferrer">{name}</a>' if where else ""
 
 
 def _lines(folder: Path, path: str) -> list[str]:

@@ -230,15 +230,10 @@ class Record:
 
     def write_all(self, rows: Iterable[tuple[Key, str, str, Mapping[str, Any]]]) -> None:
         """Write several hand-ins at once: all of them, or nothing."""
-        self.db.execute("BEGIN")
-        try:
+        with self.db:
+            self.db.execute("BEGIN")
             for row in rows:
                 self._insert(*row)
-            self.db.execute("COMMIT")
-        except BaseException:
-            if self.db.in_transaction:  # a full disk ends it by itself
-                self.db.execute("ROLLBACK")
-            raise
 
     def _insert(self, key: Key, fingerprint: str, causes: str, row: Mapping[str, Any]) -> None:
         self.db.execute("DELETE FROM answers WHERE student = ? AND problem = ?", key)

@@ -24,7 +24,6 @@ from dynsolve.answers.marking.marks import to_data
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,
-    fingerprint,
     fingerprints,
     row_of_result,
     rows_of_absent,
@@ -138,7 +137,7 @@ def _is_rescored(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: 
         return False
     problem = problems.item(hand_in.problem).problem
     marks = rescored(kept, problem.marks, quantities(problem.robot), problems.policy)
-    record.rescore(hand_in.key, fingerprint(new), json.dumps(new, sort_keys=True), marks)
+    record.rescore(hand_in.key, short(new), json.dumps(new, sort_keys=True), marks)
     return True
 
 

@@ -25,13 +25,14 @@ from dynsolve.answers.verdict import Report
 from dynsolve.document import Block, Document, Note, Text
 from dynsolve.explain.context import style_of
 from dynsolve.grading.cohort import VERDICTS, WAITS, Cohort, Entry, Item, counted, most
-from dynsolve.grading.files import decimal, folder_name
+from dynsolve.grading.files import called, decimal, folder_name
+from dynsolve.grading.files import text as _text
 from dynsolve.grading.record import Record
 from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import FOLDER, copy_name
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.problem.model import Problem
-from dynsolve.render.html import stylesheet
+from dynsolve.render.html import stylesheet, whole_page
 from dynsolve.render.prose import visible
 
 # A histogram of marks: inline SVG that is read without a script, and by a screen reader
@@ -108,18 +109,9 @@ def teachers_page(
     told = {name: body for name, body in sections.items() if body}
     links = " · ".join(f'<a href="#{_anchor(name)}">{name}</a>' for name in told)
     body = "".join(f'<h2 id="{_anchor(name)}">{name}</h2>\n{text}' for name, text in told.items())
-    policy = (
-        '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
-        "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">"
-    )
-    return (
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        f'{policy}\n<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
-        f"<title>{title}</title>\n<style>\n{_own('report.css')}</style>\n</head>\n<body>\n<main>\n"
-        f"<h1>{title}</h1>\n{_summary(problems, cohort)}<nav>{links}</nav>\n{body}</main>\n"
-        f"<script>\n{_own('sort.js')}</script>\n</body>\n</html>\n"
-    )
+    main = f"<h1>{title}</h1>\n{_summary(problems, cohort)}<nav>{links}</nav>\n{body}"
+    whole = f"<main>\n{main}</main>\n<script>\n{_own('sort.js')}</script>"
+    return whole_page(title, "script-src 'unsafe-inline'; img-src data:", _own("report.css"), whole)
 
 
 def _own(name: str) -> str:
@@ -128,11 +120,6 @@ def _own(name: str) -> str:
 
 def _anchor(name: str) -> str:
     return name.lower().replace(" ", "-")
-
-
-def _text(text: object) -> str:
-    """Text that a student may have written, escaped."""
-    return escape(visible(str(text)))
 
 
 # -- tables ------------------------------------------------------------------------------------------
@@ -158,15 +145,10 @@ def _row(*cells: str) -> str:
 
 def _link(cohort: Cohort, student: str, problem: str, text: str = "") -> str:
     """A student, or another text, with the link to the page that the student reads."""
-    text = _text(text) if text else _called(cohort, student)
+    text = _text(text or called(student, cohort.names))
     if (student, problem) not in cohort.pages:
         return text
     return f'<a href="feedback/{quote(folder_name(student))}/{quote(problem)}.html">{text}</a>'
-
-
-def _called(cohort: Cohort, student: str) -> str:
-    name = cohort.names.get(student)
-    return _text(f"{name} ({student})" if name and name not in student else student)
 
 
 def _file(copies: Set[str], path: str, text: str) -> str:
@@ -265,9 +247,7 @@ def _slips(cohort: Cohort) -> str:
             example = cohort.examples[problem, answer, code]
             kind = SLIPS[code].kind if code in SLIPS else code
             who = _link(cohort, example.student, problem)
-            yield _row(
-                _text(problem), _text(answer), _text(kind), str(count), who, _short(example.text)
-            )  # fmt: skip
+            yield _row(*map(_text, (problem, answer, kind, count)), who, _short(example.text))
 
     header = ("problem", "answer", "slip", "times", "for example", "what is said of it")
     note = _of(MOST_SLIPS, len(found), "commonest")
@@ -286,9 +266,7 @@ def _alike(cohort: Cohort) -> str:
         for (problem, answer, _), same in found[:MOST_ALIKE]:
             who = ", ".join(_link(cohort, student, problem) for student in same.students[:MOST_NAMED])
             more = " and others" if len(same.students) > MOST_NAMED else ""
-            yield _row(
-                _text(problem), _text(answer), str(len(same.students)), _short(same.text), who + more
-            )  # fmt: skip
+            yield _row(*map(_text, (problem, answer, len(same.students))), _short(same.text), who + more)
 
     hint = "A hint and no accusation: a common slip leads many to the same expression."
     note = f"{hint} {_of(MOST_ALIKE, len(found), 'most frequent')}".strip()
@@ -339,13 +317,9 @@ def _students(problems: ProblemSet, cohort: Cohort, copies: Set[str]) -> str:
             }
             each = (_link(cohort, s.student, stem, text) for stem, text in marks.items())
             deducted = [decimal(s.deducted)] if is_any_late else []
-            handed_in = " ".join(_handed_in(s.student))
-            yield _row(_called(cohort, s.student), *each, decimal(s.total), *deducted, handed_in)
-
-    def _handed_in(student: str) -> Iterator[str]:
-        for stem in problems.stems:
-            if (student, stem) in cohort.uploads:
-                yield _hand_in(cohort, copies, student, stem)
+            stems = [stem for stem in problems.stems if (s.student, stem) in cohort.uploads]
+            handed_in = " ".join(_hand_in(cohort, copies, s.student, stem) for stem in stems)
+            yield _row(_text(called(s.student, cohort.names)), *each, decimal(s.total), *deducted, handed_in)
 
     caption = "The marks of each student lead to the page that the student reads"
     late = ["for being late"] if is_any_late else []

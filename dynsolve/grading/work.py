@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import base64
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from fractions import Fraction
 from functools import lru_cache, partial
@@ -36,7 +36,7 @@ from dynsolve.explain.context import style_of
 from dynsolve.explain.forms import Forms
 from dynsolve.grading.record import basis
 from dynsolve.grading.teacher import student_page
-from dynsolve.notation.tree import Matrix, Node
+from dynsolve.notation.tree import Matrix
 from dynsolve.problem.reader import read_problem
 from dynsolve.quantities.index import Quantities
 from dynsolve.render.html import render
@@ -65,16 +65,13 @@ def _key_pages(checker: Checker) -> dict[str, str]:
         target = compare.target(name)
         node, entry = (name, ()) if name in checker.graph.answer_ring.rules else (target.node, target.entry)
         if node in checker.graph.answer_ring.rules:
-            page = render(Document((Formula(_entry(forms(node), entry)),)), style)
+            shown = forms(node)
+            if entry and isinstance(shown, Matrix):
+                row, column = (*entry, 0)[:2]
+                shown = shown.rows[row][column]
+            page = render(Document((Formula(shown),)), style)
             found[name] = page.partition("<main>")[2].partition("</main>")[0].strip()
     return {name: page for name, page in found.items() if len(page) <= _LONGEST}
-
-
-def _entry(node: Node, entry: tuple[int, ...]) -> Node:
-    if not entry or not isinstance(node, Matrix):
-        return node
-    row, column = (*entry, 0)[:2]
-    return node.rows[row][column]
 
 
 Data = dict[str, Any]
@@ -125,12 +122,7 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     html, markdown = student_page(report, problem, policy.hints)
     return {
         "answers": [
-            {
-                **_answer(answer, marks),
-                "loss": answer.loss,
-                "form": _form(judge, answer),
-                "basis": basis(answer),
-            }
+            {**_answer(answer, marks), "form": _form(judge, answer), "basis": basis(answer)}
             for answer, marks in zip(report.answers, marked, strict=True)
         ],
         "not_recognized": [_listed(n) for n in report.not_recognized[:MOST_LISTED]],
@@ -187,6 +179,7 @@ def _placed(record: Placed, file: str) -> Placed:
 
 def _answer(answer: JudgedAnswer, marked: Marked) -> Data:
     place = answer.place
+    where = [str(place)] if place and place.file else []
     slips: dict[str, str] = {}
     for said in (*answer.diagnosis, *(d for entry in answer.entries for d in entry.diagnosis)):
         if said.code:
@@ -202,15 +195,10 @@ def _answer(answer: JudgedAnswer, marked: Marked) -> Data:
         "diagnosis": list(slips),
         "message": "\n".join(slips.values()),
         "read_as": answer.read_as[:MOST_TEXT],
-        "note": "; ".join(_notes(answer))[:MOST_TEXT],
+        "note": "; ".join([*where, *answer.notes])[:MOST_TEXT],
         "fault": answer.fault[:MOST_TEXT],
+        "loss": answer.loss,
     }
-
-
-def _notes(answer: JudgedAnswer) -> Iterator[str]:
-    if answer.place and answer.place.file:
-        yield str(answer.place)
-    yield from answer.notes
 
 
 def _form(judge: Judge, answer: JudgedAnswer) -> str:

@@ -34,11 +34,13 @@ SIGNS = {
 }
 """Sign of a relation, or of a cross product -> LaTeX."""
 
-_ESCAPES = {
+ESCAPES = {
     "\\": r"\textbackslash{}",
     "^": r"\textasciicircum{}",
     "~": r"\textasciitilde{}",
 } | {character: "\\" + character for character in "{}$&#%_"}
+"""Signs that mean something in LaTeX, as text."""
+
 _COMMANDS = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan"})
 _LATEX_TALL = (r"\frac", r"\begin", r"\sum", r"\left")
 
@@ -55,7 +57,7 @@ def to_latex(node: Node, style: Style = PLAIN) -> str:
 
 def escaped(text: str) -> str:
     """Any text as LaTeX text."""
-    text = "".join(_ESCAPES.get(character, character) for character in text)
+    text = "".join(ESCAPES.get(character, character) for character in text)
     return text if text.isprintable() else "".join(c if c.isprintable() else " " for c in text)
 
 

@@ -26,13 +26,13 @@ from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.markup import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
-from dynsolve.render.latex_displays import HEIGHTS, height_around
 from dynsolve.render.line_breaking import (
     RELATION_BREAK,
     SUM_BREAK,
     FormulaSplitter,
     Notation,
     Piece,
+    height_around,
     numbered,
     together,
     with_results,
@@ -78,17 +78,13 @@ def _fence(sign: str, height: float) -> str:
     return f'<mo form="{form}" stretchy="true" symmetric="true" {size}>{sign}</mo>'
 
 
-def _around(text: str) -> float:
-    return height_around(text, [_fence("(", height) for height in HEIGHTS])
-
-
 class PagePrinter(MathMLPrinter):
     """MathML for a page: parentheses are larger than those in them."""
 
     def parenthesized(self, text: str) -> str:
         """The text in parentheses."""
         whole = super().parenthesized(text)
-        height = _around(text)
+        height = height_around(text, _fence)
         if height == FLAT or "stretchy" not in whole.partition(">")[0]:
             return whole
         return row(f"{_fence('(', height)}{text}{_fence(')', height)}")
@@ -96,13 +92,6 @@ class PagePrinter(MathMLPrinter):
 
 def html_notation(printer: MathMLPrinter) -> Notation:
     """The signs of a formula in MathML."""
-
-    def closed(height: float, exponent: Node | None) -> str:
-        sign = _fence(")", height)
-        if exponent is None:
-            return sign
-        return f"<msup>{row(sign)}{row(printer.text(exponent))}</msup>"  # alone in a row it is stretched
-
     return Notation(
         text=printer.text,
         plus='<mo form="infix">+</mo>',
@@ -110,9 +99,8 @@ def html_notation(printer: MathMLPrinter) -> Notation:
         lead=MINUS,
         times='<mo form="infix">·</mo>',
         relation=lambda sign: f'<mo form="infix">{escape(sign)}</mo>',
-        opened=lambda height: _fence("(", height),
-        closed=closed,
-        around=_around,
+        fence=_fence,
+        raised=lambda sign, exponent: f"<msup>{row(sign)}{row(exponent)}</msup>",  # alone it is stretched
         joined="".join,
     )
 
@@ -263,13 +251,18 @@ def render_folded(document: Document, folded: Document, title: str, style: Style
 
 def _file(document: Document, body: str) -> str:
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
+    return whole_page(escape(title), "img-src data:", stylesheet(), body)
+
+
+def whole_page(title: str, policy: str, style: str, body: str) -> str:
+    """A page that fetches nothing; its `policy` says what else than its styles it may use."""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
-        "style-src 'unsafe-inline'; img-src data:\">\n"
+        f"style-src 'unsafe-inline'; {policy}\">\n"
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
-        f"<title>{escape(title)}</title>\n<style>\n{stylesheet()}</style>\n</head>\n<body>\n"
+        f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n"
         f"{body}\n</body>\n</html>\n"
     )
 
@@ -394,9 +387,8 @@ class _Page(MarkupPage):
             parts = zip(_SIGN_PARTS, sign.groups(), strict=True)
             return math("".join(write(escape(part)) for write, part in parts if part))
         text = self.prose((cell,))
-        return (
-            f'<span class="one">{text}</span>' if isinstance(cell, str) and len(cell) <= _SHORT_CELL else text
-        )
+        is_short = isinstance(cell, str) and len(cell) <= _SHORT_CELL
+        return f'<span class="one">{text}</span>' if is_short else text
 
     def picture(self, picture: Picture) -> Iterator[str]:
         caption = self.words(picture.caption)
@@ -420,17 +412,13 @@ class _Page(MarkupPage):
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a long one may be broken."""
         if self.ruler.width(node) <= 0.8 * PHONE:
-            return self.whole(node)
+            return math(self.formulas.text(node))
         return "<wbr>".join(in_sentence(together(self.formulas.pieces(node), _WHOLE, "".join)))
-
-    def whole(self, node: Node) -> str:
-        """A formula that is not broken."""
-        return math(self.formulas.text(node))
 
     # -- displayed formulas ------------------------------------------------------------------------
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        if formula.optional and self.is_too_wide(formula.node):
+        if formula.optional and self.widest(formula.node) > PAGE:
             return
         label = formula.label
         kind = "result" if label else "law" if formula.source else "work"
@@ -456,20 +444,16 @@ class _Page(MarkupPage):
         if width <= PHONE:
             yield f'<div class="line">{math(self.formulas.text(node), display=True)}</div>'
             return
-        matrix = _lone_matrix(node)
+        matrix = node.parts[-1] if isinstance(node, Relation) else node  # what the formula gives
         widest = self.widest(node)
         beside = list(listed(node)) if isinstance(node, Row) else []
         if widest > PAGE and len(beside) > 1 and not formula.optional:
             for part in beside:
                 yield from self.lines(part, formula, room)
-        elif widest <= PAGE or matrix is None:
+        elif widest <= PAGE or not isinstance(matrix, Matrix):
             yield self.broken(node, room)
         else:
             yield from self.entry_by_entry(node, matrix, formula)
-
-    def is_too_wide(self, node: Node) -> bool:
-        """Whether a part that cannot be broken is wider than the widest page."""
-        return self.widest(node) > PAGE
 
     def widest(self, node: Node) -> float:
         """The width of the widest part that cannot be broken."""
@@ -483,9 +467,8 @@ class _Page(MarkupPage):
         comma = math(self.printer.text(Words(",")))
         *before, last = (self.in_pieces(each, room) for each in beside)
         parts = [*(f'<span class="one">{part}{comma}</span>' for part in before), last]
-        return "".join(
-            ('<div class="line">', *(f'<span class="part">{part}</span>' for part in parts), "</div>")
-        )
+        spans = "".join(f'<span class="part">{part}</span>' for part in parts)
+        return f'<div class="line">{spans}</div>'
 
     def in_pieces(self, node: Node, room: float) -> str:
         """A formula between whose pieces a line may end."""
@@ -513,11 +496,9 @@ class _Page(MarkupPage):
             link = f'<a href="#{entry.anchor}">{entry.text}</a>'
             inner = f"<details><summary>{link}</summary><ul>{steps}</ul></details>" if steps else link
             items.append(f"<li>{inner}</li>")
-        return (
-            '<nav aria-label="Contents"><h2>Contents</h2><ul>' + "\n".join(items) + "</ul></nav>\n"
-            if len(items) > 1
-            else ""
-        )
+        listed_items = "\n".join(items)
+        nav = f'<nav aria-label="Contents"><h2>Contents</h2><ul>{listed_items}</ul></nav>\n'
+        return nav if len(items) > 1 else ""
 
 
 def _between_commas(cell: Node) -> list[Node]:
@@ -528,9 +509,3 @@ def _between_commas(cell: Node) -> list[Node]:
         return [cell]
     parts = ((_COMMA, Words("…"), _COMMA) if part == _AND_SO_ON else (part,) for part in cell.parts)
     return list(listed(Row(tuple(chain.from_iterable(parts)))))
-
-
-def _lone_matrix(node: Node) -> Matrix | None:
-    """The matrix that a formula gives: the last member of its chain."""
-    last = node.parts[-1] if isinstance(node, Relation) else node
-    return last if isinstance(last, Matrix) else None

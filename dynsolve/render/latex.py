@@ -29,13 +29,15 @@ from dynsolve.document import (
 )
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.extent import FLAT
-from dynsolve.notation.markup import SIGNS, LatexPrinter
+from dynsolve.notation.markup import ESCAPES, SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Row, Words
-from dynsolve.render.latex_displays import HEIGHTS, DisplayRow, aligned, gathered, height_around, in_columns
+from dynsolve.render.latex_displays import DisplayRow, aligned, gathered, in_columns
 from dynsolve.render.line_breaking import (
+    HEIGHTS,
     FormulaSplitter,
     Notation,
+    height_around,
     is_long,
     numbered,
     running_title,
@@ -109,9 +111,6 @@ NEEDS = r"""% Needs \usepackage{amsmath}, and where a matrix has more than ten c
 # Any text as LaTeX text that pdflatex sets with its own fonts
 
 _ESCAPES = {
-    "\\": r"\textbackslash{}",
-    "^": r"\textasciicircum{}",
-    "~": r"\textasciitilde{}",
     "<": r"\textless{}",
     ">": r"\textgreater{}",
     "|": r"\textbar{}",
@@ -170,8 +169,8 @@ _ESCAPES = {
     "Ł": r"\L{}",
     "ı": r"\i{}",
     "\u00a0": "~",
-} | {character: "\\" + character for character in "{}$&#%_"}
-_ESCAPES |= {letter: rf"$\{name}$" for name, letter in GREEK.items()}
+}
+_ESCAPES |= ESCAPES | {letter: rf"$\{name}$" for name, letter in GREEK.items()}
 
 _ACCENTS = {
     "\u0300": r"\`",
@@ -255,7 +254,8 @@ def render(document: Document, style: Style = PLAIN) -> str:
     """A complete document."""
     page = _Page(style, PAGE, document, contents=is_long(document))
     title = next((block.text for block in document.blocks if isinstance(block, Heading)), "")
-    body = "\n".join(page.all([block for block in document.blocks if not _is_title(block)]))
+    below = [block for block in document.blocks if not (isinstance(block, Heading) and block.level == 1)]
+    body = "\n".join(page.all(below))
     words = page.words(title)
     return (
         f"{PREAMBLE}{MACROS}\\begin{{document}}\n\\markright{{{page.words(running_title(title))}}}\\thispagestyle{{plain}}\n"
@@ -271,27 +271,14 @@ def render_fragment(document: Document, style: Style = PLAIN) -> str:
     return f"{NEEDS}{MACROS}{begin}\n{body}\n\\par\\endgroup\n"
 
 
-def _is_title(block: Block) -> bool:
-    return isinstance(block, Heading) and block.level == 1
-
-
-def _fence(sign: str, side: str, height: float) -> str:
+def _fence(sign: str, height: float) -> str:
     """A parenthesis of a height in em."""
     size = next((size for most, size in _FENCES if height <= most), "Bigg")
-    return f"\\{size}{side}{sign}" if size else sign
-
-
-def _around(text: str) -> float:
-    return height_around(text, [_fence("(", "l", height) for height in HEIGHTS])
+    return f"\\{size}{'l' if sign == '(' else 'r'}{sign}" if size else sign
 
 
 def latex_notation(printer: LatexPrinter) -> Notation:
     """The signs of a formula in LaTeX."""
-
-    def closed(height: float, exponent: Node | None) -> str:
-        text = _fence(")", "r", height)
-        return text if exponent is None else f"{text}^{{{printer.text(exponent)}}}"
-
     return Notation(
         text=printer.text,
         plus="{} +",
@@ -299,9 +286,8 @@ def latex_notation(printer: LatexPrinter) -> Notation:
         lead="-",
         times=r"{} \cdot",
         relation=lambda sign: "{} " + SIGNS.get(sign, sign),
-        opened=lambda height: _fence("(", "l", height),
-        closed=closed,
-        around=_around,
+        fence=_fence,
+        raised=lambda sign, exponent: f"{sign}^{{{exponent}}}",
         joined=" ".join,
     )
 
@@ -320,10 +306,10 @@ class _Printer(LatexPrinter):
     def parenthesized(self, text: str) -> str:
         """The text in parentheses, which are larger than those in it."""
         whole = super().parenthesized(text)
-        height = _around(text)
+        height = height_around(text, _fence)
         if height == FLAT or whole[0] != "(":
             return whole
-        return f"{_fence('(', 'l', height)}{text}{_fence(')', 'r', height)}"
+        return f"{_fence('(', height)}{text}{_fence(')', height)}"
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         lines = [" & ".join(row).replace(r"\frac", r"\dfrac") for row in rows]
@@ -429,7 +415,7 @@ class _Page(TypesetPage):
             last = self.kept(formula)
             stays = self.closes(formula) or introduces(formula, following, following is formulas[-1])
             columns = self.columns(formula)
-            lines = [] if columns else self.typesetter(formula).set(formula)
+            lines = [] if columns else self.lines_of(formula)
             label = self.label(formula)
             if len(lines) == 1:
                 line = self.level_result(formula)
@@ -451,15 +437,11 @@ class _Page(TypesetPage):
         return f"\\tag*{{\\formulasource{{{self.words(source)}}}}}" if source else ""
 
     def equations(self, equations: Equations) -> Iterator[str]:
-        columns = self.equation_columns(equations)
+        columns = self.columns(equations)
         if columns is not None:
             yield from in_columns(columns, self.label(equations), self.kept(equations))
         else:
             yield from aligned(self.lines_of(equations), self.label(equations), self.kept(equations))
-
-    def inline(self, node: Node) -> str:
-        """A formula in a sentence; a short one is not broken."""
-        return ", ".join(map(self.whole_or_pieces, self.side_by_side(node)))
 
     def whole_or_pieces(self, node: Node) -> str:
         """A formula that is not broken, or pieces between which it may be, outside its parentheses."""

@@ -1,8 +1,6 @@
 """Displayed formulas in LaTeX: one, several of one line each, one of several lines, many in columns.
 
 Where `last` is given, no page ends in so many rows at the end of the display.
-
-How large parentheses are around others: larger than those, as a reader finds pairs by their size.
 """
 
 from __future__ import annotations
@@ -12,11 +10,8 @@ from itertools import chain, groupby, pairwise
 
 from msgspec import Struct
 
-from dynsolve.notation.extent import FLAT
 from dynsolve.render.page import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, stay
 from dynsolve.render.typesetting import INDENT, Cell, Columns, Line
-
-# Displayed formulas in LaTeX
 
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 
@@ -114,20 +109,3 @@ def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:
     for (text, below), keep in zip(pairwise(texts), stays[:-1], strict=True):
         yield text + notag + _end(text, below, keep)
     yield texts[-1] + label
-
-
-# How large parentheses are around others
-
-HEIGHTS = (FLAT, 1.35, 1.8)
-"""In em: around what has no parentheses, around what has some, and around some with others in them."""
-
-
-def height_around(text: str, signs: Sequence[str]) -> float:
-    """The height of parentheses around a text that is not tall; `signs` are those of each height.
-
-    >>> signs = ("(", "big(", "Big(")
-    >>> [height_around(text, signs) for text in ("a + b", "a + c(b + d)", "a + big(e + c(b + d)big)")]
-    [1.3, 1.35, 1.8]
-    """
-    inside = [place for place, sign in enumerate(signs, 1) if sign in text]
-    return HEIGHTS[min(max(inside, default=0), len(HEIGHTS) - 1)]

@@ -47,13 +47,30 @@ _FRACTION = 32.0
 """Denominators that are wider than this, in em, stand behind a slash, where they may be broken."""
 
 
+HEIGHTS = (FLAT, 1.35, 1.8)
+"""In em: around what has no parentheses, around what has some, and around some with others in them."""
+
+Fence = Callable[[str, float], str]
+"""A parenthesis, `(` or `)`, of a height in em."""
+
+
+def height_around(text: str, fence: Fence) -> float:
+    """The height of parentheses around a text that is not tall: a reader finds pairs by their size.
+
+    >>> fence = lambda sign, height: {FLAT: "", 1.35: "big", 1.8: "Big"}[height] + sign
+    >>> [height_around(text, fence) for text in ("a + b", "a + c(b + d)", "a + big(e + c(b + d)big)")]
+    [1.3, 1.35, 1.8]
+    """
+    inside = [place for place, height in enumerate(HEIGHTS, 1) if fence("(", height) in text]
+    return HEIGHTS[min(max(inside, default=0), len(HEIGHTS) - 1)]
+
+
 class Notation(Struct, frozen=True):
     """The signs of a formula in one notation.
 
     `plus`, `minus` and `relation` are signs between two parts, `lead` a minus before
-    the first term; `times` begins a line between two matrices of a product; `opened` and
-    `closed` are parentheses of a height in em that may stand on different lines (`closed`
-    takes an exponent), `around` the height of those around a text that is not tall; `joined`
+    the first term; `times` begins a line between two matrices of a product; `fence` gives
+    parentheses that may stand on different lines, `raised` puts an exponent to the second; `joined`
     puts texts side by side.
     """
 
@@ -63,9 +80,8 @@ class Notation(Struct, frozen=True):
     lead: str
     times: str
     relation: Callable[[str], str]
-    opened: Callable[[float], str]
-    closed: Callable[[float, Node | None], str]
-    around: Callable[[str], float]
+    fence: Fence
+    raised: Callable[[str, str], str]
     joined: Callable[[Sequence[str]], str]
 
 
@@ -231,13 +247,14 @@ class FormulaSplitter:
     def _enclosed(self, builder: _Builder, node: Node, level: int, exponent: Node | None = None) -> None:
         height = self.ruler.height(node)
         if height <= FLAT:
-            height = self.notation.around(self.notation.text(node))
-        builder.add(self.notation.opened(height), PARENTHESIS)
+            height = height_around(self.notation.text(node), self.notation.fence)
+        builder.add(self.notation.fence("(", height), PARENTHESIS)
         self._put(builder, node, level + 1)
-        builder.add(
-            self.notation.closed(height, exponent),
-            PARENTHESIS + (0.0 if exponent is None else self.ruler.index(exponent)),
-        )
+        closed, width = self.notation.fence(")", height), PARENTHESIS
+        if exponent is not None:
+            closed = self.notation.raised(closed, self.notation.text(exponent))
+            width += self.ruler.index(exponent)
+        builder.add(closed, width)
 
     def _is_long_fraction(self, node: Node) -> bool:
         return isinstance(node, Quotient) and self.ruler.width(node.denominator) > self.fraction

@@ -72,9 +72,9 @@ class _Page(TypesetPage):
         yield _begun(self.prose(text.parts)) + source + "\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        yield from _display(self.typesetter(formula).set(formula), self.tag(formula.label))
+        yield from self.equations(formula)
 
-    def equations(self, equations: Equations) -> Iterator[str]:
+    def equations(self, equations: Formula | Equations) -> Iterator[str]:
         yield from _display(self.lines_of(equations), self.tag(equations.label))
 
     def tag(self, label: str) -> str:
@@ -82,9 +82,9 @@ class _Page(TypesetPage):
         number = self.labels.get(label)
         return rf" \tag{{{number}}}" if number else ""
 
-    def beside(self, formula: Formula) -> float:
+    def beside(self, display: Formula | Equations) -> float:
         """A source stands in the text, not beside its formula."""
-        return self.number if formula.label in self.labels else 0.0
+        return self.number if display.label in self.labels else 0.0
 
     def fold(self, fold: Fold) -> Iterator[str]:
         """The blocks of a fold, sources with the paragraphs that introduce their formulas."""

@@ -135,7 +135,8 @@ def introduces(block: Block, following: Block | None, closes: bool = False) -> b
     """Whether a block belongs on one page with the one that follows; it `closes` where it is the last one."""
     if isinstance(block, Text):
         leads = isinstance(following, Text) and leads_on(following.parts)
-        table = isinstance(following, Table) and not _is_long(block.parts)
+        letters = sum(len(part) for part in block.parts if isinstance(part, str))
+        table = isinstance(following, Table) and letters <= _LONG
         return leads_on(block.parts) or leads or table or isinstance(following, Formula | Equations | Uses)
     if isinstance(following, Note):
         return isinstance(block, Formula | Equations | Table)
@@ -148,10 +149,6 @@ def introduces(block: Block, following: Block | None, closes: bool = False) -> b
             return False
         return not holds_matrix(block.node) and isinstance(following, Formula | Equations | Uses)
     return isinstance(block, Uses)
-
-
-def _is_long(parts: Prose) -> bool:
-    return sum(len(part) for part in parts if isinstance(part, str)) > _LONG
 
 
 def leads_on(parts: Prose) -> bool:
@@ -197,7 +194,8 @@ def in_line(node: Node) -> Node:
     """
     match node:
         case Product((*before, last)):
-            return Product((*(in_line(part) if _is_closed(part) else part for part in before), in_line(last)))
+            closed = Parenthesized | Power | Transpose  # with parentheses around it, raised or not
+            return Product((*(in_line(p) if isinstance(p, closed) else p for p in before), in_line(last)))
         case Power(Derivative() as base, exponent):
             return Power(Parenthesized(in_line(base)), exponent)
         case Derivative(Derivative() as inner, by, total):
@@ -211,11 +209,6 @@ def in_line(node: Node) -> Node:
         case Sum() | Relation() | Row() | Negative() | Parenthesized() | Power() | Transpose() | Cross():
             return with_children(node, in_line)
     return node
-
-
-def _is_closed(node: Node) -> bool:
-    """Whether a factor has parentheses around it, raised or not."""
-    return isinstance(node, Parenthesized | Power | Transpose)
 
 
 def _is_stacked(node: Node) -> bool:
@@ -414,23 +407,36 @@ class TypesetPage(MarkupPage):
         super().__init__(printer, labels)
         self.notation, self.ruler = notation, Ruler(printer.style)
         self.width, self.number = width, number
-        self.unnumbered = Typesetter(notation, self.ruler, width)
         self.closing: tuple[Block, ...] = ()
 
-    def typesetter(self, formula: Formula) -> Typesetter:
-        """The typesetter of a formula; one with a number or its source beside it has less room."""
-        return Typesetter(self.notation, self.ruler, self.width - self.beside(formula))
+    def typesetter(self, display: Formula | Equations) -> Typesetter:
+        """The typesetter of a display; one with a number or its source beside it has less room."""
+        return Typesetter(self.notation, self.ruler, self.width - self.beside(display))
 
-    def beside(self, formula: Formula) -> float:
-        """The room that stands beside a formula, in em."""
-        if formula.label in self.labels:
+    def beside(self, display: Formula | Equations) -> float:
+        """The room that stands beside a display, in em."""
+        if display.label in self.labels:
             return self.number
-        return len(formula.source) * _SOURCE_LETTER + _SOURCE_SPACE if formula.source else 0.0
+        source = display.source if isinstance(display, Formula) else ""
+        return len(source) * _SOURCE_LETTER + _SOURCE_SPACE if source else 0.0
 
-    def columns(self, formula: Formula) -> Columns | None:
-        """The entries of a matrix in columns, where that is what a formula has to be."""
-        found = self.typesetter(formula).listed(formula)
-        return in_columns(found, self.width - self.number) if found and len(found) >= FEWEST else None
+    def columns(self, display: Formula | Equations) -> Columns | None:
+        """Columns of a matrix's entries where they have to be, of equations that are many, or some short."""
+        room = self.width - self.number
+        if isinstance(display, Formula):
+            found = self.typesetter(display).listed(display)
+            return in_columns(found, room) if found and len(found) >= FEWEST else None
+        short = sum(self.ruler.width(node) + GAP <= room / MOST_COLUMNS for node in display.nodes)
+        if short < FEWEST_SHORT and not (display.in_columns and len(display.nodes) >= FEWEST):
+            return None
+        return in_columns(Typesetter(self.notation, self.ruler, room).each(display.nodes), room)
+
+    def lines_of(self, display: Formula | Equations) -> list[Line]:
+        """The lines of a display that does not stand in columns."""
+        typesetter = self.typesetter(display)
+        if isinstance(display, Formula):
+            return typesetter.set(display)
+        return typesetter.equations(display.nodes)
 
     def level_result(self, formula: Formula) -> Line | None:
         """A numbered equation without matrices in one line, which is level with others beside it."""
@@ -440,30 +446,14 @@ class TypesetPage(MarkupPage):
         lines = self.typesetter(formula).equations([node])
         return lines[0] if len(lines) == 1 else None
 
-    def equation_columns(self, equations: Equations) -> Columns | None:
-        """Equations in columns, where they may be and are many, or some are short."""
-        room = self.width - self.number
-        short = sum(self.ruler.width(node) + GAP <= room / MOST_COLUMNS for node in equations.nodes)
-        if short < FEWEST_SHORT and not (equations.in_columns and len(equations.nodes) >= FEWEST):
-            return None
-        return in_columns(Typesetter(self.notation, self.ruler, room).each(equations.nodes), room)
-
-    def lines_of(self, equations: Equations) -> list[Line]:
-        """The lines of equations that do not stand in columns; a number beside them takes its room."""
-        room = self.width - (self.number if equations.label in self.labels else 0.0)
-        return Typesetter(self.notation, self.ruler, room).equations(equations.nodes)
-
     def rows(self, block: Block) -> int:
         """How many rows a block has on a page, at least."""
         match block:
-            case Formula():
-                columns = self.columns(block)
-                if columns:
+            case Formula() | Equations():
+                if columns := self.columns(block):
                     return len(columns.rows)
-                return max(len(self.typesetter(block).set(block)), height(block.node))
-            case Equations():
-                columns = self.equation_columns(block)
-                return len(columns.rows) if columns else len(self.lines_of(block))
+                rows = len(self.lines_of(block))
+                return max(rows, height(block.node)) if isinstance(block, Formula) else rows
             case Table():
                 return len(block.rows) + 1
             case List():
@@ -484,11 +474,12 @@ class TypesetPage(MarkupPage):
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; those of a list with the commas of the sentence between them."""
-        return ", ".join(f"${self.printer.text(one)}$" for one in self.side_by_side(node))
+        parts = listed(node) if isinstance(node, Row) and Words(", ") in node.parts else [node]
+        return ", ".join(map(self.whole_or_pieces, parts))
 
-    def side_by_side(self, node: Node) -> list[Node]:
-        """The formulas of a list in a sentence, between which a line may end; else the formula alone."""
-        return list(listed(node)) if isinstance(node, Row) and Words(", ") in node.parts else [node]
+    def whole_or_pieces(self, node: Node) -> str:
+        """A formula that is not broken, or pieces between which it may be."""
+        return f"${self.printer.text(node)}$"
 
     def fold(self, fold: Fold) -> Iterator[str]:
         """The blocks of a fold under its title, which cannot be folded away on paper."""

@@ -241,7 +241,9 @@ def _set_member(
         if not row.lines[0].strip() and len(row.lines) == 1:
             lead = lead.lstrip()
         if isinstance(piece, Matrix):
-            is_headed = row.lines[0].strip() != _left_side(formula, printer)
+            left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
+            letter = printer.text(left) if isinstance(left, Letter) else ""  # its entries are named after it
+            is_headed = row.lines[0].strip() != letter
             lines += _flushed(row) if is_headed else []
             lines += _entry_by_entry(piece, formula, printer, room, _UNDER_HEAD * is_headed)
             row = TextBox.of(" " * hang)
@@ -266,12 +268,6 @@ def _set_member(
             lines += broken[:-1]
             row = TextBox.of(broken[-1])
     return lines + _flushed(row)
-
-
-def _left_side(formula: Formula, printer: UnicodePrinter) -> str:
-    """The letter that the entries of a matrix are named after, so that it need not stand alone."""
-    left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
-    return printer.text(left) if isinstance(left, Letter) else ""
 
 
 def _flushed(row: TextBox) -> list[str]:

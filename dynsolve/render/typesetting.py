@@ -69,20 +69,16 @@ class Typesetter:
         """The lines of a formula; none where it is optional and its matrices do not fit."""
         if self.ruler.width(formula.node) <= self.room:
             return [Line("", self.notation.text(formula.node))]
-        if formula.optional and self._is_too_wide(formula.node):
-            return []
+        if formula.optional and holds_matrix(formula.node):
+            widest = max(piece.width for piece in self.splitter.pieces(formula.node))
+            if widest > self.room - INDENT:
+                return []
         return list(self._parts(formula.node, formula))
-
-    def _is_too_wide(self, node: Node) -> bool:
-        """Whether a part that cannot be broken is wider than the page."""
-        return holds_matrix(node) and any(
-            piece.width > self.room - INDENT for piece in self.splitter.pieces(node)
-        )
 
     def _parts(self, node: Node, formula: Formula) -> Iterator[Line]:
         """Formulas that stand side by side with commas: as many on a line as fit, a wide one on its own."""
         beside = list(listed(node)) if isinstance(node, Row) else []
-        if len(beside) > 1 and not all(map(self._fits, beside)):
+        if len(beside) > 1 and any(self.ruler.width(part) > self.room for part in beside):
             for part in beside:
                 yield from self._parts(part, formula)
         elif isinstance(node, Relation) and self.ruler.width(node) > self.room:
@@ -92,9 +88,6 @@ class Typesetter:
         else:
             rest = self.room if isinstance(node, Row) else self.room - INDENT
             yield from self._broken(self.splitter.pieces(node), self.room, rest)
-
-    def _fits(self, node: Node) -> bool:
-        return self.ruler.width(node) <= self.room
 
     def _chain(self, node: Relation, formula: Formula) -> Iterator[Line]:
         left, *members = node.parts
@@ -310,11 +303,8 @@ def _columns_width(line: Line, name: float) -> float:
 
 def _columns_indent(rows: Sequence[Sequence[Cell]], count: int, name: float, room: float) -> float:
     """Half of what the row that reaches furthest leaves free, as a part of the room."""
-    furthest = max(
-        (
-            sum(cell.span for cell in row[:-1]) / count + _columns_width(row[-1].line, name) / room
-            for row in rows
-        ),
-        default=1.0,
+    before = (sum(cell.span for cell in row[:-1]) / count for row in rows)
+    ends = (
+        start + _columns_width(row[-1].line, name) / room for start, row in zip(before, rows, strict=True)
     )
-    return min(max(1.0 - furthest, 0.0), 1.0 / count) / 2
+    return min(max(1.0 - max(ends, default=1.0), 0.0), 1.0 / count) / 2

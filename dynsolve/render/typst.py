@@ -24,10 +24,10 @@ from dynsolve.notation.extent import FLAT
 from dynsolve.notation.markup import TypstPrinter, quoted
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
-from dynsolve.render.latex_displays import HEIGHTS, height_around
 from dynsolve.render.line_breaking import (
     FormulaSplitter,
     Notation,
+    height_around,
     is_long,
     numbered,
     running_title,
@@ -161,17 +161,8 @@ def _joined(texts: Sequence[str]) -> str:
     return whole
 
 
-def _around(text: str) -> float:
-    return height_around(text, [_fence("(", height) for height in HEIGHTS])
-
-
 def typst_notation(printer: TypstPrinter) -> Notation:
     """The signs of a formula in Typst."""
-
-    def closed(height: float, exponent: Node | None) -> str:
-        sign = _fence(")", height)
-        return sign if exponent is None else f"{sign}^({printer.text(exponent)})"
-
     return Notation(
         text=printer.text,
         plus='class("binary", +)',
@@ -179,9 +170,8 @@ def typst_notation(printer: TypstPrinter) -> Notation:
         lead="-",
         times='class("binary", dot.op)',
         relation=lambda sign: "\\/" if sign == "/" else sign,  # unescaped it sets a fraction
-        opened=lambda height: _fence("(", height),
-        closed=closed,
-        around=_around,
+        fence=_fence,
+        raised=lambda sign, exponent: f"{sign}^({exponent})",
         joined=_joined,
     )
 
@@ -195,7 +185,7 @@ class _Printer(TypstPrinter):
     def parenthesized(self, text: str) -> str:
         """The text in parentheses, which are larger than those in it."""
         whole = super().parenthesized(text)
-        height = _around(text)
+        height = height_around(text, _fence)
         if height == FLAT or not whole.startswith("\\("):
             return whole
         return f"{_fence('(', height)} {text} {_fence(')', height)}"
@@ -271,12 +261,15 @@ class _Page(TypesetPage):
         yield f"{self.prose(text.parts)}\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        columns = self.columns(formula)
+        yield from self.equations(formula)
+
+    def equations(self, equations: Formula | Equations) -> Iterator[str]:
+        columns = self.columns(equations)
         if columns is not None:
-            yield _in_columns(columns, self.side(formula), self.kept(formula), self.sticks)
-        elif lines := self.typesetter(formula).set(formula):
-            sides = [*[""] * (len(lines) - 1), self.side(formula)]
-            yield _display(lines, sides, self.kept(formula), self.sticks)
+            yield _in_columns(columns, self.side(equations), self.kept(equations), self.sticks)
+        elif lines := self.lines_of(equations):
+            sides = [*[""] * (len(lines) - 1), self.side(equations)]
+            yield _display(lines, sides, self.kept(equations), self.sticks)
 
     def side(self, display: Formula | Equations) -> str:
         """What stands beside a display: its number, which others refer to, or its source."""
@@ -284,19 +277,6 @@ class _Page(TypesetPage):
             return f"({number})#metadata(none) <eq-{display.label}>"
         source = display.source if isinstance(display, Formula) else ""
         return f"#source[{self.words(source)}]" if source else ""
-
-    def equations(self, equations: Equations) -> Iterator[str]:
-        columns = self.equation_columns(equations)
-        if columns is not None:
-            yield _in_columns(columns, self.side(equations), self.kept(equations), self.sticks)
-        else:
-            lines = self.lines_of(equations)
-            sides = [*[""] * (len(lines) - 1), self.side(equations)]
-            yield _display(lines, sides, self.kept(equations), self.sticks)
-
-    def inline(self, node: Node) -> str:
-        """A formula in a sentence; a short one is not broken."""
-        return ", ".join(map(self.whole_or_pieces, self.side_by_side(node)))
 
     def whole_or_pieces(self, node: Node) -> str:
         """A formula in boxes between which a line may end: one, or several outside its parentheses."""
@@ -375,23 +355,21 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     """
     if len(lines) == 1:
         return f"#formula({_math(lines[0].alone)}, [{sides[0]}]{_STICKY * sticks})"
-    above = [False, *("mat(" in _right(line) for line in lines)]
-    rows = [
-        f"({_math(line.left)}, {_math(right := _right(line))}, {_apart(tall and 'mat(' in right)}, [{side}])"
-        for line, side, tall in zip(lines, sides, above, strict=False)
-    ]
-    if all("mat(" in _right(line) for line in lines):  # equations so high may stand alone
+    rows = []
+    above, all_tall = False, True
+    for line, side in zip(lines, sides, strict=True):
+        right = _right(line)
+        is_tall = "mat(" in right
+        apart = "0.25em" if is_tall and above else "0em"  # two matrices would look like one
+        rows.append(f"({_math(line.left)}, {_math(right)}, {apart}, [{side}])")
+        above, all_tall = is_tall, all_tall and is_tall
+    if all_tall:  # equations so high may stand alone
         starts = [k for k, line in enumerate(lines) if line.left or not k]
         ends = [*starts[1:], len(lines)]
         runs = ", ".join(f"({', '.join(rows[a:b])},)" for a, b in zip(starts, ends, strict=True))
     else:
         runs = _in_runs(rows, [bool(line.left) for line in lines], last)
     return f"#formula-lines({runs}{_STICKY * sticks})"
-
-
-def _apart(is_under_matrix: bool) -> str:
-    """The room around a matrix under that of the line above, or both would look like one."""
-    return "0.25em" if is_under_matrix else "0em"
 
 
 def _in_runs(rows: Sequence[str], begins: Sequence[bool], last: int) -> str:

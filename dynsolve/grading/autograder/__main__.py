@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from dynsolve.grading.autograder import COURSE
-from dynsolve.grading.public import Grades, grade
+from dynsolve.grading.public import grade
 
 SUBMISSION = "submission_1"
 FAILED = "The program failed on this submission, which is no fault of yours: tell your teacher."
@@ -54,12 +54,9 @@ def judged(root: Path) -> Data:
         if written.is_file():
             results: Data = json.loads(written.read_text(encoding="utf-8"))
             return results
-        return _without_marks(_waits(grades))
-
-
-def _waits(grades: Grades) -> str:
-    why = (f"- {entry.what.rpartition(f'{SUBMISSION}/')[2]}: {entry.why}" for entry in grades.queue)
-    return "\n".join([UNJUDGED, *(dict.fromkeys(why) or ["- nothing was handed in"])])
+        why = (f"- {entry.what.rpartition(f'{SUBMISSION}/')[2]}: {entry.why}" for entry in grades.queue)
+        waits = dict.fromkeys(why) or ["- nothing was handed in"]
+        return _without_marks("\n".join([UNJUDGED, *waits]))
 
 
 def _without_marks(output: str) -> Data:

@@ -31,7 +31,7 @@ from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal, folder_name
 from dynsolve.grading.platforms.gradescope import FileOwner, Person
 from dynsolve.grading.platforms.moodle import write_archive, zipped
-from dynsolve.grading.platforms.roster import MOST_NAMED, Cells, Roster, not_judged, number, unmatched
+from dynsolve.grading.platforms.roster import Cells, Roster, named, not_judged, number, unmatched
 from dynsolve.grading.record import Key, Record
 from dynsolve.grading.set_file import ProblemSet
 
@@ -109,14 +109,9 @@ def write_comments(folder: Path, record: Record) -> Iterator[str]:
     write_archive(folder / FILE, sorted((n, c) for n, c in entries.items() if n not in apart.values()))
     if without:
         reason = "handed in no file that can carry them"
-        yield f"Canvas cannot give back the pages of who {reason}: {_some(without)}"
+        yield f"Canvas cannot give back the pages of who {reason}: {named([*without])}"
     if apart:
-        yield f"in Canvas a group reads one page, and those of its members differ: {_some(apart.values())}"
-
-
-def _some(students: Iterable[str]) -> str:
-    names = list(students)
-    return "; ".join(names[:MOST_NAMED]) + (" and others" if len(names) > MOST_NAMED else "")
+        yield f"in Canvas a group reads one page, and those of its members differ: {named([*apart.values()])}"
 
 
 def _carriers(folder: Path, record: Record) -> Iterator[tuple[Key, CanvasName | None, bool]]:
@@ -147,12 +142,9 @@ def _place(folder: Path, key: Key) -> Path:
 
 def _usable(paths: Iterable[str]) -> list[CanvasName]:
     """The files of Canvas among these that can carry a page."""
-    named = (canvas_name(part) for path in paths for part in PurePosixPath(path).parts)
-    return [one for one in named if one is not None and one.file and _carries(one.ending)]
-
-
-def _carries(ending: str) -> bool:
-    return ending == ".zip" or (ending in ENDINGS and ending not in _NO_TEXT)
+    found = (canvas_name(part) for path in paths for part in PurePosixPath(path).parts)
+    carriers = {".zip", *ENDINGS} - {*_NO_TEXT}
+    return [one for one in found if one is not None and one.file and one.ending in carriers]
 
 
 def _content(place: Path, ending: str) -> bytes:
@@ -256,15 +248,14 @@ def _of_points(points: str, of: Fraction) -> Iterator[str]:
 
 def _assignment(roster: Roster, title: str) -> int | None:
     """The assignment's column: of exactly this name, or of this title before the number in parentheses."""
-    named = [place for place, name in enumerate(roster.header) if name == title]
-    titled = [
-        place for place, name in enumerate(roster.header) if re.sub(r" \(\d+\)$", "", name).strip() == title
-    ]
-    if not named and len(titled) > 1:
+    exact = [place for place, name in enumerate(roster.header) if name == title]
+    bare = [re.sub(r" \(\d+\)$", "", name).strip() for name in roster.header]
+    titled = [place for place, name in enumerate(bare) if name == title]
+    if not exact and len(titled) > 1:
         which = " or ".join(f"`{roster.header[place]}`" for place in titled)
         message = f"{len(titled)} assignments are called `{title}`"
         raise roster.fault(message, f"write one of them as the title in set.yaml: {which}")
-    return next(iter(named or titled), None)
+    return next(iter(exact or titled), None)
 
 
 def _is_remark(row: Cells) -> bool:

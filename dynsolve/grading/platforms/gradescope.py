@@ -9,6 +9,7 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from fractions import Fraction
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -241,36 +242,30 @@ def _days(lateness: str) -> int:
 def _results(folder: Path, standing: Standing, record: Record, problems: ProblemSet) -> dict[str, Any]:
     alone = len(problems.items) == 1
     numbers = dict.fromkeys(problems.stems, 0)
+    answers = [a for a in record.answers(standing.student) if a.of != "0"]
+    told = [
+        (a.problem, a.answer, points(a.marks), points(a.of), a.verdict in ("correct", "follows"), a.why)
+        for a in answers
+    ]
+    told += [
+        (problem, line.name, line.marks, Fraction(0), False, line.why)
+        for problem, line in standing.late.items()
+    ]
     tests = []
-    for answer in record.answers(standing.student):
-        if answer.of == "0":
-            continue
-        numbers[answer.problem] += 1
+    for problem, name, marks, of, passed, why in told:
+        numbers[problem] += 1
         tests.append(
             {
-                "score": float(points(answer.marks)),
-                "max_score": float(points(answer.of)),
-                "status": "passed" if answer.verdict in ("correct", "follows") else "failed",
-                "name": answer.answer if alone else f"{answer.problem}: {answer.answer}",
-                "number": f"{problems.stems.index(answer.problem) + 1}.{numbers[answer.problem]}",
-                "output": answer.why,
+                "score": float(marks),
+                "max_score": float(of),
+                "status": "passed" if passed else "failed",
+                "name": name if alone else f"{problem}: {name}",
+                "number": f"{problems.stems.index(problem) + 1}.{numbers[problem]}",
+                "output": why,
                 "output_format": "text",
                 "visibility": "visible",
             }
         )
-    tests += [
-        {
-            "score": float(line.marks),
-            "max_score": 0.0,
-            "status": "failed",
-            "name": line.name if alone else f"{problem}: {line.name}",
-            "number": f"{problems.stems.index(problem) + 1}.{numbers[problem] + 1}",
-            "output": line.why,
-            "output_format": "text",
-            "visibility": "visible",
-        }
-        for problem, line in standing.late.items()
-    ]
     return {
         "score": float(standing.total),
         "output": _pages(folder / "feedback" / folder_name(standing.student), problems),

@@ -74,9 +74,8 @@ def write_feedback(folder: Path, record: Record) -> Iterator[str]:
             members[student] = [student]
     apart = [name for name, students in members.items() if _differ(folder, students)]
     unknown = [name for name in members if not _NUMBERED.fullmatch(name)]
-    told = {
-        name: _pages(folder, members[name][0]) for name in sorted(members) if name not in (*apart, *unknown)
-    }
+    reached = [name for name in sorted(members) if name not in (*apart, *unknown)]
+    told = {name: _pages(folder, members[name][0]) for name in reached}
     write_archive(folder / "moodle-feedback.zip", _entries(told))
     for name in apart:
         yield f"the pages of {name} are not the same for all its members, as Moodle has them: see feedback/"
@@ -164,8 +163,10 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
             seen.add(found.student)
             if not found.unjudged:
                 cells[grade] = roster.marks(found.total)
-            if comments is not None and not found.unjudged and _is_free(cells[comments], problems):
-                cells[comments] = _comment(found, problems)
+            if comments is not None and not found.unjudged:
+                stands = re.sub(r"<[^>]*>", "", cells[comments]).strip()
+                if not stands or stands.startswith(f"{problems.stems[0]}: "):  # none, or one of ours
+                    cells[comments] = _comment(found, problems)
         out.append(tuple(cells))
     roster.write(folder / "moodle.csv", out, trusted=comments)
     yield from write_feedback(folder, record)
@@ -279,12 +280,6 @@ def _comments(roster: Roster) -> int | None:
     cells = [row[last].strip() for row in roster.rows[1:] if len(row) > last]
     is_time = all(cell == "-" or _TIME.search(cell) for cell in cells)
     return None if cells and is_time else last
-
-
-def _is_free(comment: str, problems: ProblemSet) -> bool:
-    """Whether a comment is empty or one of ours: what a teacher has written is kept."""
-    text = re.sub(r"<[^>]*>", "", comment).strip()
-    return not text or text.startswith(f"{problems.stems[0]}: ")
 
 
 def _comment(standing: Standing, problems: ProblemSet) -> str:

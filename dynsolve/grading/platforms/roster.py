@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -124,11 +124,11 @@ def unmatched(standings: Iterable[Standing], seen: set[str], without: list[str],
     found = []
     if lost:
         found.append(
-            f"{_count(lost)} {'is' if len(lost) == 1 else 'are'} not in {roster.file}: {_named(lost)}"
+            f"{_count(lost)} {'is' if len(lost) == 1 else 'are'} not in {roster.file}: {named(lost)}"
         )
     if without:
         nothing = "handed in nothing, and what stands there is kept"
-        found.append(f"{_count(without)} of {roster.file} {nothing}: {_named(without)}")
+        found.append(f"{_count(without)} of {roster.file} {nothing}: {named(without)}")
     return found
 
 
@@ -138,12 +138,13 @@ def not_judged(standings: Iterable[Standing]) -> list[str]:
         f"{standing.student} ({', '.join(standing.unjudged)})" for standing in standings if standing.unjudged
     ]
     wait = "waits for a human and keeps" if len(waiting) == 1 else "wait for a human and keep"
-    return [f"{_count(waiting)} {wait} what stands there: {_named(waiting)}"] if waiting else []
+    return [f"{_count(waiting)} {wait} what stands there: {named(waiting)}"] if waiting else []
 
 
 def _count(students: list[str]) -> str:
     return "1 student" if len(students) == 1 else f"{len(students)} students"
 
 
-def _named(students: list[str]) -> str:
+def named(students: Sequence[str]) -> str:
+    """The first of some students, and whether there are others."""
     return "; ".join(students[:MOST_NAMED]) + (" and others" if len(students) > MOST_NAMED else "")
