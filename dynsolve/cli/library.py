@@ -93,8 +93,9 @@ def lint(problem: Problems, quiet: Quiet = False) -> int:
     """
     code = ExitCode.DONE
     for name in problem:
+        is_set = Path(name).name == "set.yaml" or Path(name).is_dir()
         try:
-            findings = _of_set(name) if _is_set(name) else _findings(name)
+            findings = _of_set(name) if is_set else _findings(name)
         except ProblemError as error:
             say(error.findings)
             code = ExitCode.USAGE
@@ -106,11 +107,6 @@ def lint(problem: Problems, quiet: Quiet = False) -> int:
         elif not quiet:
             typer.echo(f"{name}: nothing to remark", err=True)
     return code
-
-
-def _is_set(name: str) -> bool:
-    """Whether a name is that of a problem set: its `set.yaml`, or its folder."""
-    return Path(name).name == "set.yaml" or Path(name).is_dir()
 
 
 def _of_set(name: str) -> list[Finding]:

@@ -267,16 +267,13 @@ def _leading_on(step: Step) -> Iterator[Block]:
     for line in step.lines:
         lead_in = (Text(line.by),) if line.by else ()
         yield from _with_uses(lead_in, line.uses) if line.uses else lead_in
-        yield _line_block(line)
+        label = line.label
+        if len(line.formulas) == 1:
+            yield Formula(line.formulas[0], optional=not (label or line.is_kept), label=label)
+        else:
+            yield Equations(line.formulas, in_columns=line.in_columns, label=label)
     if step.concluding:
         yield Text(step.concluding)
-
-
-def _line_block(line: Line) -> Block:
-    """The formulas of a line."""
-    if len(line.formulas) == 1:
-        return Formula(line.formulas[0], optional=not (line.label or line.is_kept), label=line.label)
-    return Equations(line.formulas, in_columns=line.in_columns, label=line.label)
 
 
 def _with_uses(blocks: tuple[Block, ...], labels: tuple[str, ...]) -> Iterator[Block]:

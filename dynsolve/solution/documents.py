@@ -118,16 +118,13 @@ def marked(node: Node, style: Style) -> Node:
     """
     if not isinstance(node, Relation):
         return with_children(node, lambda part: marked(part, style)) if isinstance(node, Row) else node
-    is_rounded = [_is_rounded(part, style) for part in node.parts]
+    numbers = ([n for n in walk(part) if isinstance(n, Number)] for part in node.parts)
+    is_rounded = [any(map(style.rounds, own)) for own in numbers]
     signs = (
         "≈" if sign == "=" and (is_rounded[k] or is_rounded[k + 1]) else sign
         for k, sign in enumerate(node.signs)
     )
     return replace(node, signs=tuple(signs))
-
-
-def _is_rounded(node: Node, style: Style) -> bool:
-    return any(isinstance(part, Number) and style.rounds(part) for part in walk(node))
 
 
 def _step(step: Step, style: Style) -> Step:

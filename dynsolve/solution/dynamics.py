@@ -115,7 +115,10 @@ class Dynamics(Struct, frozen=True, dict=True):
         Raises ProblemError for given rotations with which the energy would be wrong,
         VerificationError where two ways to a result differ.
         """
-        problem = _with_state(problem)
+        if problem.robot.questions.state_is_open:
+            from dynsolve.solution.asked_checks import with_reached_state
+
+            problem = with_reached_state(problem)
         robot = problem.robot
         values = derive(robot)
         warnings = (*problem.warnings, *check_axes(problem, values))
@@ -251,15 +254,6 @@ class Dynamics(Struct, frozen=True, dict=True):
         D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
         verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
         return short
-
-
-def _with_state(problem: Problem) -> Problem:
-    """The problem, its state being that of its target where the file says so."""
-    if not problem.robot.questions.state_is_open:
-        return problem
-    from dynsolve.solution.asked_checks import with_reached_state
-
-    return with_reached_state(problem)
 
 
 def _make_all(forms: Forms, progress: Progress) -> None:

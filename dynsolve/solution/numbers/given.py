@@ -10,10 +10,9 @@ The unit of every result of a robot: N m, kg m², J, by its role and the type of
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
-from typing import Protocol
 
 from msgspec import Struct, field
 
@@ -189,29 +188,15 @@ def parameters(problem: Problem, assignments: Iterable[Assignment]) -> Given:
     what cannot be read.
     """
     reader = _Reader(problem)
-    entries: dict[Key, GivenValue] = {}
-    for assignment in of_file(problem):
-        reader.take(entries, assignment, _parameter_key)
-    set_here: dict[Key, GivenValue] = {}
-    for assignment in assignments:
-        reader.take(set_here, assignment, _parameter_key)
-    return reader.finished({**entries, **set_here})
-
-
-def _parameter_key(reader: _Reader, assignment: Assignment) -> Key | None:
-    robot, name = reader.robot, reader.name(assignment)
-    if name is None:
-        return None
-    if name in robot.parameters:
-        return name, 0
-    states = _states(robot)
-    if name in states:
-        reader.report(assignment.at_name(
-            f"{name} changes with the motion of the robot", f"give it as a state: --at {name}=..."
-        ))  # fmt: skip
-        return None
-    reader.unknown(assignment, name, robot.parameters, "parameters")
-    return None
+    names = _Names(
+        {name: (name, 0) for name in problem.robot.parameters},
+        "parameters",
+        _states(problem.robot).keys(),
+        "{name} changes with the motion of the robot",
+        "give it as a state: --at {name}=...",
+    )
+    of_the_file = reader.all_of(of_file(problem), names)
+    return reader.finished({**of_the_file, **reader.all_of(assignments, names)})
 
 
 # -- states ----------------------------------------------------------------------------------------
@@ -222,13 +207,17 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
 
     Raises InputError with every fault, a coordinate that is missing among them.
     """
-    reader = _Reader(problem)
-    entries: dict[Key, GivenValue] = {}
+    reader, robot = _Reader(problem), problem.robot
+    names = _Names(
+        _states(robot),
+        "coordinates",
+        robot.parameters,
+        "{name} is a parameter of the robot, not a part of its state",
+        "give its value by itself: --set {name}={value}",
+    )
     assignments = tuple(assignments)
     option = next((assignment.file for assignment in assignments), "")
-    for assignment in assignments:
-        reader.take(entries, assignment, _state_key)
-    robot = problem.robot
+    entries = reader.all_of(assignments, names)
     lacking = [q.name for q in robot.coordinates if (q.name, 0) not in entries]
     if lacking and not reader.findings:
         example = ",".join(
@@ -236,7 +225,7 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
             for q in robot.coordinates if q.name in lacking
         )  # fmt: skip
         message = f"the state lacks {and_joined(lacking)}"
-        reader.report(Finding(message, f"a state gives every coordinate: add {example}", option))
+        reader.findings.append(Finding(message, f"a state gives every coordinate: add {example}", option))
     whole = {
         (q.name, dots): entries.get((q.name, dots), GivenValue(Number(0), "0", of_coordinate(q, dots)))
         for dots in (0, 1, 2)
@@ -253,23 +242,6 @@ def _states(robot: Robot) -> dict[str, Key]:
     return found
 
 
-def _state_key(reader: _Reader, assignment: Assignment) -> Key | None:
-    robot, name = reader.robot, reader.name(assignment)
-    if name is None:
-        return None
-    states = _states(robot)
-    if name in states:
-        return states[name]
-    if name in robot.parameters:
-        reader.report(assignment.at_name(
-            f"{name} is a parameter of the robot, not a part of its state",
-            f"give its value by itself: --set {name}={assignment.value}",
-        ))  # fmt: skip
-        return None
-    reader.unknown(assignment, name, list(states), "coordinates")
-    return None
-
-
 # -- the reading of a value ------------------------------------------------------------------------
 
 
@@ -282,6 +254,16 @@ class _Written(Struct, frozen=True):
     decimal: bool
 
 
+class _Names(Struct, frozen=True):
+    """The names that may have a value; of the `others` a fault says where they belong."""
+
+    known: Mapping[str, Key]
+    what: str
+    others: Collection[str]
+    fault: str
+    help: str
+
+
 class _Reader:
     """Reads assignments one by one and keeps every fault."""
 
@@ -292,24 +274,34 @@ class _Reader:
         self.dimensions = of_parameters(self.robot)
         self.angles = _angle_names(self.robot)
 
-    def report(self, finding: Finding) -> None:
-        self.findings.append(finding)
-
     def finished(self, entries: Mapping[Key, GivenValue]) -> Given:
         if self.findings:
             raise InputError(self.findings)
         return Given(entries, tuple(self.warnings))
 
-    def take(self, entries: dict[Key, GivenValue], assignment: Assignment, find: _Find) -> None:
-        key = find(self, assignment)
-        if key is None:
-            return
-        if key in entries:
-            self.report(assignment.at_name(f"{assignment.name} has a value already", "keep one of them"))
-            return
-        entry = self.entry(key, assignment)
-        if entry is not None:
-            entries[key] = entry
+    def all_of(self, assignments: Iterable[Assignment], names: _Names) -> dict[Key, GivenValue]:
+        entries: dict[Key, GivenValue] = {}
+        for assignment in assignments:
+            key = self.key(assignment, names)
+            if key in entries:
+                self.findings.append(
+                    assignment.at_name(f"{assignment.name} has a value already", "keep one of them")
+                )
+            elif key is not None and (entry := self.entry(key, assignment)) is not None:
+                entries[key] = entry
+        return entries
+
+    def key(self, assignment: Assignment, names: _Names) -> Key | None:
+        """What an assignment gives a value; None (reported) where there is nothing of its name."""
+        name = self.name(assignment)
+        if name is None or name in names.known:
+            return None if name is None else names.known[name]
+        if name in names.others:
+            help = names.help.format(name=name, value=assignment.value)
+            self.findings.append(assignment.at_name(names.fault.format(name=name), help))
+        else:
+            self.unknown(assignment, name, list(names.known), names.what)
+        return None
 
     def name(self, assignment: Assignment) -> str | None:
         """The name in its one spelling; θ1' is theta1_dot."""
@@ -318,32 +310,32 @@ class _Reader:
         try:
             name = normalize(text.rstrip("'"))
         except ReadError as error:
-            self.report(assignment.at_name(error.message, error.help, error.offset, error.length))
+            self.findings.append(assignment.at_name(error.message, error.help, error.offset, error.length))
             return None
         return name + ("", "_dot", "_ddot")[dots] if dots < 3 else name
 
-    def unknown(self, assignment: Assignment, name: str, known: Iterable[str], what: str) -> None:
-        known = list(known)
+    def unknown(self, assignment: Assignment, name: str, known: list[str], what: str) -> None:
         close = get_close_matches(name, known, n=1, cutoff=0.5)
         some = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "")
         help = f"did you mean `{close[0]}`? " if close else ""
         help += f"The {what} are {some}" if known else f"this robot has no {what}"
-        self.report(assignment.at_name(f"{name} does not occur in this problem", help))
+        self.findings.append(assignment.at_name(f"{name} does not occur in this problem", help))
 
     def entry(self, key: Key, assignment: Assignment) -> GivenValue | None:
         """The value, exact and in SI units; None (reported) where it has none."""
         written = self.read(assignment)
         if written is None:
             return None
-        unit = self.unit(key)
-        if self.is_angle(key):
+        unit, turns = self.unit(key), key[0] in self.angles
+        if turns and not key[1]:
             checked = self.angle(assignment, written, unit)
+            unit = "" if written.turned else unit
             if checked is None:
                 return None
-            return GivenValue(checked, assignment.value, "" if written.turned else unit, written.decimal)
-        if written.turned and not self.is_rate_of_angle(key):
+            return GivenValue(checked, assignment.value, unit, written.decimal)
+        if written.turned and not turns:
             what = "no angle" if key[0] in self.robot.parameters else "a length"
-            self.report(assignment.at_value(f"{assignment.name} is {what}, and is given an angle"))
+            self.findings.append(assignment.at_value(f"{assignment.name} is {what}, and is given an angle"))
             return None
         return self.measured(key, GivenValue(written.tree, assignment.value, unit, written.decimal))
 
@@ -355,26 +347,18 @@ class _Reader:
         try:
             reading = read(text)
         except ReadError as error:
-            self.report(assignment.at_value(error.message, error.help, error.offset, error.length))
+            self.findings.append(assignment.at_value(error.message, error.help, error.offset, error.length))
             return None
         if reading.names:
             first = reading.names[0]
             message = f"the value of {assignment.name} contains the name {first.name}"
             help = "a value is a number: 0.4, 2/3, sqrt(2)/2, 30deg"
-            self.report(assignment.at_value(message, help, first.offset, first.length))
+            self.findings.append(assignment.at_value(message, help, first.offset, first.length))
             return None
         numbers = [token for token in tokens(text) if token.kind in ("number", "degrees")]
         degrees = any(token.kind == "degrees" for token in numbers)
         decimal = any("." in token.text or "e" in token.text.replace("deg", "").lower() for token in numbers)
         return _Written(reading.tree, degrees or radians, radians, decimal or radians)
-
-    def is_angle(self, key: Key) -> bool:
-        """Whether a value turns something: a revolute coordinate, a symbol in an angle."""
-        name, dots = key
-        return not dots and name in self.angles
-
-    def is_rate_of_angle(self, key: Key) -> bool:
-        return bool(key[1]) and key[0] in self.angles
 
     def angle(self, assignment: Assignment, written: _Written, unit: str) -> Node | None:
         """An angle; a bare number counts only where its unit is written."""
@@ -389,7 +373,7 @@ class _Reader:
             if value is not None:
                 shown = assignment.value
                 help = f"did you mean {shown}deg? For radians write {shown}rad or pi/6"
-            self.report(assignment.at_value(error.message, help))
+            self.findings.append(assignment.at_value(error.message, help))
             return None
         return written.tree
 
@@ -427,12 +411,6 @@ class _Reader:
         finding = self.problem.finding(place, message, help, "unit")
         if finding not in self.warnings:
             self.warnings.append(finding)
-
-
-class _Find(Protocol):
-    """The signature of what finds the key of an assignment, None (reported) where there is none."""
-
-    def __call__(self, reader: _Reader, assignment: Assignment, /) -> Key | None: ...
 
 
 def _scaled(tree: Node, size: Fraction) -> Node:

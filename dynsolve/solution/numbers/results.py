@@ -150,7 +150,9 @@ class State(_NumericResults):
         """
         value = self.exact(name)
         if isinstance(value, FractionMatrix):
-            return [[_quotient(entry, name) for entry in row] for row in value.rows]
+            return [
+                [_float(x.numerator, name) / _float(x.denominator, name) for x in row] for row in value.rows
+            ]
         if isinstance(value, Matrix):
             return [[_float(entry, name) for entry in row] for row in value.rows]
         return _float(value, name)
@@ -165,16 +167,12 @@ class State(_NumericResults):
 def _plain(value: Exact) -> Exact:
     """A value with its roots, cosines of numbers and π as decimals."""
     if isinstance(value, FractionMatrix):
-        return tidy(value.ring, ([_plain_fraction(entry) for entry in row] for row in value.rows))
+        rows = (
+            [(without_constants(x.numerator), without_constants(x.denominator)) for x in row]
+            for row in value.rows
+        )
+        return tidy(value.ring, ([cancelled(RationalExpr(*parts)) for parts in row] for row in rows))
     return value.map(without_constants) if isinstance(value, Matrix) else without_constants(value)
-
-
-def _plain_fraction(value: RationalExpr) -> RationalExpr:
-    return cancelled(RationalExpr(without_constants(value.numerator), without_constants(value.denominator)))
-
-
-def _quotient(value: RationalExpr, name: str) -> float:
-    return _float(value.numerator, name) / _float(value.denominator, name)
 
 
 def _float(expr: Expr, name: str) -> float:

@@ -5,19 +5,19 @@ Exact results shown as decimals: the only place where a number is rounded.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
 from flint import arb, ctx
+from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr, Generator
-from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational, rational_value
 from dynsolve.algebra.ring import Ring
@@ -38,9 +38,10 @@ from dynsolve.notation.tree import (
     with_children,
 )
 from dynsolve.notation.tree_values import sign
-from dynsolve.robot.actions import Actions, BodyTurn, Candidate, GivenModel, Spring
-from dynsolve.robot.model import AxisTurns, Body, Joint, Robot
-from dynsolve.robot.questions import Load, ModelQuestions, Questions, State
+from dynsolve.robot.actions import BodyTurn
+from dynsolve.robot.model import Axes, Joint, Robot
+from dynsolve.robot.questions import Limits, ModelQuestions, Target
+from dynsolve.robot.shapes import Density
 
 # Exact values put for symbols, in expressions (`Substitution`) and in a whole robot (`robot_with`)
 
@@ -166,99 +167,47 @@ def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) ->
         ring=put.ring,
         convention=robot.convention,
         coordinates=robot.coordinates,
-        joints=tuple(_joint(joint, put) for joint in robot.joints),
-        bodies=tuple(_body(body, put) for body in robot.bodies),
+        joints=_with_values(robot.joints, put),
+        bodies=_with_values(robot.bodies, put),
         gravity=put.matrix(robot.gravity),
         base_rotation=put.matrix(robot.base_rotation),
         base_position=put.matrix(robot.base_position),
-        base_turns=_axis_turns(robot.base_turns, put),
+        base_turns=_with_values(robot.base_turns, put, _written),
         parameters=tuple(name for name in robot.parameters if (name, 0) not in values),
-        questions=_questions(robot.questions, put),
-        actions=_actions(robot.actions, put),
-        given=None if robot.given is None else _given(robot.given, put),
+        questions=_with_values(robot.questions, put),
+        actions=_with_values(robot.actions, put),
+        given=_with_values(robot.given, put),
     )
 
 
-def _actions(acting: Actions, put: Substitution) -> Actions:
-    """What acts, with values in it."""
-    return replace(
-        acting,
-        friction=tuple(
-            replace(one, viscous=put(one.viscous), coulomb=put(one.coulomb)) for one in acting.friction
-        ),
-        dampers=tuple(replace(one, damping=put(one.damping), of=put(one.of)) for one in acting.dampers),
-        springs=tuple(_spring(spring, put) for spring in acting.springs),
-        motors=tuple(replace(m, inertia=put(m.inertia), ratio=put(m.ratio)) for m in acting.motors),
-    )
+_KEPT = (Target, Limits, Density)
+"""What holds no formula that a value goes into."""
+
+_OF_THE_TABLE = (Joint, Axes, BodyTurn)
+"""What holds formulas as the file has written them."""
 
 
-def _spring(spring: Spring, put: Substitution) -> Spring:
-    law = spring.law
-    if law is not None:
-        law = replace(law, stiffness=put(law.stiffness), of=put(law.of), rest=put(law.rest))
-    return replace(spring, energy=put(spring.energy), law=law)
-
-
-def _questions(questions: Questions, put: Substitution) -> Questions:
-    """What is asked, with values in it."""
-    task = questions.task
-    values = ((name, dots, replaced(value, put.values)) for name, dots, value in questions.state.values)
-    return replace(
-        questions,
-        points=tuple(replace(point, position=put.matrix(point.position)) for point in questions.points),
-        task=task and replace(task, entries=tuple(replaced(entry, put.values) for entry in task.entries)),
-        loads=tuple(_load(load, put) for load in questions.loads),
-        constraints=tuple(
-            replace(one, entry=replaced(one.entry, put.values)) for one in questions.constraints
-        ),
-        state=State(tuple(values)),
-        candidates=tuple(_candidate(one, put) for one in questions.candidates),
-        velocity=questions.velocity and put.matrix(questions.velocity),
-        acceleration=questions.acceleration and put.matrix(questions.acceleration),
-        weights=questions.weights and put.matrix(questions.weights),
-        model=_model(questions.model, put),
-    )
-
-
-def _model(model: ModelQuestions, put: Substitution) -> ModelQuestions:
-    """What is asked of the model, with values in it."""
-    return replace(
-        model,
-        linearize=tuple((name, dots, replaced(value, put.values)) for name, dots, value in model.linearize),
-        balanced=model.balanced and put.matrix(model.balanced),
-        steady=tuple((name, replaced(rate, put.values)) for name, rate in model.steady),
-        assumed=_bounds(model.assumed, put),
-    )
-
-
-def _bounds(bounds: Iterable[Bound], put: Substitution) -> tuple[Bound, ...]:
-    return tuple(Bound(put(bound.value), bound.is_strict) for bound in bounds)
-
-
-def _candidate(candidate: Candidate, put: Substitution) -> Candidate:
-    return replace(candidate, matrix=put.matrix(candidate.matrix), assumed=_bounds(candidate.assumed, put))
-
-
-def _load(load: Load, put: Substitution) -> Load:
-    return replace(
-        load,
-        position=put.matrix(load.position),
-        force=put.matrix(load.force),
-        moment=put.matrix(load.moment),
-        axes=None if load.axes is None else put.matrix(load.axes),
-    )
-
-
-def _joint(joint: Joint, put: Substitution) -> Joint:
-    theta, d, a, alpha = (_written(node, put.values) for node in joint.written)
-    return replace(
-        joint,
-        theta=put.angle(joint.theta),
-        d=put(joint.d),
-        a=put(joint.a),
-        alpha=put.angle(joint.alpha),
-        written=(theta, d, a, alpha),
-    )
+def _with_values(part: Any, put: Substitution, write: Callable[[Node, Replacements], Node] = replaced) -> Any:
+    """A part of a robot, every formula in it with the values; `write` is how a tree gets them."""
+    match part:
+        case Expr():
+            return put(part)
+        case Matrix():
+            return put.matrix(part)
+        case Angle():
+            return put.angle(part)
+        case Node():
+            return write(part, put.values)
+        case tuple():
+            return tuple(_with_values(each, put, write) for each in part)
+        case Struct() if not isinstance(part, _KEPT):
+            if isinstance(part, _OF_THE_TABLE):
+                write = _written
+            fields = {name: getattr(part, name) for name in part.__struct_fields__}
+            if isinstance(part, ModelQuestions):
+                del fields["parameters"]
+            return replace(part, **{name: _with_values(value, put, write) for name, value in fields.items()})
+    return part
 
 
 def _written(node: Node, values: Replacements) -> Node:
@@ -271,43 +220,6 @@ def _written(node: Node, values: Replacements) -> Node:
         tree = replaced(node, bare)
     value: Fraction | None = rational_value(tree)
     return tree if value is None else number(value)
-
-
-def _body(body: Body, put: Substitution) -> Body:
-    shape = body.shape
-    if shape is not None:
-        shape = replace(shape, dimensions=tuple((key, put(value)) for key, value in shape.dimensions))
-    return replace(
-        body,
-        mass=put(body.mass),
-        center=put.matrix(body.center),
-        axes=replace(
-            body.axes, rotation=put.matrix(body.axes.rotation), turns=_axis_turns(body.axes.turns, put)
-        ),
-        inertia=None if body.inertia is None else put.matrix(body.inertia),
-        shape=shape,
-        about_point=None if body.about_point is None else put.matrix(body.about_point),
-        turns=tuple(_turn(turn, put) for turn in body.turns),
-    )
-
-
-def _axis_turns(turns: AxisTurns, put: Substitution) -> AxisTurns:
-    return tuple((axis, _written(angle, put.values)) for axis, angle in turns)
-
-
-def _turn(turn: BodyTurn, put: Substitution) -> BodyTurn:
-    return BodyTurn(
-        axis=put.matrix(turn.axis),
-        rates=put.matrix(turn.rates),
-        rotation=put.matrix(turn.rotation),
-        angle=_written(turn.angle, put.values),
-    )
-
-
-def _given(given: GivenModel, put: Substitution) -> GivenModel:
-    D = None if given.D is None else put.matrix(given.D)
-    K, P, L = (None if energy is None else put(energy) for energy in (given.K, given.P, given.L))
-    return GivenModel(D, K, P, L)
 
 
 # Exact results shown as decimals: the only place where a number is rounded
