@@ -93,9 +93,13 @@ def lint(problem: Problems, quiet: Quiet = False) -> int:
     """
     code = ExitCode.DONE
     for name in problem:
-        is_set = Path(name).name == "set.yaml" or Path(name).is_dir()
         try:
-            findings = _of_set(name) if is_set else _findings(name)
+            files = [name]
+            if Path(name).name == "set.yaml" or Path(name).is_dir():
+                from dynsolve.grading.set_file import load_set
+
+                files = [item.problem.file for item in load_set(name).items]
+            findings = [finding for file in files for finding in _findings(file)]
         except ProblemError as error:
             say(error.findings)
             code = ExitCode.USAGE
@@ -107,16 +111,6 @@ def lint(problem: Problems, quiet: Quiet = False) -> int:
         elif not quiet:
             typer.echo(f"{name}: nothing to remark", err=True)
     return code
-
-
-def _of_set(name: str) -> list[Finding]:
-    """What deserves a look in a set and in its problems.
-
-    Raises ProblemError with all that is wrong with it.
-    """
-    from dynsolve.grading.set_file import load_set
-
-    return [finding for item in load_set(name).items for finding in _findings(item.problem.file)]
 
 
 def _findings(name: str) -> list[Finding]:
@@ -142,7 +136,8 @@ def docs(
     if topic is None:
         width = max(map(len, known))
         for name, text in known.items():
-            typer.echo(f"{name:{width}}  {_first_words(text)}")
+            headings = [line.removeprefix("### ") for line in text.splitlines() if line.startswith("### ")]
+            typer.echo(f"{name:{width}}  {', '.join([_title(text), *headings])}")
     elif topic in known:
         typer.echo(known[topic], nl=False)
     else:
@@ -165,9 +160,3 @@ def topics() -> dict[str, str]:
 
 def _title(section: str) -> str:
     return section.partition("\n")[0].removeprefix("## ")
-
-
-def _first_words(section: str) -> str:
-    """The headings within a section, which say what it is about."""
-    parts = [line.removeprefix("### ") for line in section.splitlines() if line.startswith("### ")]
-    return ", ".join([_title(section), *parts])

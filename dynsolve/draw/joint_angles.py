@@ -91,7 +91,6 @@ def joint_angles(pose: Pose, names: Sequence[Node], notes: Notes) -> None:
 
 
 def _turning(pose: Pose) -> Iterator[tuple[JointBody, Leg]]:
-    """The revolute joints with their rows."""
     for part in pose.parts.joints:
         if part.type is JointType.REVOLUTE:
             yield part, pose.skeleton.legs[part.row - 1]

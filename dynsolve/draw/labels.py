@@ -277,7 +277,6 @@ def _best(places: Sequence[_Place], others: Sequence[_Place]) -> _Place:
 
 
 def _options(label: Wanted, taken: Taken, lengths: Taken) -> list[_Place]:
-    """All places of a label, the cheapest first."""
     wide, high = label.line.width, label.line.height
     preferred = math.atan2(label.toward[1], label.toward[0]) if label.toward != (0.0, 0.0) else None
     places = []

@@ -138,7 +138,6 @@ class _Reserved(Struct, frozen=True):
 
 
 def _reserved(wanted: Sequence[Wanted], notes: Notes) -> list[_Reserved]:
-    """The places that labels have so far."""
     placed = zip(place(wanted, notes.taken), wanted, strict=True)
     return [_Reserved(_with_way(label, named), label.lead) for label, named in placed]
 
@@ -282,7 +281,6 @@ def _corners(numbers: RobotNumbers) -> list[Vector]:
 
 
 def _axes(origin: Vector, pose: Pose, notes: Notes) -> None:
-    """The frame of the world."""
     at = pose.view.point(origin)
     for letter, axis in zip("xyz", IDENTITY, strict=True):
         tip = axis_arrow(at, axis, pose, notes)

@@ -13,7 +13,19 @@ from types import MappingProxyType
 from msgspec import Struct
 
 from dynsolve.draw.skeleton import Leg, Skeleton
-from dynsolve.draw.vectors import NEAR, Vector, View, along, distance, dot, length, scale, subtract, unit
+from dynsolve.draw.vectors import (
+    NEAR,
+    Vector,
+    View,
+    across,
+    along,
+    distance,
+    dot,
+    length,
+    scale,
+    subtract,
+    unit,
+)
 from dynsolve.robot.model import JointType
 
 RADIUS = 13.0
@@ -81,11 +93,7 @@ def arrange(pose: Skeleton, view: View, up: Vector, sleeves: Mapping[int, float]
         center = next(clear, places[0])
         joints.append(JointBody(row, leg.type, center, leg.axis))
     ground, normal = _ground(pose, joints, view, up)
-    side = next(
-        unit(level)
-        for axis in pose.frames[0].axes
-        if length(level := subtract(axis, scale(normal, dot(axis, normal)))) > _LEVEL
-    )
+    side = across(normal, pose.frames[0].axes, _LEVEL)
     return Parts(tuple(joints), _links(pose, joints, ground), ground, normal, side)
 
 
@@ -196,8 +204,8 @@ def is_inside(point: Vector, parts: Parts, view: View) -> bool:
     for part in parts.joints:
         offset = scale(subtract(point, part.center), view.size)
         height = dot(offset, part.axis)
-        across = length(subtract(offset, scale(part.axis, height)))
+        beside = length(subtract(offset, scale(part.axis, height)))
         wide = RADIUS if part.type is JointType.REVOLUTE else BOX - 1.0
-        if abs(height) < HALF_HEIGHT - 1.0 and across < wide - 1.0:
+        if abs(height) < HALF_HEIGHT - 1.0 and beside < wide - 1.0:
             return True
     return False

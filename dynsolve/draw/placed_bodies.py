@@ -119,7 +119,6 @@ def _caption(pose: PlacedPose, labels: Sequence[Label]) -> str:
 
 
 def _description(problem: Problem) -> str:
-    """What the picture shows, for those who cannot see it."""
     robot = problem.robot
     kinds = [
         f"{q.name} ({'an angle' if q.type is JointType.REVOLUTE else 'a length'})" for q in robot.coordinates
@@ -260,7 +259,6 @@ def _name(body: Body, pose: PlacedPose, notes: Notes) -> None:
 
 
 def _world(pose: PlacedPose, notes: Notes) -> None:
-    """The axes of the world."""
     at = pose.view.point(ORIGIN)
     for letter, axis in zip("xyz", IDENTITY, strict=True):
         x, y = pose.view.direction(axis)

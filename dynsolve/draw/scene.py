@@ -327,7 +327,6 @@ def framed(paths: Iterable[Path], labels: Iterable[Label]) -> Box:
 
 
 def _description(problem: Problem) -> str:
-    """What the picture shows, for those who cannot see it."""
     robot = problem.robot
     kinds = [
         f"{'revolute' if q.type is JointType.REVOLUTE else 'prismatic'} joint {q.index} ({q.name})"

@@ -31,9 +31,9 @@ from dynsolve.draw.vectors import (
     ORIGIN,
     Rotation,
     Vector,
+    across,
     add,
     along,
-    any_normal,
     cross,
     distance,
     dot,
@@ -153,7 +153,6 @@ def _moved(robot: Robot, values: Mapping[str, float]) -> Vector:
 
 
 def _offset(robot: Robot, joint: Joint) -> float:
-    """The degrees beside a coordinate that stands alone in the column θ, in radians within half a turn."""
     variable = turned_alone(robot, joint)
     return math.remainder(math.radians(float(joint.theta.degrees)), 2 * math.pi) if variable else 0.0
 
@@ -335,11 +334,11 @@ def _leg(
     d = row.d + (moved if joint.variable == "d" else 0.0)
     o = frame.origin
     if robot.convention is Convention.STANDARD:
-        across = turned(frame.axes, 2, theta)
+        level = turned(frame.axes, 2, theta)
         head = along(o, frame.z, d)
-        end = along(head, across[0], row.a)
-        leg = Leg(joint.type, o, o, head, end, frame.z, frame.x, across[0], theta, row.offset)
-        return leg, DrawnFrame(end, turned(across, 0, row.alpha))
+        end = along(head, level[0], row.a)
+        leg = Leg(joint.type, o, o, head, end, frame.z, frame.x, level[0], theta, row.offset)
+        return leg, DrawnFrame(end, turned(level, 0, row.alpha))
     tilted = turned(frame.axes, 0, row.alpha)
     foot = along(o, frame.x, row.a)
     head = along(foot, tilted[2], d)
@@ -391,7 +390,9 @@ def orientation(robot: Robot, numbers: RobotNumbers, drawn: bool = False) -> Ori
     # a plane that is neither upright nor level would hide from its front how far it leans
     leans = normal and gravity and _FLAT < abs(dot(normal, gravity)) < 1 - _FLAT
     if normal is not None and not leans:
-        return Orientation(_up_in_plane(normal, base, gravity), base.x, gravity, normal)
+        against = [scale(gravity, -1.0)] if gravity else []  # is drawn upwards, else y_0, else z_0
+        upwards = across(normal, [*against, base.axes[1], base.z], 0.1)
+        return Orientation(upwards, base.x, gravity, normal)
     up = scale(gravity, -1.0) if gravity else base.z
     ahead = base.x if abs(dot(base.x, up)) < 0.9 else base.z
     return Orientation(up, ahead, gravity, None)
@@ -403,15 +404,6 @@ def _gravity(robot: Robot, numbers: RobotNumbers) -> Vector | None:
     except (ValueError, ZeroDivisionError, OverflowError):
         return None
     return unit((x, y, z)) if length((x, y, z)) > _FLAT else None
-
-
-def _up_in_plane(normal: Vector, base: DrawnFrame, gravity: Vector | None) -> Vector:
-    """The direction of the plane that is drawn upwards: against gravity, else y_0, else z_0."""
-    for wanted in ([scale(gravity, -1.0)] if gravity else []) + [base.axes[1], base.z]:
-        level = subtract(wanted, scale(normal, dot(wanted, normal)))
-        if length(level) > 0.1:
-            return unit(level)
-    return any_normal(normal)
 
 
 def _normal(robot: Robot, numbers: RobotNumbers, base: DrawnFrame) -> Vector | None:

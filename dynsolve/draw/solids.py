@@ -23,13 +23,12 @@ from dynsolve.draw.vectors import (
     Rotation,
     Vector,
     View,
+    across,
     along,
-    any_normal,
     between,
     cross,
     distance,
     dot,
-    length,
     moved,
     scale,
     subtract,
@@ -78,19 +77,19 @@ def drum(center: Vector, axis: Vector, radius: float, half: float, view: View, m
     """A cylinder; `radius` and `half` its height are in picture units."""
     axis = axis if dot(axis, view.toward) >= 0 else scale(axis, -1.0)
     depth = view.depth(center)
-    across, lift = half_axes(axis, view, radius)
+    wide, lift = half_axes(axis, view, radius)
     if dot(axis, view.toward) > END_ON:
         return Solid(depth, (Path(paths.circle(view.point(center), radius), fill=material.top),))
     near = view.point(along(center, axis, view.space(half)))
     far = view.point(along(center, axis, -view.space(half)))
     # cos t runs across the axis, sin t along it towards the viewer: the far end shows its lower half
     body = (
-        *paths.arc(far, across, lift, math.pi, 2 * math.pi),
-        *paths.arc(near, across, lift, 0.0, math.pi, move=False),
+        *paths.arc(far, wide, lift, math.pi, 2 * math.pi),
+        *paths.arc(near, wide, lift, 0.0, math.pi, move=False),
         ("Z", ()),
     )
     return Solid(
-        depth, (Path(body, fill=material.side), Path(paths.ellipse(near, across, lift), fill=material.top))
+        depth, (Path(body, fill=material.side), Path(paths.ellipse(near, wide, lift), fill=material.top))
     )
 
 
@@ -98,9 +97,9 @@ def half_axes(axis: Vector, view: View, radius: float) -> tuple[Point, Point]:
     """The half axes, on paper, of a circle around an axis; the second points along the axis on paper."""
     if abs(dot(axis, view.toward)) > END_ON:
         return (radius, 0.0), (0.0, -radius)
-    across = unit(cross(axis, view.toward))
-    along_axis = cross(across, axis)
-    x, y = view.direction(across)
+    level = unit(cross(axis, view.toward))
+    along_axis = cross(level, axis)
+    x, y = view.direction(level)
     u, v = view.direction(along_axis)
     forward = view.direction(axis)
     sign = 1.0 if u * forward[0] + v * forward[1] >= 0 else -1.0
@@ -150,8 +149,8 @@ def ball(center: Vector, radius: float, view: View, up: Vector, material: Materi
     circle = Path(paths.circle(at, radius), fill=material.top)
     if view.flat:
         return Solid(view.depth(center), (circle,))
-    across, lift = half_axes(up, view, radius)
-    equator = paths.arc(at, across, lift, math.pi, 2 * math.pi)
+    wide, lift = half_axes(up, view, radius)
+    equator = paths.arc(at, wide, lift, math.pi, 2 * math.pi)
     return Solid(view.depth(center), (circle, Path(equator, width=0.7)))
 
 
@@ -188,8 +187,8 @@ def body_solids(bodies: Sequence[DrawnBody], parts: Parts, view: View, up: Vecto
 def _piece(body: DrawnBody, center: Vector, halves: Sequence[float], view: View, up: Vector) -> Solid:
     if body.form is Form.BOX:
         return block(center, body.axes, halves, view, up, BODY)
-    across = halves[(body.main + 1) % 3]
-    return drum(center, body.axes[body.main], across, halves[body.main], view, BODY)
+    radius = halves[(body.main + 1) % 3]
+    return drum(center, body.axes[body.main], radius, halves[body.main], view, BODY)
 
 
 def _pieces(
@@ -253,7 +252,6 @@ def link_pieces(parts: Parts, view: View, bodies: Sequence[DrawnBody] = ()) -> I
 
 
 def _hidden(point: Vector, parts: Parts, view: View, bodies: Sequence[DrawnBody]) -> bool:
-    """Whether a point of a link is inside a joint or a body."""
     return is_inside(point, parts, view) or covers(bodies, point, view)
 
 
@@ -341,19 +339,10 @@ def cylinder(part: JointBody, view: View) -> Solid:
 
 def box(part: JointBody, view: View, up: Vector) -> Solid:
     """A prismatic joint: a box along its axis."""
-    second = _crosswise(part.axis, view, up)
+    second = across(part.axis, (view.toward,) if view.flat else (up, view.right), 0.3)
     axes = part.axis, second, cross(part.axis, second)
     halves = HALF_HEIGHT + 2.0, BOX - 1.0, BOX - 1.0
     return nearer(block(part.center, axes, halves, view, up, JOINT), 1.0 if view.flat else 0.0)
-
-
-def _crosswise(axis: Vector, view: View, up: Vector) -> Vector:
-    """A direction across a box: the viewer's in a flat view, else level or upright."""
-    for wanted in (view.toward,) if view.flat else (up, view.right):
-        level = subtract(wanted, scale(axis, dot(wanted, axis)))
-        if length(level) > 0.3:
-            return unit(level)
-    return any_normal(axis)
 
 
 # -- the ground ------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ How space is laid on paper: a parallel projection, its size and its place.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -82,6 +83,15 @@ def any_normal(a: Vector) -> Vector:
     """A unit vector at right angles to a."""
     smallest = min(range(3), key=lambda k: (abs(round(a[k], 9)), k))
     return unit(cross(a, IDENTITY[smallest]))
+
+
+def across(axis: Vector, wanted: Iterable[Vector], least: float) -> Vector:
+    """The first of some directions of which more than `least` is at right angles to an axis; else any."""
+    for direction in wanted:
+        level = subtract(direction, scale(axis, dot(direction, axis)))
+        if length(level) > least:
+            return unit(level)
+    return any_normal(axis)
 
 
 def turned(R: Rotation, axis: int, angle: float) -> Rotation:
@@ -202,7 +212,8 @@ class View(Struct, frozen=True):
 
 def oblique(up: Vector, ahead: Vector, azimuth: float, elevation: float) -> View:
     """A view from above, turned by `azimuth` from the direction `ahead`; angles in radians."""
-    level = unit(subtract(ahead, scale(up, dot(ahead, up)))) if _leans(ahead, up) else any_normal(up)
+    leans = abs(dot(ahead, up)) < 0.99
+    level = unit(subtract(ahead, scale(up, dot(ahead, up)))) if leans else any_normal(up)
     side = cross(up, level)
     c, s = math.cos(azimuth), math.sin(azimuth)
     front = (level[0] * c + side[0] * s, level[1] * c + side[1] * s, level[2] * c + side[2] * s)
@@ -220,7 +231,3 @@ def facing(toward: Vector, up: Vector) -> View:
     """The plane seen from straight in front, with `up` upwards."""
     level = unit(subtract(up, scale(toward, dot(up, toward))))
     return View(cross(level, toward), level, toward, flat=True)
-
-
-def _leans(a: Vector, b: Vector) -> bool:
-    return abs(dot(a, b)) < 0.99

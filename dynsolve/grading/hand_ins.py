@@ -209,7 +209,6 @@ class _Left(Struct, frozen=True):
 def _sorted(
     problems: ProblemSet, uploads: Uploads, owners: FileOwners, upload: Upload
 ) -> Iterator[_Piece | _Left]:
-    """A file for each of its owners."""
     for owner in owners.of(upload.path):
         if PurePosixPath(owner.name).suffix.lower() == ".zip":
             yield from _unzipped(problems, uploads, owner, upload)
@@ -241,7 +240,6 @@ def _unzipped(
 def _one(
     problems: ProblemSet, uploads: Uploads, owner: FileOwner, upload: Upload
 ) -> Iterator[_Piece | _Left]:
-    """A file of one owner."""
     shown, named = printable(str(upload.path)), by_name(problems, owner.name)
     ending = PurePosixPath(owner.name).suffix.lower()
     if ending not in ENDINGS:

@@ -8,8 +8,6 @@ left out, and further columns are not read.
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
@@ -28,7 +26,7 @@ from dynsolve.grading.queue_page import queue_page
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
 from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.teacher import HEAD_HERE, absent_page, teachers_page, unpack
-from dynsolve.grading.uploads import FOLDER
+from dynsolve.grading.uploads import FOLDER, rows_of
 from dynsolve.render.markdown import escaped
 from dynsolve.render.prose import visible
 
@@ -55,22 +53,12 @@ def read_by_hand(path: Path) -> Iterator[ByHand]:
     except (OSError, UnicodeDecodeError) as error:
         reason = (getattr(error, "strerror", None) or str(error)).lower()
         raise InputError([Finding(f"cannot be read: {reason}", "give a CSV in UTF-8", str(path))]) from None
-    first = text.partition("\n")[0]
-    rows = csv.DictReader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=first.count))
-    rows.fieldnames = [name.strip().casefold() for name in rows.fieldnames or ()]
-    if not set(COLUMNS) <= set(rows.fieldnames):
-        message = f"the first line is `{first[:60].strip()}`, not the names of the columns"
-        raise InputError([Finding(message, f"write {','.join(COLUMNS)}", str(path), 1, 1)])
-    for row in rows:
-        student, problem, answer, marks, comment = (_plain(row.get(name) or "") for name in COLUMNS)
+    for line, row in rows_of(text, path, COLUMNS, COLUMNS, InputError, others=True):
+        # without the apostrophe that keeps a spreadsheet from running a cell
+        cells = [c[1:] if c[:1] == "'" and safe(c[1:]) == c else c for c in map(row.__getitem__, COLUMNS)]
+        student, problem, answer, marks, comment = cells
         if marks or comment:
-            yield ByHand(student, problem, answer, marks, comment, rows.line_num)
-
-
-def _plain(cell: str) -> str:
-    """A cell without the apostrophe that keeps a spreadsheet from running it."""
-    cell = cell.strip()
-    return cell[1:] if cell[:1] == "'" and safe(cell[1:]) == cell else cell
+            yield ByHand(student, problem, answer, marks, comment, line)
 
 
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")

@@ -105,7 +105,6 @@ def _select(name: str, values: Iterable[str]) -> str:
 
 
 def _entry(course: _Course, entries: list[Entry]) -> str:
-    """The hand-in on one side, what is to be decided on the other."""
     entry = entries[0]
     waiting = [e.answer for e in entries if e.answer]
     others = [] if waiting else course.answers.get((entry.student, entry.problem), [])

@@ -308,7 +308,6 @@ class Record:
         return {(s, p, a) for s, p, a, hand_in in found if hand_in != self._hand_in((s, p))}
 
     def _hand_in(self, key: Key) -> str:
-        """What identifies the hand-in that counts."""
         return self.kept(key)[0].get("hand-in", "")
 
     def finish(self, policy: Policy) -> None:

@@ -403,13 +403,14 @@ def read_list(
 ) -> tuple[Entry, ...]:
     """What `read` makes of each row of a file, nothing where there is no such file.
 
-    The separator is a comma, a semicolon or a tab.  Raises ProblemError with every faulty row.
+    Raises ProblemError with every faulty row.
     """
     if not path.is_file():
         return ()
     found: list[Entry] = []
     findings: list[Finding] = []
-    for line, cells in _rows(path, columns, needed):
+    text = path.read_text(encoding="utf-8-sig", errors="replace")
+    for line, cells in rows_of(text, path, columns, needed, ProblemError):
         entry = read(cells)
         if isinstance(entry, tuple):
             findings.append(Finding(entry[0], entry[1], str(path), line, 1))
@@ -420,17 +421,24 @@ def read_list(
     return tuple(found)
 
 
-def _rows(
-    path: Path, columns: tuple[str, ...], needed: Collection[str]
+def rows_of(
+    text: str,
+    path: Path,
+    columns: tuple[str, ...],
+    needed: Collection[str],
+    raised: type[ProblemError | InputError],
+    others: bool = False,
 ) -> Iterator[tuple[int, dict[str, str]]]:
-    """Each row with its line, its cells by their columns."""
-    text = path.read_text(encoding="utf-8-sig", errors="replace")
+    """Each row of a CSV with its line, its cells by their columns; with `others` there may be further ones.
+
+    The separator is a comma, a semicolon or a tab.  Raises what is to be `raised` where columns are wrong.
+    """
     first = text.partition("\n")[0]
     rows = csv.DictReader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=first.count))
     header = [name.strip().casefold() for name in rows.fieldnames or ()]
-    if not set(needed) <= set(header) or not set(header) <= set(columns):
+    if not set(needed) <= set(header) or not (others or set(header) <= set(columns)):
         message = f"the first line is `{first[:60].strip()}`, not the names of the columns"
-        raise ProblemError([Finding(message, f"write {','.join(columns)}", str(path), 1, 1)])
+        raise raised([Finding(message, f"write {','.join(columns)}", str(path), 1, 1)])
     rows.fieldnames = header
     for row in rows:
         yield rows.line_num, {key: (row.get(key) or "").strip() for key in columns}

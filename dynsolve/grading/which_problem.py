@@ -91,7 +91,6 @@ def _begins(text: str, named: Callable[[str], str], stems: Sequence[str]) -> lis
 
 
 def _numbered(title: str, stems: Sequence[str]) -> str:
-    """The problem of a number in the set."""
     found = _NUMBER.match(title)
     number = int(found[1]) if found else 0
     return stems[number - 1] if 1 <= number <= len(stems) else ""
@@ -185,7 +184,6 @@ def problem_of(problems: ProblemSet, text: str, name: str, ending: str) -> tuple
 
 
 def _headed(problems: ProblemSet, text: str) -> Iterator[str]:
-    """The problems that headings name."""
     for _, title in titles(text):
         found = within(title, problems)
         if found:

@@ -261,6 +261,5 @@ def failure(error: Exception) -> str:
 
 
 def _spent() -> float:
-    """The processor time of the children so far."""
     times = os.times()
     return times.children_user + times.children_system

@@ -38,28 +38,21 @@ from dynsolve.notation.tree import (
     children,
 )
 
-# Advance width and italic correction, in hundredths of an em.
-_ITALIC = dict(
-    zip(
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ",
-        map(
-            int,
-            "53 43 43 52 47 60 51 58 34 47 55 32 88 60 48 50 48 48 47 36 57 52 74 57 53 51 "
-            "75 81 79 86 80 78 79 91 52 65 92 68 108 91 79 78 79 77 67 72 79 81 108 91 80 75".split(),
-        ),
-        strict=True,
-    )
+
+def _widths(letters: str, hundredths: str) -> dict[str, int]:
+    """Advance width and italic correction, in hundredths of an em."""
+    return dict(zip(letters, map(int, hundredths.split()), strict=True))
+
+
+_ITALIC = _widths(
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ",
+    "53 43 43 52 47 60 51 58 34 47 55 32 88 60 48 50 48 48 47 36 57 52 74 57 53 51 "
+    "75 81 79 86 80 78 79 91 52 65 92 68 108 91 79 78 79 77 67 72 79 81 108 91 80 75",
 )
-_UPRIGHT = dict(
-    zip(
-        "abcdefghijklmnopqrstuvwxyz .,()+-=",
-        map(
-            int,
-            "50 56 44 56 44 38 51 56 28 31 53 28 83 56 50 56 53 39 39 39 56 54 74 53 54 44 "
-            "33 28 44 39 39 122 122 133".split(),
-        ),
-        strict=True,
-    )
+_UPRIGHT = _widths(
+    "abcdefghijklmnopqrstuvwxyz .,()+-=",
+    "50 56 44 56 44 38 51 56 28 31 53 28 83 56 50 56 53 39 39 39 56 54 74 53 54 44 "
+    "33 28 44 39 39 122 122 133",
 )
 _DIGIT, _WIDE_LETTER, _GREEK_LETTER = 0.50, 0.80, 0.66
 _BOLD = 1.19
@@ -154,7 +147,8 @@ class Ruler:
                 return sum(map(self._factor, factors))
             case Sum(terms):
                 lead = 0.78 if terms and type(terms[0]) is Negative else 0.0
-                return lead + sum(map(self._term, terms)) + BINARY * max(len(terms) - 1, 0)
+                bare = (term.argument if type(term) is Negative else term for term in terms)
+                return lead + sum(map(self.width, bare)) + BINARY * max(len(terms) - 1, 0)
             case Negative(argument):
                 return 0.78 + self._factor(argument)
             case Quotient(numerator, denominator):
@@ -243,9 +237,6 @@ class Ruler:
         if type(node) in (Sum, Negative, Cross, Relation, BigSum):
             return width + 2 * TALL_PARENTHESIS
         return width + (_DOT if type(node) is Number else 0)
-
-    def _term(self, node: Node) -> float:
-        return self.width(node.argument) if type(node) is Negative else self.width(node)
 
     def _function(self, node: Function) -> float:
         if short := shorthand(node, self.style):

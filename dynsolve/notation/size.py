@@ -125,10 +125,6 @@ def _raised(node: Power, terms: _Counts, degrees: _Counts, most: Size) -> tuple[
     return (comb(terms[0] + count - 1, count) if count else 1), count * degrees[0]
 
 
-def _opaque(node: Function, terms: _Counts, degrees: _Counts, most: Size) -> tuple[int, int]:
-    return 1, 1
-
-
 _RULES: Mapping[type[Node], Callable[[Any, _Counts, _Counts, Size], tuple[int, int]]] = {
     Sum: _added,
     Product: _multiplied,
@@ -137,7 +133,7 @@ _RULES: Mapping[type[Node], Callable[[Any, _Counts, _Counts, Size], tuple[int, i
     Negative: _beside,
     Parenthesized: _beside,
     Arguments: _added,
-    Function: _opaque,
+    Function: lambda *_: (1, 1),
     Matrix: _beside,
 }
 """How the terms and the degree of a node come from those of its parts; every other node is a leaf."""

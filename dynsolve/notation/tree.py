@@ -352,10 +352,6 @@ def with_formulas(node: Node, formulas: Mapping[str, Node]) -> Node:
     return mapped(node, lambda part: formulas.get(part.name, part) if isinstance(part, Symbol) else part)
 
 
-def _change_perhaps(part: Node | None, change: Change) -> Node | None:
-    return None if part is None else change(part)
-
-
 def _change_all(parts: tuple[Node, ...], change: Change) -> tuple[Node, ...]:
     changed = tuple(map(change, parts))
     return parts if all(map(is_, parts, changed)) else changed
@@ -368,7 +364,10 @@ def _change_rows(rows: tuple[tuple[Node, ...], ...], change: Change) -> tuple[tu
 
 _KINDS: dict[Any, tuple[Callable[[Any], tuple[Node, ...]], Callable[[Any, Change], Any]]] = {
     "Node": (lambda part: (part,), lambda part, change: change(part)),
-    "Node | None": (lambda part: () if part is None else (part,), _change_perhaps),
+    "Node | None": (
+        lambda part: () if part is None else (part,),
+        lambda part, change: None if part is None else change(part),
+    ),
     "tuple[Node, ...]": (lambda parts: parts, _change_all),
     "tuple[tuple[Node, ...], ...]": (lambda rows: tuple(chain.from_iterable(rows)), _change_rows),
 }

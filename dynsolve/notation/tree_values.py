@@ -88,13 +88,10 @@ class Program(Struct, frozen=True):
         append = stack.append
         for operation, operands in self.operations:
             append(operation(operands(stack)))
-        return [_gather(place, stack) for place in self.places]
-
-
-def _gather(place: Any, stack: list[float]) -> Any:
-    if isinstance(place, int):
-        return stack[place]
-    return [[stack[entry] for entry in row] for row in place]
+        return [
+            stack[place] if isinstance(place, int) else [[stack[entry] for entry in row] for row in place]
+            for place in self.places
+        ]
 
 
 def compile_trees(
@@ -193,16 +190,16 @@ class _Compiler:
             case Product():
                 return math.prod
             case Quotient():
-                return _divide
+                return lambda pair: pair[0] / pair[1]
             case Negative():
                 return operator.neg
             case Function(name):
                 return self.functions[name]
             case Arguments():
-                return _together
+                return _same
             case Power(_, exponent):
                 whole = _whole(exponent)
-                return _raise if whole is None else _raised_to(whole)
+                return _raised_to(whole) if whole is not None else lambda pair: float(pair[0] ** pair[1])
         raise TypeError(f"a tree with {type(node).__name__} has no value")
 
 
@@ -222,20 +219,8 @@ def _whole(exponent: Node) -> int | None:
     return None
 
 
-def _same(value: float) -> float:
+def _same(value: Any) -> Any:
     return value
-
-
-def _together(values: Any) -> Any:
-    return values
-
-
-def _divide(pair: tuple[float, float]) -> float:
-    return pair[0] / pair[1]
-
-
-def _raise(pair: tuple[float, float]) -> float:
-    return float(pair[0] ** pair[1])
 
 
 @cache

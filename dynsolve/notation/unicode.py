@@ -128,11 +128,6 @@ def _shifted(index: str, table: dict[str, str], sign: str) -> str:
     return sign + (index if index.isalnum() else f"{{{index}}}")
 
 
-def _with_greek(index: str) -> str:
-    """`omega1` -> `ω1`: Greek letters that are spelled out in an index."""
-    return "".join(GREEK.get(run, run) for run in _RUN.findall(index))
-
-
 class UnicodePrinter(FormulaPrinter):
     """One line of Unicode; products have no sign where none is needed."""
 
@@ -158,7 +153,8 @@ class UnicodePrinter(FormulaPrinter):
     def _indices(self, groups: Sequence[str]) -> str:
         """Groups of indices; a comma only where two would run together."""
         text = ""
-        for group in map(_with_greek, groups):
+        for runs_of in map(_RUN.findall, groups):
+            group = "".join(GREEK.get(run, run) for run in runs_of)
             text += "," + group if text and not (text[-1].isdecimal() and group[0].isalpha()) else group
         return text
 

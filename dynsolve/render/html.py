@@ -122,7 +122,8 @@ def laid_out(parts: Sequence[Piece], room: float) -> str:
         return _nested(parts)
     left, right, *rest = parts
     inside = list(takewhile(lambda part: part.depth > RELATION_BREAK, rest))
-    terms = min((part.depth for part in inside if _is_term(part)), default=RELATION_BREAK)
+    own = (part for part in inside if part.level == 0)  # terms, and factors that are matrices; no unit
+    terms = min((part.depth for part in own if part.depth == SUM_BREAK or part.sign), default=RELATION_BREAK)
     head = right.width + sum(part.width for part in takewhile(lambda part: part.depth > terms, inside))
     width = left.width + right.width
     is_broken = inside and head > room >= width
@@ -130,11 +131,6 @@ def laid_out(parts: Sequence[Piece], room: float) -> str:
     if is_scrolled or is_broken or (inside and members > 2 and left.width + head <= room):
         parts = [replace(left, text=left.text + right.text, width=width), *rest]
     return _nested(parts, terms if members == 2 else RELATION_BREAK)
-
-
-def _is_term(part: Piece) -> bool:
-    """Whether a piece is a term of a member, or a factor that is a matrix; a unit is neither."""
-    return part.level == 0 and (part.depth == SUM_BREAK or bool(part.sign))
 
 
 def _nested(parts: Sequence[Piece], depth: int = RELATION_BREAK, room: float = LINE) -> str:

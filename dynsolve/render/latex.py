@@ -292,11 +292,6 @@ def latex_notation(printer: LatexPrinter) -> Notation:
     )
 
 
-def _row_end(rows: str) -> str:
-    """The end of a row of a matrix, with room between it and the next where one of them is high."""
-    return next((f" {end} " for sign, end in _ROW_SPACES if sign in rows), r" \\ ")
-
-
 class _Printer(LatexPrinter):
     """LaTeX for a page: what stands side by side has room, fractions in a matrix are as large as others.
 
@@ -313,7 +308,10 @@ class _Printer(LatexPrinter):
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         lines = [" & ".join(row).replace(r"\frac", r"\dfrac") for row in rows]
-        ends = [_row_end(f"{above}{below}") for above, below in pairwise(lines)]
+        ends = []
+        for rows_of in pairwise(lines):  # room between two rows where one of them is high
+            high = (f" {end} " for sign, end in _ROW_SPACES if any(sign in line for line in rows_of))
+            ends.append(next(high, r" \\ "))
         body = "".join(chain.from_iterable(zip(lines, [*ends, ""], strict=True)))
         return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
 

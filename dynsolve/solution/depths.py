@@ -358,7 +358,6 @@ def _chain(first: Node, second: Node) -> Relation | None:
 
 
 def _beside(one: Formula, other: Formula, printer: UnicodePrinter) -> Formula | None:
-    """Two formulas with matrices on one line."""
     if one.source or other.source or bool(one.label) != bool(other.label) or one.optional != other.optional:
         return None
     if not (holds_matrix(one.node) and holds_matrix(other.node)):

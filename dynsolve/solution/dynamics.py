@@ -179,7 +179,6 @@ class Dynamics(Struct, frozen=True, dict=True):
         return self._remarked(explain(self._context), whole=True)
 
     def _remarked(self, steps: Iterable[Step], *, whole: bool) -> tuple[Step, ...]:
-        """The steps with the remarks of the problem's author."""
         if not self.problem.remarks:
             return tuple(steps)
 

@@ -277,17 +277,13 @@ def _wrapping(files: list[PurePosixPath], is_problem: Callable[[str], bool]) -> 
     """
     level = [path.parts for path in files]
     for depth in range(_MOST_AROUND):
-        if any(map(_is_of_platform, level)):
+        if any(named_by(parts) is not None for parts in level for named_by in _NAMED_BY):
             return depth
         beside = any(len(parts) == 1 and _is_answer(parts[0]) for parts in level)
         if beside or len({parts[0] for parts in level if len(parts) > 1}) != 1:
             break
         level = [parts[1:] for parts in level if len(parts) > 1]
     return int(_is_around_students([path.parts for path in files], is_problem))
-
-
-def _is_of_platform(parts: tuple[str, ...]) -> bool:
-    return any(named_by(parts) is not None for named_by in _NAMED_BY)
 
 
 def _is_answer(name: str) -> bool:

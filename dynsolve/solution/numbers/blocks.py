@@ -149,7 +149,6 @@ def _names(words: str, names: Iterable[str]) -> Iterator[Inline]:
 def _results(
     robot: Robot, shown: dict[Stage, list[Shown]], tree: Callable[[str], Node], stages: set[str] | None
 ) -> Iterator[Block]:
-    """The results of each stage with their units."""
     for stage, results in shown.items():
         if results and (stages is None or stage in stages):
             formulas = [

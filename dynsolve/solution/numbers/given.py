@@ -235,7 +235,6 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
 
 
 def _states(robot: Robot) -> dict[str, Key]:
-    """The names of coordinates, velocities and accelerations."""
     found: dict[str, Key] = {}
     for q in robot.coordinates:
         found |= {q.name: (q.name, 0), q.velocity: (q.name, 1), q.acceleration: (q.name, 2)}
