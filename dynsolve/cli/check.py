@@ -15,14 +15,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from dynsolve.cli.numbers import (
-    STDIN,
-    Quiet,
-    print_json,
-    read,
-    say,
-    standard_input,
-)
+from dynsolve.cli.grade import ProblemsArgument
+from dynsolve.cli.numbers import STDIN, Quiet, print_json, read, say, standard_input
 from dynsolve.cli.output import format_of, refuse_on_terminal, write_to_standard_output
 from dynsolve.draw import SUFFIXES, PictureFormat
 from dynsolve.errors import ExitCode, Finding, InputError, UsageError
@@ -91,17 +85,14 @@ def check(
 
 def _source(answer: str) -> tuple[bytes, str]:
     """The bytes of an answer and the name that says how it is read."""
-    from pathlib import Path
-
     if answer == STDIN:
         return standard_input(), "<stdin>.yaml"
     try:
         return Path(answer).read_bytes(), answer
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(
-            [Finding(f"the file cannot be read: {reason.lower()}", "check the path", answer)]
-        ) from None
+        message = f"the file cannot be read: {reason.lower()}"
+        raise InputError([Finding(message, "check the path", answer)]) from None
 
 
 def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bool, markdown: bool) -> None:
@@ -170,14 +161,7 @@ def override(
 
 
 def autograder(
-    problems: Annotated[
-        str,
-        typer.Argument(
-            metavar="PROBLEMS",
-            help="A problem file, the stem of a bundled one, or a folder of problem files with a set.yaml.",
-            show_default=False,
-        ),
-    ],
+    problems: ProblemsArgument,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="ZIP", help="The zip that is written.")
     ] = Path("autograder.zip"),

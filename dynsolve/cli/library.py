@@ -118,10 +118,10 @@ def _findings(name: str) -> list[Finding]:
     from dynsolve.problem.reader import find, read_file, read_whole
     from dynsolve.solution.given_axes import check_axes
 
-    content, file = (
-        (standard_input(), STDIN_NAME) if name == STDIN else (read_file(find(name)), str(find(name)))
-    )
-    reading = read_whole(content, file)
+    if name == STDIN:
+        reading = read_whole(standard_input(), STDIN_NAME)
+    else:
+        reading = read_whole(read_file(find(name)), str(find(name)))
     return [*remarks(reading), *check_axes(reading.problem)]
 
 

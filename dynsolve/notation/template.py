@@ -121,18 +121,17 @@ def _read(text: str) -> tuple[Node, bool]:
 
 def _filled(tree: Node, values: Mapping[str, Value]) -> Node:
     def put(node: Node) -> Node:
-        return _as_node(values[node.name]) if isinstance(node, _Value) else node
+        if not isinstance(node, _Value):
+            return node
+        match values[node.name]:
+            case int(value):
+                return Negative(Number(-value)) if value < 0 else Number(value)
+            case str(value):
+                return Words(value)
+            case value:
+                return value
 
     return mapped(tree, put)
-
-
-def _as_node(value: Value) -> Node:
-    match value:
-        case Node():
-            return value
-        case int():
-            return Negative(Number(-value)) if value < 0 else Number(value)
-    return Words(value)
 
 
 def _tokens(text: str) -> Iterator[_Token]:
@@ -238,7 +237,8 @@ class _Reader:
             case "number":
                 return Degrees(int(token.text)) if self.taken("°") else Number(int(token.text))
             case "value":
-                return self.called(self.value(token))
+                self.has_values = True
+                return self.called(_Value(token.text[1:-1]))
             case "quoted":
                 return Words(token.text)
             case "word":
@@ -260,17 +260,13 @@ class _Reader:
             case "Σ":
                 return self.big_sum()
             case "∂":
-                of = None if self.taken("/") else self.factor_of_derivative()
+                of = None if self.token.text == "/" else self.factor()
+                self.expect("/")
                 self.expect("∂")
                 return Derivative(of, self.factor())
         if token.text in _FRACTIONS:
             return Quotient(*map(Number, _FRACTIONS[token.text]))
         raise self.error(f"`{token.text}` begins nothing, before")
-
-    def factor_of_derivative(self) -> Node:
-        of = self.factor()
-        self.expect("/")
-        return of
 
     def bracket(self) -> Node:
         parts = [self.relation()]
@@ -319,10 +315,6 @@ class _Reader:
             entries.append(self.sum())
         return tuple(entries)
 
-    def value(self, token: _Token) -> Node:
-        self.has_values = True
-        return _Value(token.text[1:-1])
-
     def letter(self, token: _Token) -> Node:
         """A letter with its dots and indices: a `Letter`, or a `Symbol` where it is plain."""
         sign, dots = token.text[0], sum(_DOTS[dot] for dot in token.text[1:])
@@ -354,7 +346,8 @@ class _Reader:
             case "number":
                 yield from (Number(int(digit)) for digit in token.text)
             case "value":
-                yield self.value(token)
+                self.has_values = True
+                yield _Value(token.text[1:-1])
             case "letter":
                 base, style = _LETTERS[token.text]
                 if self.taken("_"):

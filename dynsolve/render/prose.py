@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from functools import lru_cache
+from functools import cache, lru_cache
 
 from msgspec.structs import replace
 
@@ -147,11 +147,9 @@ def _product(text: str, function: str | None) -> Node:
     """2m₂L₂ as a product, the argument of a function where one is named."""
     number = re.match(r"\d+", text)
     assert number is not None
-    letters = (
-        _formula(*found.group("base", "dots", "sub", "sup"))
-        for found in _FORMULA.finditer(text, number.end())
-    )
-    product = Product((Number(int(number[0])), *letters))
+    letters = _FORMULA.finditer(text, number.end())
+    formulas = (_formula(*found.group("base", "dots", "sub", "sup")) for found in letters)
+    product = Product((Number(int(number[0])), *formulas))
     return Function(function, product) if function else product
 
 
@@ -171,21 +169,12 @@ class ProseWriter:
     """
 
     def __init__(self, plain: Callable[[str], str], formula: Callable[[Node], str]) -> None:
-        self.plain, self.formula = plain, formula
-        self._written: dict[Node, str] = {}
+        self.plain, self._formula = plain, cache(formula)
 
     def __call__(self, text: str) -> str:
         """The text in the notation."""
-        return "".join(
-            self.plain(part) if isinstance(part, str) else self._letter(part)
-            for part in _parts(visible(text))
-        )
-
-    def _letter(self, node: Node) -> str:
-        found = self._written.get(node)
-        if found is None:
-            found = self._written[node] = self.formula(node)
-        return found
+        parts = _parts(visible(text))
+        return "".join(self.plain(part) if isinstance(part, str) else self._formula(part) for part in parts)
 
 
 @lru_cache(maxsize=512)
