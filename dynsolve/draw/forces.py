@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.draw import paths
-from dynsolve.draw.paths import Path
 from dynsolve.draw.poses import MARK, Notes, Pose, seen_end_on
 from dynsolve.draw.skeleton import DrawnFrame, RobotNumbers, finite
 from dynsolve.draw.vectors import NEAR, Vector, add, applied, dot, length, moved, scale, unit
@@ -45,11 +44,8 @@ def forces(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> Non
             continue
         way = x / size, y / size
         tip = moved(start, way, _REACH)
-        notes.draw(
-            Path(paths.line(start, moved(tip, way, -_HEAD + 2.0)), paths.WHITE, 4.6),
-            Path(paths.line(start, moved(tip, way, -_HEAD + 2.0)), _COLOUR, 2.2),
-            Path(paths.head(tip, way, _HEAD), None, fill=_COLOUR),
-        )
+        back = moved(tip, way, -_HEAD + 2.0)
+        notes.draw(*paths.arrow(start, back, tip, way, _COLOUR, 2.2, halo=4.6, size=_HEAD))
         notes.label(name, [tip, moved(start, way, _REACH / 2)], way, _COLOUR, "force")
 
 
