@@ -12,8 +12,8 @@
                      drawing        `axes`, `tip`, `zero`: joint axes as they are drawn, and their table
                      bodies         `masses`; a point of a link: `center`, `at`, also as it is drawn
                      density        `density` of a shape: its integrals
-                     mechanism      `model`: bodies by their positions, or given energies
-                     candidates     `candidates`, `assume`, `chain`
+                     mechanism      `model`: bodies by their positions, or given energies, up to the robot;
+                                    `candidates`, `assume`, `chain`
                      base           `gravity`, `base`, rotations `Rz(90deg) Rx(30deg)`
                      questions      what is asked: `points`, `task`, `reach`, `limits`, `parameters`
                      constraints    `constraints`

@@ -9,7 +9,7 @@ from msgspec import Struct
 from dynsolve.algebra.expr import Expr
 from dynsolve.problem.action_keys import ACTION_KEYS, FRICTION, VISCOUS
 from dynsolve.problem.cells import Cell, read_cell
-from dynsolve.problem.decoder import Decoder, Record
+from dynsolve.problem.decoder import Decoder, Record, Stated
 from dynsolve.problem.kinds import Fields, items
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.table import by_coordinate, known_coordinate
@@ -25,7 +25,7 @@ HIGHEST_DEGREE = 8
 class Acting(Struct, frozen=True):
     """What acts on the robot, as the file has it; friction by coordinate, viscous and Coulomb's."""
 
-    cells: tuple[Cell, ...] = ()
+    stated: tuple[Stated, ...] = ()
     friction: Mapping[str, tuple[Cell | None, Cell | None]] = {}
     springs: tuple[Record, ...] = ()
     dampers: tuple[Record, ...] = ()
@@ -58,7 +58,7 @@ def read_actions(decoder: Decoder, fields: Fields) -> Acting:
     listed = items(decoder.faults, fields.get("passive"), "passive", help)
     names = [known_coordinate(decoder.faults, item, decoder.coordinates, help) for item in listed]
     passive = tuple(name for name in names if name)
-    return Acting(tuple(decoder.cells), friction, springs, dampers, motors, passive)
+    return Acting(tuple(decoder.stated), friction, springs, dampers, motors, passive)
 
 
 def _read_friction(decoder: Decoder, node: YamlNode | None) -> dict[str, tuple[Cell | None, Cell | None]]:

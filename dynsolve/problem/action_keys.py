@@ -26,6 +26,7 @@ from dynsolve.problem.kinds import (
     Shared,
     ValueKind,
     Word,
+    vector,
 )
 from dynsolve.robot.shapes import AXES
 
@@ -200,6 +201,8 @@ CONSTRAINT_KEYS = (
 MAX_COORDINATES = 12
 MAX_TURNS = 6
 
+FIXED = "it is constant: coordinates stand in `at` and `turn`"
+
 TYPES = Word(("revolute", "prismatic"))
 COORDINATES = MapOf(TYPES, "types by name")
 """Coordinates with their types, in their order."""
@@ -207,9 +210,22 @@ COORDINATES = MapOf(TYPES, "types by name")
 TURN = Keyed(
     (
         Key(
-            "by", EXPRESSION, "The angle, linear in the coordinates.", "phi", required=True, remedy="by: phi"
+            "by",
+            EXPRESSION,
+            "The angle, linear in the coordinates.",
+            "phi",
+            required=True,
+            remedy="by: phi",
+            own=True,
         ),
-        Key("about", VECTOR, "Its axis, in the axes so far turned.", "[0, 0, 1]", "`[0, 0, 1]`"),
+        Key(
+            "about",
+            vector(constant=FIXED),
+            "Its axis, in the axes so far turned.",
+            "[0, 0, 1]",
+            "`[0, 0, 1]`",
+            called="the axis of {last}",
+        ),
     )
 )
 TURNS = OneOf((EXPRESSION, ListOf(Shared("turn", TURN, "a turn"), "a list of turns", 1, MAX_TURNS)))
@@ -221,11 +237,12 @@ def placed_body(tensor: ValueKind) -> Keyed:
         (
             Key(
                 "mass",
-                EXPRESSION,
+                Expression(constant=FIXED),
                 "A symbol, a number or an expression.",
                 "m",
                 required=True,
                 remedy="mass: m",
+                called="the mass of {of}",
             ),
             Key("name", NAME, "Its index in symbols (K_1).", "p", "its place in the list"),
             Key(
@@ -235,6 +252,7 @@ def placed_body(tensor: ValueKind) -> Keyed:
                 "[x + l*sin(theta), -l*cos(theta), 0]",
                 required=True,
                 remedy="at: [x, y, z], the mass centre as a function of the coordinates",
+                called="the position of {of}",
             ),
             Key(
                 "turn",
@@ -245,7 +263,14 @@ def placed_body(tensor: ValueKind) -> Keyed:
                 "none",
                 remedy="write turn: theta, or turn: [{by: phi, about: [0, 0, 1]}, ...]",
             ),
-            Key("about", VECTOR, "The axis of `turn`, a unit vector.", "[0, 0, 1]", "`[0, 0, 1]`"),
+            Key(
+                "about",
+                vector(constant=FIXED),
+                "The axis of `turn`, a unit vector.",
+                "[0, 0, 1]",
+                "`[0, 0, 1]`",
+                called="the axis of {last}",
+            ),
             Key(
                 "inertia",
                 tensor,
@@ -273,7 +298,13 @@ def model(body: Keyed, most_bodies: int) -> Keyed:
             ),
             Key(
                 "bodies",
-                ListOf(Shared("placed_body", body, "a body"), "a list of bodies", 1, most_bodies),
+                ListOf(
+                    Shared("placed_body", body, "a body"),
+                    "a list of bodies",
+                    1,
+                    most_bodies,
+                    empty="the model has no bodies",
+                ),
                 "The bodies by their positions; in their place D and P, K and P, or L.",
                 "\n  - {mass: M, at: [x, 0, 0]}\n  - {mass: m, at: [x + l*sin(theta), -l*cos(theta), 0]}",
                 remedy="a body is written {mass: m, at: [x, y, z]}",

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -21,23 +21,22 @@ from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import Node, Number
 from dynsolve.problem.base import ParsedRotation, check_moving, read_rotation
-from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix, read_vector
+from dynsolve.problem.cells import Cell, read_cell, read_matrix, read_vector
+from dynsolve.problem.decoder import Decoder, Record
 from dynsolve.problem.kinds import (
     CENTERS,
     MEASURED,
     Fields,
     describe,
     did_you_mean,
-    items,
     whole_number,
     word,
 )
 from dynsolve.problem.specification import (
-    ABOUT,
     AXIS,
     BODY,
     FROM_BASE,
-    MAX_BODIES,
+    IN_LINK,
     NO_VALUE,
     PROBLEM,
     TENSOR,
@@ -45,7 +44,7 @@ from dynsolve.problem.specification import (
 )
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.model import AxesKind, Convention, JointType
-from dynsolve.robot.shapes import AXES, KINDS, Density
+from dynsolve.robot.shapes import AXES, KINDS
 
 if TYPE_CHECKING:
     from dynsolve.robot.drawing.normals import Normals
@@ -211,146 +210,83 @@ class ParsedAxes(Struct, frozen=True):
     written: str
 
 
-class ParsedBody(Struct, frozen=True):
-    """One entry of `masses:`; None where a part was reported or is not given.
-
-    `faulty` tells the two apart: something of the entry was reported.
-    """
-
-    index: int
-    span: Span
-    fields: Fields
-    name: str
-    mass: Cell | None
-    link: int | None
-    center: ParsedPlace | None
-    shape: ParsedShape | None
-    tensor: ParsedTensor | None
-    about: str
-    axes: ParsedAxes | None
-    faulty: bool
-    density: Density | None = None
-    integrals: tuple[Cell, ...] = ()
-    """Of a density: x of the mass centre, and the moments about it, that about the axis first."""
-
-    @property
-    def is_point(self) -> bool:
-        """Whether it has no inertia about its mass centre: no tensor, and no shape with an extent."""
-        return self.tensor is None and (self.shape is None or self.shape.kind == "point")
-
-    @property
-    def values(self) -> list[Cell]:
-        """Every expression in it whose value is constant in the link: all but angles."""
-        cells = [self.mass, *(self.center.cells if self.center else ()), *self.integrals]
-        if self.shape:
-            cells += self.shape.dimensions.values()
-        if self.tensor:
-            cells += [cell for row in self.tensor.rows for cell in row]
-        if self.axes and self.axes.rotation and self.axes.kind is AxesKind.LINK:
-            cells += self.axes.rotation.entries
-        return list(dict.fromkeys(cell for cell in cells if cell))
-
-    @property
-    def turns(self) -> list[Cell]:
-        """The angles of its axes relative to the link."""
-        if self.axes and self.axes.rotation and self.axes.kind is AxesKind.LINK:
-            return [turn.cell for turn in self.axes.rotation.turns]
-        return []
+def is_point(body: Record) -> bool:
+    """Whether a body has no inertia about its mass centre: no tensor, and no shape with an extent."""
+    return body["inertia"] is None and (body["shape"] is None or body["shape"].kind == "point")
 
 
-def read_bodies(
-    faults: Faults,
-    node: YamlNode | None,
-    rows: int,
-    coordinates: Mapping[str, str],
-    drawn: DrawnFrames = NOT_DRAWN,
-) -> tuple[ParsedBody, ...]:
+def read_bodies(decoder: Decoder, fields: Fields, drawn: DrawnFrames = NOT_DRAWN) -> tuple[Record, ...]:
     """The entries under `masses:`; everything wrong with one is reported."""
-    nodes = items(faults, node, "masses", f"a list of bodies; {_EXAMPLE}") if not _is_empty(node) else ()
-    if len(nodes) > MAX_BODIES and node:
-        faults.error(node.span, f"{len(nodes)} bodies; at most {MAX_BODIES} are read", "leave some out")
-        nodes = nodes[:MAX_BODIES]
-    entries = [_read_body(faults, entry, i, rows, coordinates, drawn) for i, entry in enumerate(nodes, 1)]
-    bodies = tuple(parsed for parsed in entries if parsed)
-    check_names(faults, bodies)
-    return bodies
+    if _is_empty(fields.get("masses")):
+        return ()
+    bodies = []
+    for body in decoder.entries(fields, PROBLEM["masses"]):
+        before = len(decoder.faults.errors)
+        _read_body(decoder, body, drawn)
+        body.faulty |= len(decoder.faults.errors) > before
+        bodies.append(body)
+    check_names(bodies)
+    return tuple(bodies)
 
 
 def _is_empty(node: YamlNode | None) -> bool:
     return isinstance(node, ScalarNode) and node.text in ("", *NO_VALUE.choices)
 
 
-def _read_body(
-    faults: Faults,
-    node: YamlNode,
-    index: int,
-    rows: int,
-    coordinates: Mapping[str, str],
-    drawn: DrawnFrames,
-) -> ParsedBody | None:
-    before = len(faults.errors)
-    if not isinstance(node, MappingNode):
-        if not isinstance(node, FaultyNode):
-            faults.error(node.span, f"body {index} is not a mapping but {describe(node)}", _EXAMPLE)
-        return None
-    fields = Fields(faults, node, BODY.names, f"body {index}")
-    shape = _read_shape(faults, fields.get("shape"), f"body {index}")
-    varies = shape is not None and shape.density is not None
-    for name in ("link",) if varies else ("mass", "link"):
-        if fields.lacks(name):
-            help = BODY[name].help.format(index=index)
-            faults.error(node.span, f"body {index} has no `{name}`", f"add {help}")
-    tensor = read_tensor(faults, fields.get("inertia"), f"body {index}")
-    link = read_link(faults, fields.get("link"), rows, "whose bodies do not move")
-    parsed = ParsedBody(
-        index=index,
-        span=node.span,
-        fields=fields,
-        name=read_name(faults, fields.get("name"), index),
-        mass=read_cell(faults, fields.get("mass"), f"the mass of body {index}"),
-        link=link,
-        center=drawn.place(faults, _read_center(faults, fields, index, varies=varies), link),
-        shape=shape,
-        tensor=tensor,
-        about=_read_about(faults, fields, index),
-        axes=_in_drawn_pose(_read_axes(faults, fields.get("axes"), index, coordinates), link, drawn),
-        faulty=False,
-    )
-    if shape and shape.density:
-        parsed = _integrated(faults, parsed, shape, shape.density)
-    forbid(
-        faults,
-        (*parsed.values, *parsed.turns),
-        coordinates,
-        "it is constant in the link: joint variables stand in the table",
-    )
-    return replace(parsed, faulty=len(faults.errors) > before)
+def _read_body(decoder: Decoder, body: Record, drawn: DrawnFrames) -> None:
+    """The parts of a body that are not said by the kinds of their keys; `integrals` are those of a density.
+
+    These are x of the mass centre, and the moments about it, that about the axis first.
+    """
+    faults, index, what = decoder.faults, body.index, body.what
+    body["name"] = read_name(faults, body.get("name"), index)
+    shape = body["shape"] = _read_shape(faults, body.get("shape"), what)
+    density = shape.density if shape else None
+    if density is None and body.lacks("mass"):
+        help = BODY["mass"].help.format(index=index)
+        faults.error(body.span, f"{what} has no `mass`", f"add {help}")
+    tensor = body["inertia"] = read_tensor(faults, body.get("inertia"), what)
+    center = _read_center(faults, body, index, varies=density is not None)
+    body["center"] = drawn.place(faults, center, body["link"])
+    body["about"] = _check_about(body)
+    axes = _read_axes(faults, body.get("axes"), index, decoder.coordinates)
+    axes = body["axes"] = _in_drawn_pose(axes, body["link"], drawn)
+    if shape and density:
+        _integrate(decoder, body, shape, density)
+    if body["center"]:
+        measured = body["center"].kind != "along"
+        decoder.keep(body["center"].cells, "a length" if measured else "", IN_LINK)
+    decoder.keep(body["integrals"] or (), constant=IN_LINK)
+    decoder.keep(shape.dimensions.values() if shape else (), "a length", IN_LINK)
+    if tensor:
+        cells = dict.fromkeys(cell for row in tensor.rows for cell in row)
+        decoder.keep(cells, "a moment of inertia", IN_LINK)
+    if axes and axes.rotation:
+        decoder.keep_rotation(axes.rotation, IN_LINK if axes.kind is AxesKind.LINK else "")
 
 
-def _integrated(faults: Faults, parsed: ParsedBody, shape: ParsedShape, density: Cell) -> ParsedBody:
-    """A body with a density: what follows from it; a key that would say its mass too is reported."""
+def _integrate(decoder: Decoder, body: Record, shape: ParsedShape, density: Cell) -> None:
+    """What follows from the density of a body; a key that would say its mass too is reported."""
     from dynsolve.problem.density import cell_of, density_of
 
     for key in ("mass", "inertia"):
-        if key in parsed.fields:
-            message = f"body {parsed.index} has a density, from which its {key} follows"
-            faults.error(parsed.fields.key_span(key), message, f"delete {key}, or the density")
-    begins = "center" not in parsed.fields
-    found = density_of(faults, density, shape.kind, shape.dimensions, shape.axis, begins=begins)
+        if key in body:
+            message = f"{body.what} has a density, from which its {key} follows"
+            body.faults.error(body.key_span(key), message, f"delete {key}, or the density")
+    begins = "center" not in body
+    found = density_of(body.faults, density, shape.kind, shape.dimensions, shape.axis, begins=begins)
     if found is None:
-        return parsed
+        return
 
     def cell(tree: Node) -> Cell:
-        return cell_of(density, f"the density of body {parsed.index}", tree)
+        return cell_of(density, f"the density of {body.what}", tree)
 
+    body["density"], body["mass"] = found, cell(found.mass)
+    decoder.keep([body["mass"]], constant=IN_LINK)
     moments = (found.turned, *found.tilted)
-    return replace(
-        parsed,
-        mass=cell(found.mass),
-        center=ParsedPlace("near", density.span, (cell(Number(0)),) * 3) if begins else parsed.center,
-        density=found,
-        integrals=(cell(found.center), *(cell(moment.value) for moment in moments)),
-    )
+    body["integrals"] = (cell(found.center), *(cell(moment.value) for moment in moments))
+    if begins:
+        body["center"] = ParsedPlace("near", density.span, (cell(Number(0)),) * 3)
 
 
 def read_name(faults: Faults, node: YamlNode | None, index: int) -> str:
@@ -364,34 +300,15 @@ def read_name(faults: Faults, node: YamlNode | None, index: int) -> str:
     return str(index)
 
 
-class NamedEntry(Protocol):
-    """An entry of a list of bodies."""
-
-    @property
-    def index(self) -> int:
-        """Its place in the list, from 1."""
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-
-    @property
-    def fields(self) -> Fields:
-        """Its keys."""
-
-
-def check_names(faults: Faults, bodies: Sequence[NamedEntry]) -> None:
+def check_names(bodies: Sequence[Record]) -> None:
     """Report a name that two bodies have."""
-    first: dict[str, NamedEntry] = {}
+    first: dict[str, Record] = {}
     for body in bodies:
-        other = first.setdefault(body.name, body)
+        other = first.setdefault(body["name"], body)
         if other is not body:
-            message = f"body {body.index} has the name {body.name}, which body {other.index} has already"
-            faults.error(
-                body.fields.span_of("name"),
-                message,
-                "give each a name of its own; the default is its place in the list",
-            )
+            message = f"body {body.index} has the name {body['name']}, which body {other.index} has already"
+            help = "give each a name of its own; the default is its place in the list"
+            body.faults.error(body.span_of("name"), message, help)
 
 
 def _read_center(faults: Faults, fields: Fields, index: int, *, varies: bool) -> ParsedPlace | None:
@@ -494,15 +411,14 @@ def read_tensor(faults: Faults, node: YamlNode | None, body: str) -> ParsedTenso
     return ParsedTensor(node.span, tuple(tuple(cells.get(key) for key in row) for row in entry), listed=False)
 
 
-def _read_about(faults: Faults, fields: Fields, index: int) -> str:
-    about = word(faults, fields.get("about"), ABOUT.choices, f"about of body {index}") or "center"
-    if about != "center" and "inertia" not in fields:
-        message = f"body {index} has `about: {about}` but no `inertia` that it belongs to"
-        faults.error(
-            fields.key_span("about"), message, "delete it: the inertia of a shape is about its centre"
-        )
-        return "center"
-    return about
+def _check_about(body: Record) -> str:
+    about: str = body["about"] or "center"
+    if about == "center" or "inertia" in body:
+        return about
+    message = f"{body.what} has `about: {about}` but no `inertia` that it belongs to"
+    help = "delete it: the inertia of a shape is about its centre"
+    body.faults.error(body.key_span("about"), message, help)
+    return "center"
 
 
 def _in_drawn_pose(axes: ParsedAxes | None, link: int | None, drawn: DrawnFrames) -> ParsedAxes | None:

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.problem.bodies import ParsedBody, ParsedShape
+from dynsolve.problem.bodies import ParsedShape
+from dynsolve.problem.decoder import Record
 from dynsolve.problem.model import ParsedFile
 from dynsolve.problem.questions_build import load, named_point, with_questions
 from dynsolve.problem.table import COLUMNS, DHRow
@@ -25,7 +26,7 @@ from dynsolve.robot.questions import reference
 from dynsolve.robot.shapes import AXES, KINDS, Density, Shape
 
 if TYPE_CHECKING:
-    from dynsolve.problem.mechanism import ParsedModel
+    from dynsolve.problem.mechanism import Model
     from dynsolve.robot.actions import GivenModel
 
 
@@ -87,21 +88,21 @@ def _with_candidates(values: CellValues, parsed: ParsedFile, robot: Robot) -> Ro
     """The robot with the matrices that may be its inertia matrix, where a file has any."""
     if parsed.candidates is None:
         return robot
-    from dynsolve.problem.candidates import assumed, candidates
+    from dynsolve.problem.mechanism import assumed, candidates
 
     judged = candidates(values, parsed.candidates, robot.given.D if robot.given else None)
     asks = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
     return replace(robot, questions=replace(robot.questions, candidates=judged, model=asks))
 
 
-def _placed(values: CellValues, model: ParsedModel) -> Sequence[Body | None]:
+def _placed(values: CellValues, model: Model) -> Sequence[Body | None]:
     """The bodies of a mechanism by positions; a file with a table does not import what makes them."""
     from dynsolve.problem.mechanism import placed_bodies
 
     return placed_bodies(values, model)
 
 
-def _given(values: CellValues, model: ParsedModel) -> GivenModel | None:
+def _given(values: CellValues, model: Model) -> GivenModel | None:
     """The energies that a file gives in the place of bodies."""
     from dynsolve.problem.mechanism import given_model
 
@@ -137,22 +138,21 @@ class BodyBuilder:
         self.ring = values.ring
         self.places = PlaceBuilder(faults, values, links)
 
-    def body(self, parsed: ParsedBody) -> Body | None:
-        """The `Body` of a parsed entry of `masses:`; None where a fault of it was reported."""
-        mass = mass_value(self.values, parsed.mass, parsed.index)
-        axes = self._axes(parsed)
-        tensor = tensor_value(self.values, parsed.tensor, parsed.index) if parsed.tensor else None
-        written = self._written(parsed)
-        center = (
-            self.places.position(parsed.center, parsed.link, "center", written) if parsed.center else None
-        )
-        about = self._about(parsed)
-        shape = self._shape(parsed.shape, parsed, axes) if parsed.shape and not parsed.tensor else None
-        if parsed.faulty or mass is None or axes is None or center is None or parsed.link is None:
+    def body(self, body: Record) -> Body | None:
+        """The `Body` of a body entry of `masses:`; None where a fault of it was reported."""
+        mass = mass_value(self.values, body["mass"], body.index)
+        axes = self._axes(body)
+        tensor = tensor_value(self.values, body["inertia"], body.index) if body["inertia"] else None
+        written = self._written(body)
+        link, center, shape = (body[key] for key in ("link", "center", "shape"))
+        center = self.places.position(center, link, "center", written) if center else None
+        about = self._about(body)
+        shape = self._shape(shape, body, axes) if shape and not body["inertia"] else None
+        if body.faulty or mass is None or axes is None or center is None or link is None:
             return None
-        density = parsed.density
+        density = body["density"]
         if density is not None:
-            found = self._integrated(parsed, density, axes, shape)
+            found = self._integrated(body, density, axes, shape)
             if found is None:
                 return None
             offset, tensor = found
@@ -161,42 +161,41 @@ class BodyBuilder:
         elif tensor is None and shape is not None and shape.kind != "point":
             tensor = shape.inertia(mass)
         return Body(
-            name=parsed.name,
+            name=body["name"],
             mass=mass,
-            link=parsed.link,
+            link=link,
             center=center,
             axes=axes,
             inertia=tensor,
             shape=shape,
-            about=parsed.about,
+            about=body["about"],
             about_point=about,
             center_written=written,
             density=density,
         )
 
-    def _written(self, parsed: ParsedBody) -> str:
-        if parsed.density is not None and parsed.density.begins:  # its centre counts from the near end
+    def _written(self, body: Record) -> str:
+        if body["density"] is not None and body["density"].begins:  # its centre counts from the near end
             return "near"
-        if parsed.center is None or "center" not in parsed.fields:
+        if body["center"] is None or "center" not in body:
             return "tip"
-        return self.faults.source.text[slice(*parsed.center.span)]
+        return self.faults.source.text[slice(*body["center"].span)]
 
-    def _about(self, parsed: ParsedBody) -> Matrix | None:
+    def _about(self, body: Record) -> Matrix | None:
         """The point that a given tensor is about, 3×1; None for the mass centre."""
-        if parsed.about == "center" or self.links is None or parsed.link is None:
+        about, link = body["about"], body["link"]
+        if about == "center" or self.links is None or link is None:
             return None
-        point = self.links.origin() if parsed.about == "origin" else self.links.near_end(parsed.link)
+        point = self.links.origin() if about == "origin" else self.links.near_end(link)
         if not self.links.is_fixed(point):
-            message = (
-                f"`about: joint` is no fixed point of link {parsed.link}: joint {parsed.link} is prismatic"
-            )
+            message = f"`about: joint` is no fixed point of link {link}: joint {link} is prismatic"
             help = "give the inertia about the centre, or about the origin of the frame"
-            self.faults.error(parsed.fields.span_of("about"), message, help)
+            self.faults.error(body.span_of("about"), message, help)
         return point
 
     # -- inertia -----------------------------------------------------------------------------------
 
-    def _shape(self, shape: ParsedShape, parsed: ParsedBody, axes: Axes | None) -> Shape | None:
+    def _shape(self, shape: ParsedShape, body: Record, axes: Axes | None) -> Shape | None:
         values = {key: self.values.expr(cell) for key, cell in shape.dimensions.items()}
         for key, cell in shape.dimensions.items():
             value = values[key]
@@ -204,62 +203,64 @@ class BodyBuilder:
                 self.faults.error(cell.span, f"{cell.what} is negative", "dimensions are not negative")
         record = KINDS[shape.kind]
         axis = shape.axis
-        has_axis, density = record.has_axis, parsed.density
+        has_axis, density = record.has_axis, body["density"]
         if density is not None and (density.varies or density.begins):
             has_axis = True
         if has_axis and not axis:
             along = record.along_link or not record.has_axis
-            axis = self._axis_along(shape, parsed, axes) if along else "z"
+            axis = self._axis_along(shape, body, axes) if along else "z"
         known = tuple((key, value) for key, value in values.items() if value is not None)
         if len(known) < len(values) or (has_axis and not axis):
             return None
         return Shape(shape.kind, known, axis)
 
     def _integrated(
-        self, parsed: ParsedBody, density: Density, axes: Axes, shape: Shape | None
+        self, body: Record, density: Density, axes: Axes, shape: Shape | None
     ) -> tuple[Matrix, Matrix] | None:
         """Of a body with a density: its mass centre from its near end in frame i, 3×1, and its tensor."""
-        values = [value for cell in parsed.integrals if (value := self.values.expr(cell)) is not None]
-        if len(values) < len(parsed.integrals) or self.links is None or parsed.link is None or shape is None:
+        link, cells = body["link"], body["integrals"]
+        values = [value for cell in cells if (value := self.values.expr(cell)) is not None]
+        if len(values) < len(cells) or self.links is None or link is None or shape is None:
             return None
         center, *moments = values
         own, zero = AXES.index(shape.axis or AXES[-1]), self.ring.zero
         order = [(own + k) % 3 for k in range(3)]
         tensor = [[moments[order.index(i)] if i == j else zero for j in range(3)] for i in range(3)]
-        way = self.links.axes_in_link(axes, parsed.link).block(0, 3, own, own + 1)
-        far = self.links.far_end(parsed.link)
-        along = (way.T @ (far - self.links.near_end(parsed.link)))[0, 0] if far else zero
+        way = self.links.axes_in_link(axes, link).block(0, 3, own, own + 1)
+        far = self.links.far_end(link)
+        along = (way.T @ (far - self.links.near_end(link)))[0, 0] if far else zero
         if not along.is_zero and all(factor < 0 for factor in along.poly.coeffs()):
             center = -center  # the link runs against the axis
         return way.scale(center), Matrix.of(self.ring, tensor)
 
-    def _axis_along(self, shape: ParsedShape, parsed: ParsedBody, axes: Axes | None) -> str:
+    def _axis_along(self, shape: ParsedShape, body: Record, axes: Axes | None) -> str:
         """The body-attached axis that lies along the link; empty (reported) where none does."""
-        if self.links is None or parsed.link is None or axes is None:
+        link = body["link"]
+        if self.links is None or link is None or axes is None:
             return ""
-        far = self.links.far_end(parsed.link)
+        far = self.links.far_end(link)
         example = f"write the axis of the {shape.kind} in the body-attached frame: axis: x"
         if far is None:
-            message = f"link {parsed.link} has no far end that the {shape.kind} could lie along"
+            message = f"link {link} has no far end that the {shape.kind} could lie along"
             self.faults.error(shape.span, message, example)
             return ""
-        direction = self.links.axes_in_link(axes, parsed.link).T @ (far - self.links.near_end(parsed.link))
+        direction = self.links.axes_in_link(axes, link).T @ (far - self.links.near_end(link))
         along = [axis for axis, entry in zip(AXES, direction.entries, strict=True) if not entry.is_zero]
         if len(along) == 1:
             return along[0]
         what = "has no length" if not along else "lies along none of the body-attached axes"
         self.faults.error(
-            shape.span, f"link {parsed.link} {what}, so that the {shape.kind} has no default axis", example
+            shape.span, f"link {link} {what}, so that the {shape.kind} has no default axis", example
         )
         return ""
 
     # -- axes --------------------------------------------------------------------------------------
 
-    def _axes(self, parsed: ParsedBody) -> Axes | None:
-        axes = parsed.axes
+    def _axes(self, body: Record) -> Axes | None:
+        axes = body["axes"]
         if axes is None:
             return Axes(AxesKind.LINK, Matrix.identity(self.ring, 3))
         if axes.rotation is None:
             return Axes(axes.kind, Matrix.identity(self.ring, 3), axes.written)
-        rotation = self.values.rotation(axes.rotation, f"the axes of body {parsed.index}")
+        rotation = self.values.rotation(axes.rotation, f"the axes of body {body.index}")
         return Axes(axes.kind, rotation, axes.written, axes.rotation.factors) if rotation else None

@@ -37,18 +37,13 @@ from dynsolve.robot.questions import TIP, coordinate_of
 
 
 class Cell(Struct, frozen=True):
-    """An expression of the file: what it is called in messages, its tree, its names, its place.
-
-    `role` is what a symbol is that stands alone in it; `moves` says that coordinates may stand in it.
-    """
+    """An expression of the file: what it is called in messages, its tree, its names, its place."""
 
     what: str
     tree: Node
     names: tuple[Name, ...]
     text: str
     start: int
-    role: str = ""
-    moves: bool = False
 
     @property
     def span(self) -> Span:

@@ -8,12 +8,11 @@ not say (a name of a body, a tensor) is read by the file of its part.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
-from msgspec.structs import replace
-
-from dynsolve.problem.base import read_rotation
+from dynsolve.algebra.angles import Angle
+from dynsolve.problem.base import ParsedRotation, read_rotation
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_vector
 from dynsolve.problem.kinds import (
     ROTATION,
@@ -38,33 +37,54 @@ from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNod
 class Record(Fields):
     """A mapping of the file with the values of its keys; what is wrong with one is reported."""
 
-    def __init__(self, decoder: Decoder, node: MappingNode, kind: Keyed, what: str) -> None:
+    def __init__(self, decoder: Decoder, node: MappingNode, kind: Keyed, what: str, index: int = 0) -> None:
+        before = len(decoder.faults.errors)
         super().__init__(decoder.faults, node, kind.names, what)
+        self.index = index
         for key in kind.required:
             if self.lacks(key.name):
                 self.faults.error(self.span, f"{what} has no `{key.name}`", f"add {key.help}")
         self._decoded = {
-            key.name: decoder.value(key, self.get(key.name), what) for key in kind.keys if key.name in self
+            key.name: decoder.value(key, self.get(key.name), what)
+            for key in kind.keys
+            if key.name in self and not key.own
         }
+        self.faulty = len(decoder.faults.errors) > before
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key, None where it is not given or was reported."""
         return self._decoded.get(key)
 
+    def __setitem__(self, key: str, value: Any) -> None:
+        """Put in what the file of its part has read."""
+        self._decoded[key] = value
+
+
+class Stated(NamedTuple):
+    """An expression that was decoded: what a symbol is that stands alone in it.
+
+    `moves` says that coordinates may stand in it; it is None of an `angle` that is turned by.
+    """
+
+    cell: Cell
+    role: str = ""
+    moves: bool | None = True
+    angle: Angle | None = None
+
 
 class Decoder:
     """Decodes the values of one file: `coordinates` are their types by name, `rows` those of the table.
 
-    `cells` gathers the expressions that were decoded, in the order of the keys.
+    `stated` gathers the expressions that were decoded, in the order of the keys.
     """
 
     def __init__(self, faults: Faults, coordinates: Mapping[str, str], rows: int) -> None:
         self.faults, self.coordinates, self.rows = faults, coordinates, rows
-        self.cells: list[Cell] = []
+        self.stated: list[Stated] = []
 
     def value(self, key: Key, node: YamlNode | None, of: str) -> Any:
         """The value of a key of the mapping `of`; None where it was reported, or nothing is decoded."""
-        what = (key.called or "`{key}` of {of}").format(key=key.name, of=of)
+        what = (key.called or "`{key}` of {of}").format(key=key.name, of=of, last=of.rpartition(" of ")[2])
         return self._value(key.kind, node, what, key)
 
     def _value(self, kind: ValueKind, node: YamlNode | None, what: str, key: Key) -> Any:
@@ -90,13 +110,22 @@ class Decoder:
 
     def cell(self, kind: Expression, cell: Cell | None) -> Cell | None:
         """A cell as one of this kind; a coordinate that may not stand in it is reported."""
-        if cell is None:
-            return None
-        if kind.constant:
-            forbid(self.faults, [cell], self.coordinates, kind.constant)
-        cell = replace(cell, role=kind.role, moves=not kind.constant)
-        self.cells.append(cell)
+        self.keep([cell], kind.role, kind.constant)
         return cell
+
+    def keep(self, cells: Iterable[Cell | None], role: str = "", constant: str = "") -> None:
+        """Gather expressions; `role` and `constant` are those of an `Expression`."""
+        known = [cell for cell in cells if cell]
+        self.stated += [Stated(cell, role, not constant) for cell in known]
+        if constant:
+            forbid(self.faults, known, self.coordinates, constant)
+
+    def keep_rotation(self, rotation: ParsedRotation, constant: str = "") -> None:
+        """Gather the angles and the entries of a rotation."""
+        self.stated += [Stated(turn.cell, "an angle", None, turn.angle) for turn in rotation.turns]
+        self.keep(rotation.entries, constant=constant)
+        if constant:
+            forbid(self.faults, (turn.cell for turn in rotation.turns), self.coordinates, constant)
 
     def _coordinate(self, kind: Coordinate, node: YamlNode, help: str) -> str | None:
         starred = STARRED.fullmatch(node.text.strip()) if isinstance(node, ScalarNode) else None
@@ -107,20 +136,18 @@ class Decoder:
             self.faults.error(node.span, f"`{starred[1]}` cannot be a coordinate", help)
         return name
 
-    def entries(self, fields: Fields, key: Key) -> list[Record]:
-        """The mappings in the list under a key; what is none is reported."""
+    def entries(self, fields: Fields, key: Key) -> Iterator[Record]:
+        """The mappings in the list under a key, each decoded when it is taken; what is none is reported."""
         kind = key.kind
         assert isinstance(kind, ListOf) and isinstance(kind.items, Shared)
         record = kind.items.kind
         assert isinstance(record, Keyed)
-        found = []
         for index, node in enumerate(self.listed(fields, key), 1):
             what = f"{kind.items.called.partition(' ')[2]} {index}"
             if isinstance(node, MappingNode):
-                found.append(Record(self, node, record, what))
+                yield Record(self, node, record, what, index)
             elif not isinstance(node, FaultyNode):
                 self.faults.error(node.span, f"{what} is not a mapping but {describe(node)}", key.help)
-        return found
 
     def listed(self, fields: Fields, key: Key) -> Sequence[YamlNode]:
         """The items of the list under a key, no more of them than are read."""

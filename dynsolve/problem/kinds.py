@@ -136,7 +136,8 @@ class Key(Struct, frozen=True):
     value in YAML; one that is `active` stands in the file of `dynsolve new` as it is,
     others as a comment.  `default` is the value where the key is not given, or words
     about it.  `remedy` is the help of an error about the value, where it is not simply
-    the example.  `called` is what an error calls the value, with {of} for the mapping.
+    the example.  `called` is what an error calls the value, with {of} for the mapping, {last} for the
+    last part of "a turn of body 1".  `own` says that the file of its part reads it.
     """
 
     name: str
@@ -149,6 +150,7 @@ class Key(Struct, frozen=True):
     active: bool = False
     remedy: str = ""
     called: str = ""
+    own: bool = False
 
     @property
     def described(self) -> str:

@@ -12,22 +12,18 @@ import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.errors import Finding
 from dynsolve.notation.characters import split
-from dynsolve.problem.bodies import ParsedBody
+from dynsolve.problem.bodies import ParsedTensor
 from dynsolve.problem.cells import Cell
+from dynsolve.problem.decoder import Record
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.geometry import Links, elementary
 from dynsolve.robot.model import Body, Robot
 from dynsolve.robot.shapes import AXES, KINDS
-
-if TYPE_CHECKING:
-    from dynsolve.problem.mechanism import ParsedPlacedBody
-
 
 # Warnings that need the geometry of the robot
 
@@ -54,7 +50,7 @@ def beside_its_link(reading: Reading) -> Iterator[Finding]:
                 "give its centre where it is, center: {near: [x, y, z]}, one body for each part of the link, "
                 "or axes that turn it into the way from joint to joint"
             )
-            span = parsed.fields.span_of("center")
+            span = parsed.span_of("center")
             yield reading.faults.source.finding(*span, message, help, "beside-its-link")
 
 
@@ -64,9 +60,9 @@ def left_out_moment(reading: Reading) -> Iterator[Finding]:
     About an axis that all mass lies on the moment is 0, and those about the two others are equal.
     """
     model = reading.parsed.model
-    listed: Sequence[ParsedBody | ParsedPlacedBody] = model.bodies if model else reading.parsed.bodies
+    listed: Sequence[Record] = model.bodies if model else reading.parsed.bodies
     for body, parsed in zip(reading.problem.robot.bodies, listed, strict=True):
-        tensor = parsed.tensor
+        tensor: ParsedTensor | None = parsed["inertia"]
         if tensor is None or tensor.listed or body.inertia is None or body.inertia.is_zero:
             continue
         turning = _turning(reading.problem.robot, body)
@@ -363,11 +359,9 @@ def no_effect(reading: Reading) -> Iterator[Finding]:
                 reading, span, message, "delete it: links without a body are massless", "no-effect"
             )
     for parsed in reading.parsed.bodies:
-        if parsed.shape and parsed.tensor:
-            message = f"the shape of body {parsed.name} has no effect: its inertia is given"
-            yield _finding(
-                reading, parsed.fields.key_span("shape"), message, "delete one of them", "no-effect"
-            )
+        if parsed["shape"] and parsed["inertia"]:
+            message = f"the shape of body {parsed['name']} has no effect: its inertia is given"
+            yield _finding(reading, parsed.key_span("shape"), message, "delete one of them", "no-effect")
 
 
 def unphysical(reading: Reading) -> Iterator[Finding]:
@@ -389,7 +383,7 @@ def unphysical(reading: Reading) -> Iterator[Finding]:
 
 def _bodies(reading: Reading) -> Iterator[tuple[Body, Span]]:
     model = reading.parsed.model
-    listed: Sequence[ParsedBody | ParsedPlacedBody] = model.bodies if model else reading.parsed.bodies
+    listed: Sequence[Record] = model.bodies if model else reading.parsed.bodies
     for body, parsed in zip(reading.problem.robot.bodies, listed, strict=True):
         yield body, parsed.span
 

@@ -1,40 +1,55 @@
 """`model` of a problem file: bodies by their positions, or D and P, K and P, or L, as they are written.
 
-`model` of a problem file -> the bodies of a `Robot`, or the model that is given, with exact values.
+`candidates`, `assume` and `chain`: matrices to be judged, and what is assumed of their parameters.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_sqrt
 from dynsolve.algebra.ring_values import value_of
+from dynsolve.errors import ReadError
 from dynsolve.notation.build import times, total
+from dynsolve.notation.characters import normalize
 from dynsolve.notation.tree import Function, Node, Number, Quotient, Symbol, walk
-from dynsolve.problem.action_keys import MAX_COORDINATES, MAX_TURNS, TURN, TYPES
-from dynsolve.problem.bodies import ParsedTensor, check_names, read_name, read_tensor
+from dynsolve.problem.action_keys import (
+    ASSUME,
+    CANDIDATES,
+    CHAIN,
+    FIXED,
+    MAX_ASSUMED,
+    MAX_CANDIDATES,
+    MAX_COORDINATES,
+    MAX_TURNS,
+    TURN,
+    TYPES,
+)
+from dynsolve.problem.bodies import check_names, read_name, read_tensor
 from dynsolve.problem.cells import (
     Cell,
     denominators,
-    forbid,
     made_cell,
     read_angle,
     read_cell,
     read_rate_cell,
-    read_vector,
+    read_text,
 )
-from dynsolve.problem.kinds import Fields, describe, items, word
-from dynsolve.problem.specification import MAX_BODIES, MODEL, PLACED_BODY, PROBLEM
+from dynsolve.problem.decoder import Decoder, Record, Stated
+from dynsolve.problem.kinds import Fields, describe, did_you_mean, items, word
+from dynsolve.problem.specification import MODEL, PROBLEM
 from dynsolve.problem.table import coordinate_name
 from dynsolve.problem.values import CellValues, mass_value, tensor_value
-from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, Span, YamlNode
-from dynsolve.robot.actions import BodyTurn, GivenModel
+from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
+from dynsolve.robot.actions import BodyTurn, Candidate, GivenModel
 from dynsolve.robot.geometry import rotation_about
 from dynsolve.robot.model import Axes, AxesKind, Body
 
@@ -42,7 +57,6 @@ from dynsolve.robot.model import Axes, AxesKind, Body
 
 _HELP = PROBLEM["model"].help
 _COORDINATES = MODEL["coordinates"].help
-_CONSTANT = "it is constant: coordinates stand in `at` and `turn`"
 
 
 class ParsedTurn(Struct, frozen=True):
@@ -54,108 +68,61 @@ class ParsedTurn(Struct, frozen=True):
     axis: tuple[Cell, ...]
 
 
-class ParsedPlacedBody(Struct, frozen=True):
-    """One entry of `bodies`; None where a part was reported or is not given."""
-
-    index: int
-    span: Span
-    fields: Fields
-    name: str
-    mass: Cell | None
-    at: tuple[Cell, ...] | None
-    turns: tuple[ParsedTurn, ...]
-    tensor: ParsedTensor | None
-
-    @property
-    def is_point(self) -> bool:
-        """Whether it has no inertia about its mass centre."""
-        return self.tensor is None
-
-    @property
-    def constant(self) -> Iterator[Cell]:
-        """The values that are constant."""
-        if self.mass:
-            yield self.mass
-        if self.tensor:
-            yield from (cell for row in self.tensor.rows for cell in row if cell)
-        for turn in self.turns:
-            yield from turn.axis
-
-
-class ParsedModel(Struct, frozen=True):
+class Model(Struct, frozen=True):
     """`model` as it is written; `faulty` where something of it was reported."""
 
     span: Span
     coordinates: tuple[tuple[str, str], ...]
-    bodies: tuple[ParsedPlacedBody, ...] = ()
+    bodies: tuple[Record, ...] = ()
     D: tuple[tuple[Cell, ...], ...] | None = None
     K: Cell | None = None
     P: Cell | None = None
     L: Cell | None = None
     faulty: bool = False
-
-    @property
-    def constant(self) -> Iterator[Cell]:
-        """The values that are constant."""
-        for body in self.bodies:
-            yield from body.constant
-
-    @property
-    def moving(self) -> Iterator[Cell]:
-        """The values that may hold coordinates."""
-        for body in self.bodies:
-            yield from body.at or ()
-        for row in self.D or ():
-            yield from row
-        yield from (cell for cell in (self.K, self.P, self.L) if cell)
-
-    @property
-    def turns(self) -> Iterator[ParsedTurn]:
-        """The turns of all bodies."""
-        for body in self.bodies:
-            yield from body.turns
-
-    @property
-    def cells(self) -> Iterator[Cell]:
-        """Every cell that was read."""
-        yield from self.constant
-        yield from self.moving
-        yield from (turn.cell for turn in self.turns)
+    stated: tuple[Stated, ...] = ()
 
     @property
     def rates(self) -> Iterator[Node]:
         """How the angles of the turns change with coordinates."""
-        for turn in self.turns:
-            yield from turn.rates.values()
+        for body in self.bodies:
+            for turn in body["turn"]:
+                yield from turn.rates.values()
 
     @property
     def slopes(self) -> Iterator[Node]:
         """1/R for each length R that an angle x/R is divided by: a derivative brings it."""
-        for cell in self.moving:
-            for part in walk(cell.tree):
-                if isinstance(part, Function) and part.name in ("sin", "cos"):
-                    yield from map(_inverse, denominators(part.argument))
+        for part in (part for one in self.stated if one.moves for part in walk(one.cell.tree)):
+            if isinstance(part, Function) and part.name in ("sin", "cos"):
+                yield from (Quotient(Number(1), below) for below in denominators(part.argument))
 
 
-def read_model(faults: Faults, node: YamlNode | None) -> ParsedModel:
+def read_model(faults: Faults, node: YamlNode | None) -> Model:
     """The value of `model`; everything wrong with it is reported."""
     before = len(faults.errors)
     if not isinstance(node, MappingNode):
         if node is not None and not isinstance(node, FaultyNode):
             faults.error(node.span, f"model is a mapping, not {describe(node)}", _HELP)
-        return ParsedModel(node.span if node else (0, 0), (), faulty=True)
+        return Model(node.span if node else (0, 0), (), faulty=True)
     fields = Fields(faults, node, MODEL.names, "model")
     if fields.lacks("coordinates"):
         faults.error(node.span, "the model has no `coordinates`", f"add {_COORDINATES}")
     types = read_types(faults, fields.get("coordinates"), _COORDINATES)
     _check_ways(faults, fields)
-    bodies = _read_bodies(faults, fields.get("bodies"), types)
-    scalars = {
-        key: read_rate_cell(faults, fields.get(key), f"{key} of the model", types) for key in ("K", "P", "L")
-    }
+    decoder = Decoder(faults, types, 0)
+    bodies = []
+    for body in decoder.entries(fields, MODEL["bodies"]):
+        body["name"] = read_name(faults, body.get("name"), body.index)
+        tensor = body["inertia"] = read_tensor(faults, body.get("inertia"), body.what)
+        decoder.keep((cell for row in tensor.rows for cell in row) if tensor else (), constant=FIXED)
+        body["turn"] = _read_turns(decoder, body)
+        bodies.append(body)
+    check_names(bodies)
+    K, P, L = (read_rate_cell(faults, fields.get(key), f"{key} of the model", types) for key in "KPL")
     D = _read_matrix(faults, fields.get("D"), len(types))
-    model = ParsedModel(node.span, tuple(types.items()), bodies, D, scalars["K"], scalars["P"], scalars["L"])
-    return replace(model, faulty=len(faults.errors) > before)
+    decoder.keep(cell for row in D or () for cell in row)
+    decoder.keep((K, P, L))
+    faulty = len(faults.errors) > before
+    return Model(node.span, tuple(types.items()), tuple(bodies), D, K, P, L, faulty, tuple(decoder.stated))
 
 
 def read_types(faults: Faults, node: YamlNode | None, help: str) -> dict[str, str]:
@@ -196,10 +163,6 @@ def _check_ways(faults: Faults, fields: Fields) -> None:
         faults.error(fields.key_span("P"), message, help)
 
 
-def _inverse(node: Node) -> Node:
-    return Quotient(Number(1), node)
-
-
 # -- the inertia matrix ----------------------------------------------------------------------------
 
 
@@ -234,88 +197,41 @@ def _read_row(faults: Faults, node: YamlNode, what: str, n: int, help: str) -> t
 # -- bodies ----------------------------------------------------------------------------------------
 
 
-def _read_bodies(
-    faults: Faults, node: YamlNode | None, coordinates: Mapping[str, str]
-) -> tuple[ParsedPlacedBody, ...]:
-    listed = items(faults, node, "bodies", MODEL["bodies"].help)
-    if isinstance(node, ListNode) and not listed:
-        faults.error(node.span, "the model has no bodies", MODEL["bodies"].help)
-    if len(listed) > MAX_BODIES and node:
-        faults.error(node.span, f"{len(listed)} bodies; at most {MAX_BODIES} are read", "leave some out")
-        listed = listed[:MAX_BODIES]
-    read = [_read_body(faults, entry, i, coordinates) for i, entry in enumerate(listed, 1)]
-    bodies = tuple(body for body in read if body)
-    check_names(faults, bodies)
-    return bodies
-
-
-def _read_body(
-    faults: Faults, node: YamlNode, index: int, coordinates: Mapping[str, str]
-) -> ParsedPlacedBody | None:
-    what = f"body {index}"
-    if not isinstance(node, MappingNode):
-        if not isinstance(node, FaultyNode):
-            help = MODEL["bodies"].help
-            faults.error(node.span, f"{what} is not a mapping but {describe(node)}", help)
-        return None
-    fields = Fields(faults, node, PLACED_BODY.names, what)
-    for key in PLACED_BODY.required:
-        if fields.lacks(key.name):
-            faults.error(node.span, f"{what} has no `{key.name}`", f"add {key.help}")
-    body = ParsedPlacedBody(
-        index=index,
-        span=node.span,
-        fields=fields,
-        name=read_name(faults, fields.get("name"), index),
-        mass=read_cell(faults, fields.get("mass"), f"the mass of {what}"),
-        at=read_vector(faults, fields.get("at"), f"the position of {what}"),
-        turns=_read_turns(faults, fields, what, coordinates),
-        tensor=read_tensor(faults, fields.get("inertia"), what),
-    )
-    forbid(faults, body.constant, coordinates, _CONSTANT)
-    return body
-
-
-def _read_turns(
-    faults: Faults, fields: Fields, what: str, coordinates: Mapping[str, str]
-) -> tuple[ParsedTurn, ...]:
+def _read_turns(decoder: Decoder, body: Record) -> tuple[ParsedTurn, ...]:
     """The turns of a body: one with its `about`, or several as a list."""
-    node = fields.get("turn")
+    faults, what, node = body.faults, body.what, body.get("turn")
     if not isinstance(node, ListNode):
-        if "about" in fields and "turn" not in fields:
+        if "about" in body and "turn" not in body:
             message = f"{what} has `about` but no `turn` about it"
-            faults.error(fields.key_span("about"), message, "add turn: theta, or delete it")
-        turn = _read_turn(faults, fields, "turn", what, coordinates)
+            faults.error(body.key_span("about"), message, "add turn: theta, or delete it")
+        turn = _read_turn(decoder, body, "turn", what)
         return (turn,) if turn else ()
-    if "about" in fields:
+    if "about" in body:
         message = f"each of several turns of {what} has an axis of its own"
-        faults.error(fields.key_span("about"), message, "write {by: phi, about: [0, 0, 1]} in the list")
+        faults.error(body.key_span("about"), message, "write {by: phi, about: [0, 0, 1]} in the list")
     if len(node.items) > MAX_TURNS:
         faults.error(node.span, f"{len(node.items)} turns; at most {MAX_TURNS} are read", "leave some out")
     found = []
     for item in node.items[:MAX_TURNS]:
         if isinstance(item, MappingNode):
-            own = Fields(faults, item, TURN.names, f"a turn of {what}")
-            if own.lacks("by"):
-                faults.error(item.span, f"a turn of {what} has no `by`", "add by: phi")
-            found.append(_read_turn(faults, own, "by", what, coordinates))
+            own = Record(decoder, item, TURN, f"a turn of {what}")
+            found.append(_read_turn(decoder, own, "by", what))
         elif not isinstance(item, FaultyNode):
             help = "write {by: phi, about: [0, 0, 1]}"
             faults.error(item.span, f"a turn of {what} is a mapping, not {describe(item)}", help)
     return tuple(turn for turn in found if turn)
 
 
-def _read_turn(
-    faults: Faults, fields: Fields, key: str, what: str, coordinates: Mapping[str, str]
-) -> ParsedTurn | None:
-    cell = read_cell(faults, fields.get(key), f"the turn of {what}")
-    axis = read_vector(faults, fields.get("about"), f"the axis of {what}")
-    if "about" not in fields:
+def _read_turn(decoder: Decoder, turn: Record, key: str, what: str) -> ParsedTurn | None:
+    cell = read_cell(decoder.faults, turn.get(key), f"the turn of {what}")
+    axis = turn["about"]
+    if "about" not in turn:
         axis = tuple(made_cell(f"the axis of {what}", text) for text in "001")
-    angle = read_angle(faults, cell) if cell else None
+    angle = read_angle(decoder.faults, cell) if cell else None
     if cell is None or axis is None or angle is None:
         return None
-    rates = _rates(faults, cell, angle, coordinates)
+    decoder.stated.append(Stated(cell, "", None, angle))
+    rates = _rates(decoder.faults, cell, angle, decoder.coordinates)
     return None if rates is None else ParsedTurn(cell, angle, rates, axis)
 
 
@@ -337,29 +253,29 @@ def _rates(
     return {name: total(terms) for name, terms in rates.items()}
 
 
-# `model` of a problem file -> the bodies of a `Robot`, or the model that is given, with exact values
+# -- the bodies of a `Robot`, with exact values ----------------------------------------------------
 
 MOST_DEGREE = 8
 """The largest degree of an energy in the coordinates, their sines and cosines, and their rates."""
 
 
-def placed_bodies(values: CellValues, model: ParsedModel) -> tuple[Body, ...]:
+def placed_bodies(values: CellValues, model: Model) -> tuple[Body, ...]:
     """The bodies of a mechanism by positions; what is wrong with one is reported."""
-    made = [_body(values, parsed) for parsed in model.bodies]
+    made = [_body(values, body) for body in model.bodies]
     return tuple(body for body in made if body)
 
 
-def _body(values: CellValues, parsed: ParsedPlacedBody) -> Body | None:
-    mass = mass_value(values, parsed.mass, parsed.index)
-    position = values.column(parsed.at) if parsed.at else None
-    tensor = tensor_value(values, parsed.tensor, parsed.index) if parsed.tensor else None
-    turns = [_turn(values, turn) for turn in parsed.turns]
-    if mass is None or position is None or None in turns or (parsed.tensor and tensor is None):
+def _body(values: CellValues, body: Record) -> Body | None:
+    mass = mass_value(values, body["mass"], body.index)
+    position = values.column(body["at"]) if body["at"] else None
+    tensor = tensor_value(values, body["inertia"], body.index) if body["inertia"] else None
+    turns = [_turn(values, turn) for turn in body["turn"]]
+    if mass is None or position is None or None in turns or (body["inertia"] and tensor is None):
         return None
-    for cell, entry in zip(parsed.at or (), position.entries, strict=True):
+    for cell, entry in zip(body["at"], position.entries, strict=True):
         _check_degree(values, cell, entry, MOST_DEGREE // 2)
     return Body(
-        name=parsed.name,
+        name=body["name"],
         mass=mass,
         link=0,
         center=position,
@@ -396,7 +312,7 @@ def _unit(axis: Matrix) -> Matrix | None:
 # -- given energies --------------------------------------------------------------------------------
 
 
-def given_model(values: CellValues, model: ParsedModel) -> GivenModel | None:
+def given_model(values: CellValues, model: Model) -> GivenModel | None:
     """D and P, K and P, or L of a file; None where the model has bodies, or a fault was reported."""
     if model.bodies or not (model.D or model.K or model.L):
         return None
@@ -448,3 +364,141 @@ def _check_degree(values: CellValues, cell: Cell, value: Expr, most: int) -> Non
     if degree > most:
         message = f"{cell.what} is of degree {degree} in the coordinates, their sines, cosines and rates"
         values.faults.error(cell.span, message, f"at most {most} is worked out: energies to degree 8")
+
+
+# `candidates`, `assume` and `chain` of a problem file
+
+_SIGN = re.compile(r">=|<=|[<>≥≤]")
+EVERY = ""
+"""The name under which stands what is assumed of all matrices."""
+
+
+class Inequality(Struct, frozen=True):
+    """left > right, or ≥ where it is not strict."""
+
+    left: Cell
+    right: Cell
+    is_strict: bool
+
+
+class Candidates(Struct, frozen=True):
+    """The matrices by name, and what is assumed of each, or under no name of all."""
+
+    matrices: Mapping[str, tuple[tuple[Cell, ...], ...]]
+    assumed: Mapping[str, tuple[Inequality, ...]]
+    is_relative: bool = False
+    faulty: bool = False
+    stated: tuple[Stated, ...] = ()
+
+
+def read_candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) -> Candidates:
+    """The matrices of a file and what is assumed; everything wrong with them is reported."""
+    before = len(faults.errors)
+    matrices = dict(_read_matrices(faults, fields.get("candidates"), len(coordinates)))
+    assumed = _read_assumed(faults, fields.get("assume"), matrices)
+    decoder = Decoder(faults, coordinates, 0)
+    decoder.keep(cell for rows in matrices.values() for row in rows for cell in row)
+    sides = (side for every in assumed.values() for one in every for side in (one.left, one.right))
+    decoder.keep(sides, constant="it is said of parameters alone")
+    chain = word(faults, fields.get("chain"), CHAIN.choices, "chain", "write chain: relative")
+    faulty = len(faults.errors) > before
+    return Candidates(matrices, assumed, chain is not None, faulty, tuple(decoder.stated))
+
+
+def _read_matrices(
+    faults: Faults, node: YamlNode | None, n: int
+) -> Iterator[tuple[str, tuple[tuple[Cell, ...], ...]]]:
+    if not isinstance(node, MappingNode):
+        if node is not None and not isinstance(node, FaultyNode):
+            faults.error(node.span, f"candidates are matrices by name, not {describe(node)}", CANDIDATES.help)
+        return
+    if len(node.entries) > MAX_CANDIDATES:
+        message = f"{len(node.entries)} candidates; at most {MAX_CANDIDATES} are read"
+        faults.error(node.span, message, "leave some out")
+    for key, value in node.entries[:MAX_CANDIDATES]:
+        try:
+            name = normalize(key.decoded)
+        except ReadError as error:
+            at = key.start + error.offset
+            faults.error((at, at + error.length), error.message, error.help)
+            continue
+        rows = read_square(faults, value, name, n, CANDIDATES.help) if n else None
+        if rows is not None:
+            yield name, rows
+
+
+def _read_assumed(
+    faults: Faults, node: YamlNode | None, names: Mapping[str, object]
+) -> dict[str, tuple[Inequality, ...]]:
+    if isinstance(node, MappingNode):
+        found = {}
+        for key, value in node.entries:
+            if key.decoded not in names:
+                help = did_you_mean(key.decoded, names) or "it is said of a candidate by its name"
+                faults.error(key.span, f"there is no candidate {key.decoded}", help)
+            found[key.decoded] = tuple(_inequalities(faults, value))
+        return found
+    return {EVERY: tuple(_inequalities(faults, node))}
+
+
+def _inequalities(faults: Faults, node: YamlNode | None) -> Iterator[Inequality]:
+    if node is None or isinstance(node, FaultyNode):
+        return
+    if not isinstance(node, ListNode):
+        faults.error(node.span, f"assume is a list of inequalities, not {describe(node)}", ASSUME.help)
+        return
+    for item in node.items[:MAX_ASSUMED]:
+        if isinstance(item, ScalarNode):
+            yield from _inequality(faults, item)
+        elif not isinstance(item, FaultyNode):
+            faults.error(item.span, f"an inequality is expected, not {describe(item)}", ASSUME.help)
+
+
+def _inequality(faults: Faults, node: ScalarNode) -> Iterator[Inequality]:
+    """a > b, or a > b > c as a > b and b > c."""
+    signs = list(_SIGN.finditer(node.text))
+    if not signs:
+        faults.error(node.span, f"`{node.text[:40]}` is no inequality", ASSUME.help)
+        return
+    ends = [0, *(sign.end() for sign in signs)]
+    starts = [*(sign.start() for sign in signs), len(node.text)]
+    sides = [
+        read_text(faults, node.text[a:b], node.start + a, "an inequality")
+        for a, b in zip(ends, starts, strict=True)
+    ]
+    for sign, (left, right) in zip(signs, pairwise(sides), strict=True):
+        if left is not None and right is not None:
+            is_strict = sign[0] in "<>"
+            yield Inequality(*((left, right) if sign[0][0] in ">≥" else (right, left)), is_strict)
+
+
+# -- the matrices, with exact values ---------------------------------------------------------------
+
+
+def candidates(values: CellValues, parsed: Candidates, given: Matrix | None) -> tuple[Candidate, ...]:
+    """The matrices to be judged, or the D that a model is given by; what is wrong is reported."""
+    every = _bounds(values, parsed.assumed.get(EVERY, ()))
+    if not parsed.matrices:
+        return (Candidate("D", given, every, parsed.is_relative),) if given is not None else ()
+    made = []
+    for name, cells in parsed.matrices.items():
+        rows = [[values.expr(cell) for cell in row] for row in cells]
+        known = [[entry for entry in row if entry is not None] for row in rows]
+        if all(len(row) == len(cells) for row in known):
+            own = _bounds(values, parsed.assumed.get(name, ()))
+            made.append(Candidate(name, Matrix.of(values.ring, known), (*every, *own), parsed.is_relative))
+    return tuple(made)
+
+
+def assumed(values: CellValues, parsed: Candidates) -> tuple[Bound, ...]:
+    """What is assumed of the parameters, whatever matrix they stand in."""
+    return _bounds(values, parsed.assumed.get(EVERY, ()))
+
+
+def _bounds(values: CellValues, parsed: tuple[Inequality, ...]) -> tuple[Bound, ...]:
+    found = []
+    for one in parsed:
+        left, right = values.expr(one.left), values.expr(one.right)
+        if left is not None and right is not None:
+            found.append(Bound(left - right, one.is_strict))
+    return tuple(found)

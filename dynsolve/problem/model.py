@@ -21,8 +21,9 @@ from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
 from dynsolve.problem.answer_names import Remark
 from dynsolve.problem.base import ParsedBase, ParsedRotation
-from dynsolve.problem.bodies import ParsedBody
+from dynsolve.problem.bodies import is_point
 from dynsolve.problem.cells import Cell
+from dynsolve.problem.decoder import Record, Stated
 from dynsolve.problem.kinds import Fields, describe, items, word
 from dynsolve.problem.questions import ParsedQuestions
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, STRICT
@@ -30,12 +31,11 @@ from dynsolve.problem.table import COLUMNS, DHTable, read_listed_row
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, YamlNode
 from dynsolve.quantities.owners import Owners
 from dynsolve.quantities.stages import ASKED_FOR
-from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType, Robot
+from dynsolve.robot.model import Convention, Coordinate, JointType, Robot
 
 if TYPE_CHECKING:
     from dynsolve.problem.acting import Acting
-    from dynsolve.problem.candidates import ParsedCandidates
-    from dynsolve.problem.mechanism import ParsedModel
+    from dynsolve.problem.mechanism import Candidates, Model
     from dynsolve.robot.drawing.normals import Normals
 
 
@@ -174,14 +174,16 @@ class ParsedFile(Struct, frozen=True):
     table: DHTable
     gravity: tuple[Cell, ...] | None
     base: ParsedBase
-    bodies: tuple[ParsedBody, ...]
+    bodies: tuple[Record, ...]
     questions: ParsedQuestions
     normals: Normals | None = None
     """Of a drawing, the normals that its table was made from."""
     acting: Acting | None = None
-    model: ParsedModel | None = None
+    model: Model | None = None
     """In the place of a table and its bodies: a mechanism by positions, or given energies."""
-    candidates: ParsedCandidates | None = None
+    stated: tuple[Stated, ...] = ()
+    """The expressions of the bodies, the model and the candidates."""
+    candidates: Candidates | None = None
     """Matrices to be judged, alone or beside a model, and what is assumed of their parameters."""
 
     @property
@@ -220,8 +222,8 @@ class ParsedFile(Struct, frozen=True):
         return Owners(
             rows=len(self.table.rows),
             coordinates=self.coordinates,
-            bodies=tuple(body.name for body in bodies),
-            points=frozenset(body.name for body in bodies if body.is_point),
+            bodies=tuple(body["name"] for body in bodies),
+            points=frozenset(body["name"] for body in bodies if is_point(body)),
             named=self.questions.names,
             stages=frozenset(ASKED_FOR),
             constraints=len(self.questions.constraints),
@@ -242,54 +244,36 @@ class ParsedFile(Struct, frozen=True):
         )
 
     @property
-    def decoded(self) -> tuple[Cell, ...]:
-        """What the decoder read."""
-        return self.acting.cells if self.acting else ()
+    def decoded(self) -> tuple[Stated, ...]:
+        """What acts, as it was decoded."""
+        return self.acting.stated if self.acting else ()
 
     @property
     def rotations(self) -> Iterator[ParsedRotation]:
-        """Every rotation that is given."""
+        """The rotations that are given, but for those of bodies."""
         if self.base.rotation:
             yield self.base.rotation
-        for body in self.bodies:
-            if body.axes and body.axes.rotation:
-                yield body.axes.rotation
         yield from self.questions.rotations
 
     @property
     def moving(self) -> Iterator[Cell]:
         """The values that may hold coordinates: d, and rotations given from the base."""
-        for row in self.table.rows:
-            if not row.faulty:
-                yield row.cells["d"]
-        for body in self.bodies:
-            if body.axes and body.axes.kind is AxesKind.BASE and body.axes.rotation:
-                yield from body.axes.rotation.entries
-        if self.model:
-            yield from self.model.moving
-        if self.candidates:
-            yield from self.candidates.moving
+        yield from (row.cells["d"] for row in self.table.rows if not row.faulty)
+        yield from (one.cell for one in self.stated if one.moves)
         yield from self.questions.moving
-        yield from (cell for cell in self.decoded if cell.moves)
+        yield from (one.cell for one in self.decoded if one.moves)
 
     @property
     def constant(self) -> Iterator[Cell]:
         """The values that are constant."""
-        for row in self.table.rows:
-            if not row.faulty:
-                yield row.cells["a"]
-        for body in self.bodies:
-            yield from body.values
-        if self.model:
-            yield from self.model.constant
-        if self.candidates:
-            yield from self.candidates.constant
+        yield from (row.cells["a"] for row in self.table.rows if not row.faulty)
+        yield from (one.cell for one in self.stated if one.moves is False)
         yield from self.gravity or ()
         yield from self.base.move or ()
         if self.base.rotation:
             yield from self.base.rotation.entries
         yield from self.questions.constant
-        yield from (cell for cell in self.decoded if not cell.moves)
+        yield from (one.cell for one in self.decoded if one.moves is False)
 
     @property
     def angles(self) -> Iterator[tuple[Cell, Angle]]:
@@ -297,10 +281,10 @@ class ParsedFile(Struct, frozen=True):
         for row in self.table.rows:
             if not row.faulty:
                 yield from ((row.cells[column], angle) for column, angle in row.angles.items())
-        for rotation in self.rotations:
-            yield from ((turn.cell, turn.angle) for turn in rotation.turns)
-        if self.model:
-            yield from ((turn.cell, turn.angle) for turn in self.model.turns)
+        turns = self.base.rotation.turns if self.base.rotation else ()
+        yield from ((turn.cell, turn.angle) for turn in turns)
+        yield from ((one.cell, one.angle) for one in self.stated if one.angle is not None)
+        yield from ((turn.cell, turn.angle) for given in self.questions.rotations for turn in given.turns)
 
     @property
     def cells(self) -> Iterator[Cell]:
@@ -309,14 +293,9 @@ class ParsedFile(Struct, frozen=True):
             yield from row.cells.values()
         for rotation in self.rotations:
             yield from rotation.cells
-        for body in self.bodies:
-            yield from body.values
-        if self.model:
-            yield from self.model.cells
-        if self.candidates:
-            yield from (*self.candidates.moving, *self.candidates.constant)
+        yield from (one.cell for one in self.stated)
         yield from self.gravity or ()
         yield from self.base.move or ()
         yield from self.questions.constant
         yield from self.questions.moving
-        yield from self.decoded
+        yield from (one.cell for one in self.decoded)

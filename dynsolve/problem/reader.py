@@ -43,8 +43,7 @@ from dynsolve.problem.yaml_nodes import (
 from dynsolve.robot.model import Convention, Robot
 
 if TYPE_CHECKING:
-    from dynsolve.problem.candidates import ParsedCandidates
-    from dynsolve.problem.mechanism import ParsedModel
+    from dynsolve.problem.mechanism import Candidates, Model
 
 _AXES = "delete it, or give the joint axes of a drawing in place of `dh`"
 
@@ -171,24 +170,30 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     coordinates = dict(table.coordinates)
     rows = len(table.rows)
     drawn = DrawnFrames.of(framed.normals, table.coordinates)
-    bodies = read_bodies(faults, fields.get("masses"), rows, coordinates, drawn)
+    decoder = Decoder(faults, coordinates, rows)
+    bodies = read_bodies(decoder, fields, drawn)
     acting = None
     if any(key.name in fields for key in ACTION_KEYS):
         from dynsolve.problem.acting import check_bodies, read_actions
 
         acting = read_actions(Decoder(faults, coordinates, rows), fields)
         has_mass = bool(bodies) or model is not None
-        check_bodies(faults, fields, acting, [body.name for body in bodies], has_mass)
+        check_bodies(faults, fields, acting, [body["name"] for body in bodies], has_mass)
     return ParsedFile(
         convention=convention,
         table=table,
         gravity=_gravity(faults, fields, table, model),
         base=framed.base,
         bodies=bodies,
-        questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies], drawn),
+        questions=read_questions(faults, fields, rows, coordinates, [body["name"] for body in bodies], drawn),
         normals=framed.normals,
         model=model,
         acting=acting,
+        stated=(
+            *decoder.stated,
+            *(model.stated if model else ()),
+            *(candidates.stated if candidates else ()),
+        ),
         candidates=candidates,
     )
 
@@ -207,9 +212,7 @@ def _of_matrices(faults: Faults, fields: Fields) -> dict[str, str]:
     return read_types(faults, fields.get("coordinates"), example)
 
 
-def _gravity(
-    faults: Faults, fields: Fields, table: DHTable, model: ParsedModel | None
-) -> tuple[Cell, ...] | None:
+def _gravity(faults: Faults, fields: Fields, table: DHTable, model: Model | None) -> tuple[Cell, ...] | None:
     """The acceleration of gravity, which acts on bodies: a model that is given without them has none."""
     if "candidates" in fields and model is None:
         return NO_GRAVITY
@@ -221,7 +224,7 @@ def _gravity(
     return NO_GRAVITY
 
 
-def _model(faults: Faults, fields: Fields) -> ParsedModel:
+def _model(faults: Faults, fields: Fields) -> Model:
     """The model in the place of a table; keys that need a table are reported."""
     for key in OF_A_TABLE:
         if key in fields:
@@ -232,16 +235,16 @@ def _model(faults: Faults, fields: Fields) -> ParsedModel:
     return read_model(faults, fields.get("model"))
 
 
-def _candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) -> ParsedCandidates | None:
+def _candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) -> Candidates | None:
     """Matrices in the place of a robot, or what is assumed of parameters; None without either."""
     if not ("candidates" in fields or "assume" in fields or ("model" in fields and "find" in fields)):
         return None
-    from dynsolve.problem.candidates import read_candidates
+    from dynsolve.problem.mechanism import read_candidates
 
     return read_candidates(faults, fields, coordinates)
 
 
-def _framed(faults: Faults, fields: Fields, convention: Convention, model: ParsedModel | None) -> Framed:
+def _framed(faults: Faults, fields: Fields, convention: Convention, model: Model | None) -> Framed:
     """The table and the base: as they are given, or found from a drawing; of a model the coordinates."""
     if model is not None:
         return Framed(DHTable((), model.coordinates), NO_BASE)

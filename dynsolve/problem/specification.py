@@ -34,8 +34,10 @@ from dynsolve.problem.kinds import (
     ROTATION,
     TEXT,
     VECTOR,
+    Expression,
     Key,
     Keyed,
+    Link,
     ListOf,
     MapOf,
     OneOf,
@@ -138,15 +140,18 @@ SHAPE = Shared(
     "A uniform body, or one with a density: {rod: {length: l1, axis: x}}.",
 )
 
+IN_LINK = "it is constant in the link: joint variables stand in the table"
+
 BODY = Keyed(
     (
         Key(
             "mass",
-            EXPRESSION,
+            Expression("a mass", IN_LINK),
             "A symbol, a number or an expression; it follows where a shape has a density.",
             "m1",
             "must be given, or a `density`",
             remedy="mass: m{index}, or a density to its shape: {{rod: {{length: l1, density: rho0}}}}",
+            called="the mass of {of}",
         ),
         Key(
             "name",
@@ -158,7 +163,7 @@ BODY = Keyed(
         ),
         Key(
             "link",
-            LINK,
+            Link(LINK.called, LINK.json, "whose bodies do not move"),
             "The row of the table that it moves with.",
             "1",
             required=True,
@@ -187,7 +192,9 @@ BODY = Keyed(
             "that of the shape",
             remedy="write {zz: I1}, {xx: ..., yy: ..., zz: ...} or a symmetric 3×3 list",
         ),
-        Key("about", ABOUT, "The point that the inertia is about.", "joint", "center"),
+        Key(
+            "about", ABOUT, "The point that the inertia is about.", "joint", "center", called="about of {of}"
+        ),
         Key(
             "axes",
             OneOf((Word(("base",)), ROTATION, FROM_BASE)),
@@ -215,7 +222,7 @@ CONVENTION = Word(tuple(convention.value for convention in Convention))
 LISTED_ROW = ListOf(EXPRESSION, "`[θ, d, a, α]`", 4, 4)
 ROWS = ListOf(OneOf((Shared("row", ROW, "a row"), LISTED_ROW)), "a list of rows", 1, MAX_ROWS)
 AXES_LIST = ListOf(Shared("axis", DRAWN_AXIS, "an axis"), "a list of joint axes", 1, MAX_ROWS)
-BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES)
+BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES, "a list of bodies; ")
 BASE = Keyed((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
 
 PROBLEM = Keyed(

@@ -61,19 +61,13 @@ def _kinds(parsed: ParsedFile) -> Iterator[tuple[str, Cell]]:
     for rotation in parsed.rotations:
         for turn in rotation.turns:
             yield "an angle", turn.cell
-    for body in parsed.bodies:
-        if body.mass and body.density is None:  # in a mass that follows, a length may stand alone
-            yield "a mass", body.mass
-        if body.center and body.center.kind != "along":
-            yield from (("a length", cell) for cell in body.center.cells)
-        if body.shape:
-            yield from (("a length", cell) for cell in body.shape.dimensions.values())
-        if body.tensor:
-            yield from (("a moment of inertia", cell) for row in body.tensor.rows for cell in row if cell)
+    for one in sorted(parsed.stated, key=lambda one: one.role != "an angle"):
+        if one.role:
+            yield one.role, one.cell
     for point in parsed.questions.points:
         if point.place and point.place.kind != "along":
             yield from (("a length", cell) for cell in point.place.cells)
-    yield from ((cell.role, cell) for cell in parsed.decoded if cell.role)
+    yield from ((one.role, one.cell) for one in parsed.decoded if one.role)
     yield from (("a length", cell) for cell in parsed.base.move or ())
     yield from (("an acceleration", cell) for cell in parsed.gravity or ())
 
