@@ -41,8 +41,8 @@ from dynsolve.answers.marking.marks import Policy, from_data, shown, to_data
 from dynsolve.errors import Finding, ProblemError, UsageError
 from dynsolve.grading.record import Record
 from dynsolve.grading.uploads import Extension, Fault, read_extensions, read_list
-from dynsolve.problem.answer_names import answer_meant
 from dynsolve.problem.cells import read_cell
+from dynsolve.problem.exercise import answer_meant
 from dynsolve.problem.kinds import (
     NAME,
     TEXT,

@@ -21,11 +21,9 @@
                      actions        `forces`, `weights`
                      decoder        mappings and lists, by the kinds of their keys and items
                      acting         `friction`, `springs`, `dampers`, `motors`, `passive`, up to the robot
-                     exercise       `find`, `marks`, `values`, `units`
-                     answer_names   what the field calls the answers; `remarks`
-      -> checked     symbols        one name is one thing
-      -> Robot       values         the ring that holds everything, each cell in it, points, masses and
-      tensors
+                     exercise       `find`, `marks`, `values`, `units`, `remarks`
+      -> Robot       values         one name is one thing; the ring that holds everything, each cell in it,
+                                    points, masses and tensors
                      build          joints and bodies
                      questions_build
                                     points, the task, forces, `reach` and `limits` with numbers

@@ -29,11 +29,12 @@ from dynsolve.notation.text import Name
 from dynsolve.notation.tree import Function, Node, Symbol, walk
 from dynsolve.problem.base import Framed, ParsedBase, ParsedRotation
 from dynsolve.problem.cells import Cell, forbid, read_vector
-from dynsolve.problem.kinds import Fields, describe, items, word
-from dynsolve.problem.specification import DRAWN_AXIS, HAND, MAX_ROWS, PROBLEM, ZERO
+from dynsolve.problem.decoder import Decoder, Record
+from dynsolve.problem.kinds import Fields, word
+from dynsolve.problem.specification import HAND, PROBLEM, ZERO
 from dynsolve.problem.table import DHRow, DHTable, coordinate_name, ordered_coordinates
 from dynsolve.problem.values import CellValues
-from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, Span, YamlNode
+from dynsolve.problem.yaml_nodes import Faults, MappingNode, Span
 from dynsolve.robot.drawing.normals import (
     Drawing,
     DrawnAxis,
@@ -58,16 +59,6 @@ _EXAMPLE = PROBLEM["axes"].help
 _POSE = "the drawing shows one pose, in which turning joints are at 0"
 
 
-class ParsedAxis(Struct, frozen=True):
-    """One entry of `axes`; `through` is None for a sliding axis without a place."""
-
-    span: Span
-    coordinate: str
-    kind: str
-    direction: Vector
-    through: Vector | None
-
-
 class ParsedHand(Struct, frozen=True):
     """The hand: its place, and its axes z and x where they are given."""
 
@@ -81,7 +72,7 @@ class ParsedDrawing(Struct, frozen=True):
     """What `axes`, `tip` and `zero` say; `coordinates` are (name, kind) in their order."""
 
     span: Span
-    axes: tuple[ParsedAxis, ...]
+    axes: tuple[Record, ...]
     hand: ParsedHand
     zero_is_drawn: bool
     coordinates: tuple[tuple[str, str], ...]
@@ -89,13 +80,13 @@ class ParsedDrawing(Struct, frozen=True):
     @property
     def points(self) -> Iterator[Vector]:
         """The points that are given."""
-        yield from (axis.through for axis in self.axes if axis.through)
+        yield from (axis["through"] for axis in self.axes if axis["through"])
         yield self.hand.at
 
     @property
     def directions(self) -> Iterator[Vector]:
         """The directions that are given."""
-        yield from (axis.direction for axis in self.axes)
+        yield from (axis["direction"] for axis in self.axes)
         yield from (direction for direction in (self.hand.z, self.hand.x) if direction)
 
     @property
@@ -111,13 +102,13 @@ def read_drawing(faults: Faults, fields: Fields) -> ParsedDrawing | None:
         if key in fields:
             message = f"`{key}` and `axes` are both given, but the axes say where every frame is"
             faults.error(fields.key_span(key), message, f"delete `{key}`, or the axes")
-    nodes = _nodes(faults, fields)
-    axes = [_read_axis(faults, node, i) for i, node in enumerate(nodes, 1)]
-    known = tuple(axis for axis in axes if axis)
+    decoder = Decoder(faults, {}, 0)
+    axes = list(decoder.entries(fields, PROBLEM["axes"]))
+    known = tuple(axis for axis in axes if _is_whole(axis))
     hand = _read_hand(faults, fields)
     zero = word(faults, fields.get("zero"), ZERO.choices, "zero", PROBLEM["zero"].help) or "table"
     kinds = _kinds(faults, fields, known)
-    if hand is None or len(known) < len(nodes) or not known:
+    if hand is None or not known or len(known) < len(decoder.listed(fields, PROBLEM["axes"])):
         return None
     drawing = ParsedDrawing(
         fields.key_span("axes"), known, hand, zero == "drawn", ordered_coordinates(faults, fields, kinds)
@@ -126,46 +117,30 @@ def read_drawing(faults: Faults, fields: Fields) -> ParsedDrawing | None:
     return drawing if len(faults.errors) == before else None
 
 
-def _nodes(faults: Faults, fields: Fields) -> tuple[YamlNode, ...]:
-    nodes = items(faults, fields.get("axes"), "axes", f"an entry a joint; {_EXAMPLE}")
-    if len(nodes) > MAX_ROWS:
-        message = f"{len(nodes)} axes; at most {MAX_ROWS} are read"
-        faults.error(fields.key_span("axes"), message, "leave some out")
-    elif not nodes and isinstance(fields.get("axes"), ListNode):
-        faults.error(fields.key_span("axes"), "there are no joint axes", _EXAMPLE)
-    return nodes[:MAX_ROWS]
-
-
-def _read_axis(faults: Faults, node: YamlNode, index: int) -> ParsedAxis | None:
-    what = f"axis {index}"
-    if not isinstance(node, MappingNode):
-        if not isinstance(node, FaultyNode):
-            faults.error(node.span, f"{what} is not a mapping but {describe(node)}", _EXAMPLE)
-        return None
-    fields = Fields(faults, node, DRAWN_AXIS.names, what)
-    given = [key for key in ("turn", "slide") if key in fields]
+def _is_whole(axis: Record) -> bool:
+    """Whether an axis has its coordinate, its direction and the point that it needs; else it is reported."""
+    faults, what = axis.faults, axis.what
+    given = [key for key in ("turn", "slide") if key in axis]
     if len(given) != 1:
         message = f"{what} both turns and slides" if given else f"{what} says neither `turn` nor `slide`"
         help = "a cylindrical joint is two axes" if given else _EXAMPLE
-        faults.error(node.span, message, help)
-        return None
+        faults.error(axis.span, message, help)
+        return False
     (joint,) = given
     turns = joint == "turn"
     key, other = ("about", "along") if turns else ("along", "about")
-    if other in fields:
+    if other in axis:
         message = f"`{other}` belongs to `{'slide' if turns else 'turn'}`; an axis {joint}s {key} a direction"
-        faults.error(fields.key_span(other), message, f"write {key}: [x, y, z]")
-        return None
+        faults.error(axis.key_span(other), message, f"write {key}: [x, y, z]")
+        return False
     for needed in (key, "through") if turns else (key,):
-        if fields.lacks(needed):
-            faults.error(node.span, f"{what} has no `{needed}`", _EXAMPLE)
-    value = fields.get(joint)
-    name = coordinate_name(faults, value, f"write {joint}: q{index}") if value else None
-    direction = read_vector(faults, fields.get(key), f"the direction of {what}")
-    through = read_vector(faults, fields.get("through"), f"the point of {what}")
-    sound = name and direction and (through or (not turns and "through" not in fields))
-    kind = "revolute" if turns else "prismatic"
-    return ParsedAxis(node.span, name, kind, direction, through) if sound and name and direction else None
+        if axis.lacks(needed):
+            faults.error(axis.span, f"{what} has no `{needed}`", _EXAMPLE)
+    value = axis.get(joint)
+    axis["coordinate"] = coordinate_name(faults, value, f"write {joint}: q{axis.index}") if value else None
+    axis["kind"], axis["direction"] = "revolute" if turns else "prismatic", axis[key]
+    placed = axis["through"] or (not turns and "through" not in axis)
+    return bool(axis["coordinate"] and axis["direction"] and placed)
 
 
 def _read_hand(faults: Faults, fields: Fields) -> ParsedHand | None:
@@ -190,14 +165,15 @@ def _read_hand(faults: Faults, fields: Fields) -> ParsedHand | None:
     return None if at is None or unread else ParsedHand(node.span, at, z, x)
 
 
-def _kinds(faults: Faults, fields: Fields, axes: tuple[ParsedAxis, ...]) -> dict[str, str]:
+def _kinds(faults: Faults, fields: Fields, axes: tuple[Record, ...]) -> dict[str, str]:
     """The coordinates with their kinds, in the order of the axes."""
     kinds: dict[str, str] = {}
     for axis in axes:
-        if axis.coordinate in kinds:
-            message = f"{axis.coordinate} is the coordinate of another axis already"
+        name = axis["coordinate"]
+        if name in kinds:
+            message = f"{name} is the coordinate of another axis already"
             faults.error(axis.span, message, "give every joint a coordinate of its own")
-        kinds.setdefault(axis.coordinate, axis.kind)
+        kinds.setdefault(name, axis["kind"])
     return kinds
 
 
@@ -304,13 +280,13 @@ class _Framing:
             return None
         return Drawing(self.ring, self.convention, known, Hand(at, z, x), parsed.zero_is_drawn)
 
-    def _axis(self, parsed: ParsedAxis) -> DrawnAxis | None:
-        direction = self._unit(parsed.direction)
-        point = self.cells.column(parsed.through) if parsed.through else Matrix.zero(self.ring, 3, 1)
+    def _axis(self, axis: Record) -> DrawnAxis | None:
+        direction, through = self._unit(axis["direction"]), axis["through"]
+        point = self.cells.column(through) if through else Matrix.zero(self.ring, 3, 1)
         if direction is None or point is None:
             return None
-        kind = JointType(parsed.kind)
-        return DrawnAxis(parsed.coordinate, kind, Line(point, direction), parsed.through is not None)
+        line = Line(point, direction)
+        return DrawnAxis(axis["coordinate"], JointType(axis["kind"]), line, through is not None)
 
     def _unit(self, cells: Vector) -> Matrix | None:
         """A direction of length 1."""
@@ -342,8 +318,8 @@ class _Framing:
             along = way if j > i else zero
             moved = axis.line.point.map(lambda entry: self.ring.coefficient(entry, slide.coordinate)) - along
             # a line that is moved along itself stays where it is
-            if parsed.through and not cross(moved, axis.line.direction).is_zero:
-                self._report_still(slide, f"axis {j + 1}", _span(parsed.through), j > i)
+            if parsed["through"] and not cross(moved, axis.line.direction).is_zero:
+                self._report_still(slide, f"axis {j + 1}", _span(parsed["through"]), j > i)
         moved = drawing.hand.at.map(lambda entry: self.ring.coefficient(entry, slide.coordinate)) - way
         if not moved.is_zero:
             self._report_still(slide, "the tip", _span(self.parsed.hand.at), follows=True)
@@ -368,7 +344,7 @@ class _Writer:
 
     def rows(self) -> Iterator[DHRow]:
         """The rows of the table."""
-        drawn = {axis.coordinate: axis.span for axis in self.parsed.axes}
+        drawn = {axis["coordinate"]: axis.span for axis in self.parsed.axes}
         for index, row in enumerate(rows_of(self.normals), 1):
             span = drawn[row.axis.coordinate] if row.axis else self.parsed.hand.span
             yield self._row(index, row, span)

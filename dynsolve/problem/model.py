@@ -19,7 +19,6 @@ from msgspec import Struct, field
 from dynsolve.algebra.angles import Angle
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
-from dynsolve.problem.answer_names import Remark
 from dynsolve.problem.base import ParsedBase, ParsedRotation
 from dynsolve.problem.bodies import is_point
 from dynsolve.problem.cells import Cell
@@ -35,6 +34,7 @@ from dynsolve.robot.model import Convention, Coordinate, JointType, Robot
 
 if TYPE_CHECKING:
     from dynsolve.problem.acting import Acting
+    from dynsolve.problem.exercise import Remark
     from dynsolve.problem.mechanism import Candidates, Model
     from dynsolve.robot.drawing.normals import Normals
 

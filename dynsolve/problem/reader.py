@@ -29,8 +29,8 @@ from dynsolve.problem.kinds import Fields, describe, free_text, word
 from dynsolve.problem.model import FilePlace, ParsedFile, Problem, read_accepted_tables
 from dynsolve.problem.questions import read_questions
 from dynsolve.problem.specification import CONVENTION, DRAWING, EDITION, OF_A_TABLE, PROBLEM
-from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import DHTable, read_table
+from dynsolve.problem.values import check_size, check_symbols
 from dynsolve.problem.yaml_nodes import (
     MAX_BYTES,
     Faults,

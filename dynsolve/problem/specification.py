@@ -85,9 +85,27 @@ DRAWN_AXIS = Keyed(
     (
         Key("turn", NAME, "The coordinate of a revolute joint.", "theta1"),
         Key("slide", NAME, "The coordinate of a prismatic joint.", "d3"),
-        Key("about", VECTOR, "The direction that it turns about.", "[0, 0, 1]"),
-        Key("along", VECTOR, "The direction that it slides along.", "[cos(30deg), 0, sin(30deg)]"),
-        Key("through", VECTOR, "A point of the axis; a sliding axis may be without.", "[0, 0, L1]"),
+        Key(
+            "about",
+            VECTOR,
+            "The direction that it turns about.",
+            "[0, 0, 1]",
+            called="the direction of {of}",
+        ),
+        Key(
+            "along",
+            VECTOR,
+            "The direction that it slides along.",
+            "[cos(30deg), 0, sin(30deg)]",
+            called="the direction of {of}",
+        ),
+        Key(
+            "through",
+            VECTOR,
+            "A point of the axis; a sliding axis may be without.",
+            "[0, 0, L1]",
+            called="the point of {of}",
+        ),
     )
 )
 HAND = Keyed(
@@ -221,7 +239,15 @@ MODEL = model(PLACED_BODY, MAX_BODIES)
 CONVENTION = Word(tuple(convention.value for convention in Convention))
 LISTED_ROW = ListOf(EXPRESSION, "`[θ, d, a, α]`", 4, 4)
 ROWS = ListOf(OneOf((Shared("row", ROW, "a row"), LISTED_ROW)), "a list of rows", 1, MAX_ROWS)
-AXES_LIST = ListOf(Shared("axis", DRAWN_AXIS, "an axis"), "a list of joint axes", 1, MAX_ROWS)
+AXES_LIST = ListOf(
+    Shared("axis", DRAWN_AXIS, "an axis"),
+    "a list of joint axes",
+    1,
+    MAX_ROWS,
+    told="an entry a joint; ",
+    empty="there are no joint axes",
+    at_key=True,
+)
 BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES, "a list of bodies; ")
 BASE = Keyed((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
 

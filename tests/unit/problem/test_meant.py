@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.problem.answer_names import TERMS
+from dynsolve.problem.exercise import TERMS
 from dynsolve.quantities.families import FAMILIES
 from tests.unit.problem.marked import errors, places, unmarked
 
