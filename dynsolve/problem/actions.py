@@ -10,9 +10,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from msgspec import Struct
 
 from dynsolve.problem.base import ParsedRotation, read_rotation
-from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames, ParsedPlace, read_link, read_place
+from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames, ParsedPlace, read_place
 from dynsolve.problem.cells import Cell, forbid, made_cell, read_cell, read_vector
-from dynsolve.problem.kinds import Fields, describe, items, word
+from dynsolve.problem.kinds import Fields, describe, items, read_link, word
 from dynsolve.problem.kinematic_keys import BY, BY_INERTIA, FORCE, IN_LINK, MAX_FORCES
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.table import by_coordinate

@@ -28,6 +28,7 @@ from dynsolve.problem.kinds import (
     Word,
     describe,
     items,
+    read_link,
     word,
 )
 from dynsolve.problem.table import STARRED, coordinate_name, known_coordinate
@@ -103,8 +104,6 @@ class Decoder:
             case Coordinate():
                 return node and self._coordinate(kind, node, key.help)
             case Link():
-                from dynsolve.problem.bodies import read_link
-
                 return read_link(self.faults, node, self.rows, kind.ground)
         return None
 

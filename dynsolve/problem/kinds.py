@@ -387,6 +387,21 @@ def whole_number(faults: Faults, node: YamlNode | None, what: str, help: str) ->
     return None
 
 
+def read_link(faults: Faults, node: YamlNode | None, rows: int, ground: str) -> int | None:
+    """The row of the table that something moves with; `ground` says what there is none of on row 0."""
+    help = f"links are counted by the rows of the table, from 1 to {rows}" if rows else "write link: 1"
+    link = whole_number(faults, node, "link", help)
+    if node is None or link is None:
+        return None
+    if link == 0:
+        faults.error(node.span, f"link 0 is the ground, {ground}", help)
+        return None
+    if rows and link > rows:
+        faults.error(node.span, f"there is no link {link}: the table has {rows} row{'s' * (rows > 1)}", help)
+        return None
+    return link
+
+
 def free_text(faults: Faults, node: YamlNode | None, what: str) -> str:
     """A line of prose; empty where there is none."""
     if isinstance(node, ScalarNode):

@@ -1,7 +1,7 @@
 """Warnings about a problem file that has no errors but deserves a second look.
 
-A check is a function from a `Reading` to findings; adding one is adding it to
-`CHECKS`.  Each finding carries a code.
+A check is a function from a `Reading` to places, each with what is odd there and what to do; adding one is
+adding it to `CHECKS`.  Its name is the code of its findings.
 
 Warnings that need the geometry of the robot: a rod beside its link, a moment left out, angles as drawn.
 """
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from dynsolve.algebra.matrix import Matrix
@@ -25,10 +25,14 @@ from dynsolve.robot.geometry import Links, elementary
 from dynsolve.robot.model import Body, Robot
 from dynsolve.robot.shapes import AXES, KINDS
 
+Remark = tuple[Span, str, str]
+"""Where something deserves a look, what it is, and what to do."""
+
+
 # Warnings that need the geometry of the robot
 
 
-def beside_its_link(reading: Reading) -> Iterator[Finding]:
+def beside_its_link(reading: Reading) -> Iterator[Remark]:
     """A rod half-way along a link that it is not parallel to, though it is not across it either."""
     robot = reading.problem.robot
     links = _links(robot)
@@ -51,17 +55,15 @@ def beside_its_link(reading: Reading) -> Iterator[Finding]:
                 "or axes that turn it into the way from joint to joint"
             )
             span = parsed.span_of("center")
-            yield reading.faults.source.finding(*span, message, help, "beside-its-link")
+            yield span, message, help
 
 
-def left_out_moment(reading: Reading) -> Iterator[Finding]:
+def left_out_moment(reading: Reading) -> Iterator[Remark]:
     """A moment that is left out, about an axis that the body turns about, and that is not 0 of any body.
 
     About an axis that all mass lies on the moment is 0, and those about the two others are equal.
     """
-    model = reading.parsed.model
-    listed: Sequence[Record] = model.bodies if model else reading.parsed.bodies
-    for body, parsed in zip(reading.problem.robot.bodies, listed, strict=True):
+    for body, parsed in _bodies(reading):
         tensor: ParsedTensor | None = parsed["inertia"]
         if tensor is None or tensor.listed or body.inertia is None or body.inertia.is_zero:
             continue
@@ -78,10 +80,10 @@ def left_out_moment(reading: Reading) -> Iterator[Finding]:
             entries = ", ".join(f"{axis}{axis}: I{body.name}{axis}{axis}" for axis in missing)
             message = f"body {body.name} turns about its {axes} axis, too, where its inertia has no moment"
             help = f"add {entries}; a 0 that is meant is written {missing[0]}{missing[0]}: 0"
-            yield reading.faults.source.finding(*tensor.span, message, help, "left-out-moment")
+            yield tensor.span, message, help
 
 
-def drawn_angles(reading: Reading) -> Iterator[Finding]:
+def drawn_angles(reading: Reading) -> Iterator[Remark]:
     """A drawing whose joints stand at other angles than 0 of the table, from which they are counted."""
     normals = reading.parsed.normals
     if normals is None or normals.drawing.zero_is_drawn:
@@ -99,7 +101,7 @@ def drawn_angles(reading: Reading) -> Iterator[Finding]:
         )
         help = "write zero: drawn where the drawing is the pose in which all joints are at 0"
         span = reading.fields.span_of("zero") if given else reading.fields.key_span("axes")
-        yield reading.faults.source.finding(*span, message, help, "drawn-angles")
+        yield span, message, help
 
 
 def _links(robot: Robot) -> Links:
@@ -148,12 +150,12 @@ def lint_text(content: str | bytes, file: str = "") -> tuple[Finding, ...]:
 
 def remarks(reading: Reading) -> tuple[Finding, ...]:
     """The findings about a file that was read."""
-    found = [*reading.problem.warnings, *(finding for check in CHECKS for finding in check(reading))]
+    found = [*reading.problem.warnings]
+    for check in CHECKS:
+        code = check.__name__.replace("_", "-")
+        source = reading.faults.source
+        found += [source.finding(*span, message, help, code) for span, message, help in check(reading)]
     return tuple(sorted(found, key=lambda finding: (finding.line, finding.column)))
-
-
-def _finding(reading: Reading, span: Span, message: str, help: str, code: str) -> Finding:
-    return reading.faults.source.finding(*span, message, help, code)
 
 
 def _symbols(reading: Reading) -> dict[str, Span]:
@@ -167,7 +169,7 @@ def _symbols(reading: Reading) -> dict[str, Span]:
     return found
 
 
-def unused_value(reading: Reading) -> Iterator[Finding]:
+def unused_value(reading: Reading) -> Iterator[Remark]:
     """A value or a unit for a symbol that does not occur."""
     robot = reading.problem.robot
     known = set(robot.parameters)
@@ -179,9 +181,7 @@ def unused_value(reading: Reading) -> Iterator[Finding]:
         for key, _ in node.entries if isinstance(node, MappingNode) else ():
             if key.decoded not in known and _normal(key.decoded) not in known:
                 message = f"{key.decoded} has {'a value' if what == 'values' else 'a unit'} but is not used"
-                yield _finding(
-                    reading, key.span, message, "delete it, or correct its spelling", "unused-value"
-                )
+                yield key.span, message, "delete it, or correct its spelling"
 
 
 def _normal(name: str) -> str:
@@ -194,7 +194,7 @@ def _normal(name: str) -> str:
         return name
 
 
-def ambiguous_name(reading: Reading) -> Iterator[Finding]:
+def ambiguous_name(reading: Reading) -> Iterator[Remark]:
     """A parameter that reads as another thing in an answer: c1, s12, dq1, thetadot1."""
     meanings = _meanings(reading)
     subscripts = [split(name)[1] for name in reading.parsed.table.names]
@@ -206,7 +206,7 @@ def ambiguous_name(reading: Reading) -> Iterator[Finding]:
             meaning = f"the {'sine' if name[0] == 's' else 'cosine'} of a joint angle"
         if meaning:
             message = f"in an answer {name} could also mean {meaning}"
-            yield _finding(reading, span, message, "give the parameter another name", "ambiguous-name")
+            yield span, message, "give the parameter another name"
 
 
 def _meanings(reading: Reading) -> dict[str, str]:
@@ -238,7 +238,7 @@ def _is_made_of(digits: str, pieces: set[str]) -> bool:
     )
 
 
-def similar_names(reading: Reading) -> Iterator[Finding]:
+def similar_names(reading: Reading) -> Iterator[Remark]:
     """Names that differ by an underscore, or of several letters by case alone."""
     first: dict[str, str] = {}
     for name in reading.parsed.table.names:
@@ -248,7 +248,7 @@ def similar_names(reading: Reading) -> Iterator[Finding]:
         if other != name:
             message = f"{name} and {other} are hard to tell apart"
             help = "if they are the same, use one spelling; if not, rename one of them"
-            yield _finding(reading, span, message, help, "similar-names")
+            yield span, message, help
 
 
 def _folded(name: str) -> str:
@@ -257,15 +257,15 @@ def _folded(name: str) -> str:
     return folded.lower() if sum(map(str.isalpha, folded)) > 1 else folded
 
 
-def yaml_word(reading: Reading) -> Iterator[Finding]:
+def yaml_word(reading: Reading) -> Iterator[Remark]:
     """A word that YAML knows as a value, which here is a symbol."""
     for name, span in _symbols(reading).items():
         if name.lower() in _YAML_WORDS:
             message = f"{name} is read as the name of a symbol"
-            yield _finding(reading, span, message, "leave the key out for its default", "yaml-word")
+            yield span, message, "leave the key out for its default"
 
 
-def unstarred(reading: Reading) -> Iterator[Finding]:
+def unstarred(reading: Reading) -> Iterator[Remark]:
     """A name in theta that looks like a joint variable, without its star."""
     for row in reading.parsed.table.rows:
         cell = row.cells["theta"]
@@ -273,10 +273,10 @@ def unstarred(reading: Reading) -> Iterator[Finding]:
             if not name.star and split(name.name)[0] in ("theta", "q") and split(name.name)[1]:
                 message = f"{name.name} has no star, so it is a constant"
                 help = f"a joint variable is written {name.name}*"
-                yield _finding(reading, cell.span_of(name), message, help, "unstarred")
+                yield cell.span_of(name), message, help
 
 
-def moves_no_mass(reading: Reading) -> Iterator[Finding]:
+def moves_no_mass(reading: Reading) -> Iterator[Remark]:
     """A coordinate that moves no body: a massless last link."""
     robot = reading.problem.robot
     if reading.parsed.model is not None:
@@ -292,17 +292,17 @@ def moves_no_mass(reading: Reading) -> Iterator[Finding]:
             message = f"nothing that has mass moves with {coordinate.name}: D is singular"
             help = "give a link after this joint a body, or leave the joint out"
             cell = reading.parsed.table.rows[min(rows) - 1].cells[robot.joints[min(rows) - 1].variable or "d"]
-            yield _finding(reading, _span(reading, cell), message, help, "moves-no-mass")
+            yield _span(reading, cell), message, help
 
 
-def _moves_nothing(reading: Reading) -> Iterator[Finding]:
+def _moves_nothing(reading: Reading) -> Iterator[Remark]:
     """A coordinate of a model that moves no body, or whose rate stands nowhere in what is given."""
     robot, model = reading.problem.robot, reading.parsed.model
     for k, coordinate in enumerate(robot.coordinates):
         if model is not None and not _has_inertia(robot, k):
             message = f"nothing that has mass moves with {coordinate.name}: D is singular"
             help = "give a body a position that holds it, or leave it out"
-            yield _finding(reading, model.span, message, help, "moves-no-mass")
+            yield model.span, message, help
 
 
 def _has_inertia(robot: Robot, k: int) -> bool:
@@ -319,7 +319,7 @@ def _has_inertia(robot: Robot, k: int) -> bool:
     return moved or any(not turn.rates[0, k].is_zero for turn in turned)
 
 
-def no_tool_row(reading: Reading) -> Iterator[Finding]:
+def no_tool_row(reading: Reading) -> Iterator[Remark]:
     """A table in the modified convention that ends with a revolute joint: the last link has no length."""
     robot = reading.problem.robot
     if robot.ends_in_a_joint:
@@ -327,46 +327,38 @@ def no_tool_row(reading: Reading) -> Iterator[Finding]:
         message = f"the table ends at joint {last}, so H{last} and the Jacobian belong to a point on its axis"
         help = "for the end of the arm, add a fixed row: {theta: 0, d: 0, a: l, alpha: 0} with its length"
         cell = reading.parsed.table.rows[-1].cells["theta"]
-        yield _finding(reading, _span(reading, cell), message, help, "no-tool-row")
+        yield _span(reading, cell), message, help
 
 
 def _span(reading: Reading, cell: Cell) -> Span:
     return cell.span if cell.text else reading.fields.key_span("dh")
 
 
-def ground_body(reading: Reading) -> Iterator[Finding]:
+def ground_body(reading: Reading) -> Iterator[Remark]:
     """A body on a leading fixed row, which no joint moves."""
     robot = reading.problem.robot
     moving = [joint.index for joint in robot.joints if joint.variable]
     for body, parsed in _bodies(reading):
         if moving and body.link < moving[0]:
             message = f"link {body.link} belongs to the ground: no joint moves body {body.name}"
-            yield _finding(
-                reading,
-                parsed,
-                message,
-                f"the links that move are those from row {moving[0]} on",
-                "ground-body",
-            )
+            yield parsed.span, message, f"the links that move are those from row {moving[0]} on"
 
 
-def no_effect(reading: Reading) -> Iterator[Finding]:
+def no_effect(reading: Reading) -> Iterator[Remark]:
     """A body with mass 0 and no inertia; a shape beside an inertia that wins over it."""
-    for body, span in _bodies(reading):
+    for body, parsed in _bodies(reading):
         if body.mass.is_zero and body.inertia is None:
             message = f"body {body.name} has neither mass nor inertia"
-            yield _finding(
-                reading, span, message, "delete it: links without a body are massless", "no-effect"
-            )
+            yield parsed.span, message, "delete it: links without a body are massless"
     for parsed in reading.parsed.bodies:
         if parsed["shape"] and parsed["inertia"]:
             message = f"the shape of body {parsed['name']} has no effect: its inertia is given"
-            yield _finding(reading, parsed.key_span("shape"), message, "delete one of them", "no-effect")
+            yield parsed.key_span("shape"), message, "delete one of them"
 
 
-def unphysical(reading: Reading) -> Iterator[Finding]:
+def unphysical(reading: Reading) -> Iterator[Remark]:
     """Moments in numbers that no body has: a negative one, or one larger than the sum of the others."""
-    for body, span in _bodies(reading):
+    for body, parsed in _bodies(reading):
         if body.inertia is None:
             continue
         moments = [body.inertia[i, i] for i in range(3)]
@@ -378,14 +370,13 @@ def unphysical(reading: Reading) -> Iterator[Finding]:
             what = "one is larger than the sum of the others"
         if what:
             message = f"body {body.name} cannot have these moments of inertia: {what}"
-            yield _finding(reading, span, message, "none may exceed the sum of the other two", "unphysical")
+            yield parsed.span, message, "none may exceed the sum of the other two"
 
 
-def _bodies(reading: Reading) -> Iterator[tuple[Body, Span]]:
+def _bodies(reading: Reading) -> Iterator[tuple[Body, Record]]:
     model = reading.parsed.model
     listed: Sequence[Record] = model.bodies if model else reading.parsed.bodies
-    for body, parsed in zip(reading.problem.robot.bodies, listed, strict=True):
-        yield body, parsed.span
+    return zip(reading.problem.robot.bodies, listed, strict=True)
 
 
 _SPACES = ("nullspace", "rangespace", "lost")
@@ -401,17 +392,17 @@ _USED_BY = {
 """Which answers a key is given for."""
 
 
-def unasked(reading: Reading) -> Iterator[Finding]:
+def unasked(reading: Reading) -> Iterator[Remark]:
     """A key that no answer is asked for which it is given for."""
     asked = reading.problem.robot.questions.asked
     for key, answers in _USED_BY.items():
         if key in reading.fields and asked.isdisjoint(answers):
             message = f"{key} is given, and nothing that it is for is asked for"
             help = f"ask for it in find: {', '.join(answers[:3])}"
-            yield _finding(reading, reading.fields.key_span(key), message, help, "unasked")
+            yield reading.fields.key_span(key), message, help
 
 
-CHECKS: tuple[Callable[[Reading], Iterator[Finding]], ...] = (
+CHECKS = (
     unused_value,
     ambiguous_name,
     similar_names,
