@@ -251,11 +251,7 @@ def _points_up(cells: tuple[Cell, ...]) -> bool:
     """Whether it is [0, 0, g] or [0, 0, 9.81]: upwards along z for every reader."""
     x, y, z = cells
     zero = [rational_value(component.tree) == 0 for component in (x, y, z)]
-    return zero == [True, True, False] and not _begins_with_minus(z)
-
-
-def _begins_with_minus(cell: Cell) -> bool:
-    return cell.text.lstrip(" (").startswith(("-", "−"))
+    return zero == [True, True, False] and not z.text.lstrip(" (").startswith(("-", "−"))
 
 
 NO_GRAVITY = _components("0", "0", "0")
@@ -263,15 +259,11 @@ NO_GRAVITY = _components("0", "0", "0")
 
 def read_base(faults: Faults, node: YamlNode | None, coordinates: tuple[str, ...]) -> ParsedBase:
     """The base frame; what is wrong with it is reported and left out."""
-    parsed = _read_base(faults, node)
-    forbid(faults, parsed.cells, coordinates, "the base does not move: " + _CONSTANT)
-    return parsed
-
-
-def _read_base(faults: Faults, node: YamlNode | None) -> ParsedBase:
     if isinstance(node, MappingNode):
         fields = Fields(faults, node, BASE.names, "base")
         rotation = read_rotation(faults, fields.get("rotate"), "base")
-        move = read_vector(faults, fields.get("move"), "the position of the base")
-        return ParsedBase(rotation, move)
-    return ParsedBase(read_rotation(faults, node, "base"), None)
+        parsed = ParsedBase(rotation, read_vector(faults, fields.get("move"), "the position of the base"))
+    else:
+        parsed = ParsedBase(read_rotation(faults, node, "base"), None)
+    forbid(faults, parsed.cells, coordinates, "the base does not move: " + _CONSTANT)
+    return parsed

@@ -6,7 +6,7 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -26,8 +26,7 @@ from dynsolve.robot.questions import reference
 from dynsolve.robot.shapes import AXES, KINDS, Density, Shape
 
 if TYPE_CHECKING:
-    from dynsolve.problem.mechanism import Model
-    from dynsolve.robot.actions import GivenModel
+    pass
 
 
 def build_robot(
@@ -52,11 +51,14 @@ def build_robot(
     move = values.column(parsed.base.move) if parsed.base.move else None
     gravity = values.column(parsed.gravity) if parsed.gravity else None
     builder = BodyBuilder(faults, values, links)
-    bodies = _placed(values, model) if model else [builder.body(body) for body in parsed.bodies]
+    given, bodies = None, [builder.body(body) for body in parsed.bodies]
+    if model is not None:
+        from dynsolve.problem.mechanism import given_model, placed_bodies
+
+        given, bodies = given_model(values, model), placed_bodies(values, model)
     asked_points = [named_point(builder.places, point) for point in parsed.questions.points]
     points = [point for point in asked_points if point]
     loads = [load(builder.places, entry, points, len(joints)) for entry in parsed.questions.loads]
-    given = _given(values, model) if model else None
     if faults.errors or gravity is None:
         return None
     robot = Robot(
@@ -93,20 +95,6 @@ def _with_candidates(values: CellValues, parsed: ParsedFile, robot: Robot) -> Ro
     judged = candidates(values, parsed.candidates, robot.given.D if robot.given else None)
     asks = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
     return replace(robot, questions=replace(robot.questions, candidates=judged, model=asks))
-
-
-def _placed(values: CellValues, model: Model) -> Sequence[Body | None]:
-    """The bodies of a mechanism by positions; a file with a table does not import what makes them."""
-    from dynsolve.problem.mechanism import placed_bodies
-
-    return placed_bodies(values, model)
-
-
-def _given(values: CellValues, model: Model) -> GivenModel | None:
-    """The energies that a file gives in the place of bodies."""
-    from dynsolve.problem.mechanism import given_model
-
-    return given_model(values, model)
 
 
 def _joint(values: CellValues, parsed: ParsedFile, row: DHRow) -> Joint | None:

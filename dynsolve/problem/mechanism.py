@@ -118,7 +118,8 @@ def read_model(faults: Faults, node: YamlNode | None) -> Model:
         bodies.append(body)
     check_names(bodies)
     K, P, L = (read_rate_cell(faults, fields.get(key), f"{key} of the model", types) for key in "KPL")
-    D = _read_matrix(faults, fields.get("D"), len(types))
+    help = "write D: [[..., ...], [..., ...]], a row and a column for each coordinate"
+    D = read_square(faults, fields.get("D"), "D", len(types), help)
     decoder.keep(cell for row in D or () for cell in row)
     decoder.keep((K, P, L))
     faulty = len(faults.errors) > before
@@ -166,17 +167,10 @@ def _check_ways(faults: Faults, fields: Fields) -> None:
 # -- the inertia matrix ----------------------------------------------------------------------------
 
 
-def _read_matrix(faults: Faults, node: YamlNode | None, n: int) -> tuple[tuple[Cell, ...], ...] | None:
-    help = "write D: [[..., ...], [..., ...]], a row and a column for each coordinate"
-    if node is None or isinstance(node, FaultyNode):
-        return None
-    return read_square(faults, node, "D", n, help)
-
-
 def read_square(
-    faults: Faults, node: YamlNode, what: str, n: int, help: str
+    faults: Faults, node: YamlNode | None, what: str, n: int, help: str
 ) -> tuple[tuple[Cell, ...], ...] | None:
-    """The cells of an n×n matrix, None (reported) where it is none."""
+    """The cells of an n×n matrix, None (reported) where it is none, or is not given."""
     listed = items(faults, node, what, help)
     if isinstance(node, ListNode) and len(listed) != n:
         faults.error(node.span, f"{what} has {len(listed)} rows, not {n}", help)
@@ -259,10 +253,9 @@ MOST_DEGREE = 8
 """The largest degree of an energy in the coordinates, their sines and cosines, and their rates."""
 
 
-def placed_bodies(values: CellValues, model: Model) -> tuple[Body, ...]:
-    """The bodies of a mechanism by positions; what is wrong with one is reported."""
-    made = [_body(values, body) for body in model.bodies]
-    return tuple(body for body in made if body)
+def placed_bodies(values: CellValues, model: Model) -> list[Body | None]:
+    """The bodies of a mechanism by positions; None for one of which something was reported."""
+    return [_body(values, body) for body in model.bodies]
 
 
 def _body(values: CellValues, body: Record) -> Body | None:
@@ -333,11 +326,9 @@ def given_model(values: CellValues, model: Model) -> GivenModel | None:
 
 
 def _inertia_matrix(values: CellValues, cells: tuple[tuple[Cell, ...], ...]) -> Matrix | None:
-    rows = [[values.expr(cell) for cell in row] for row in cells]
-    known = [[entry for entry in row if entry is not None] for row in rows]
-    if any(len(row) < len(cells) for row in known):
+    D = values.matrix(cells)
+    if D is None:
         return None
-    D = Matrix.of(values.ring, known)
     for i, row in enumerate(cells):
         for j, cell in enumerate(row):
             _check_degree(values, cell, D[i, j], MOST_DEGREE - 2)
@@ -482,11 +473,10 @@ def candidates(values: CellValues, parsed: Candidates, given: Matrix | None) -> 
         return (Candidate("D", given, every, parsed.is_relative),) if given is not None else ()
     made = []
     for name, cells in parsed.matrices.items():
-        rows = [[values.expr(cell) for cell in row] for row in cells]
-        known = [[entry for entry in row if entry is not None] for row in rows]
-        if all(len(row) == len(cells) for row in known):
+        matrix = values.matrix(cells)
+        if matrix is not None:
             own = _bounds(values, parsed.assumed.get(name, ()))
-            made.append(Candidate(name, Matrix.of(values.ring, known), (*every, *own), parsed.is_relative))
+            made.append(Candidate(name, matrix, (*every, *own), parsed.is_relative))
     return tuple(made)
 
 

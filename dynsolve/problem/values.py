@@ -200,6 +200,12 @@ class CellValues:
         entries = [self.expr(cell) for cell in cells]
         return None if None in entries else Matrix.column(self.ring, [e for e in entries if e is not None])
 
+    def matrix(self, rows: Iterable[Iterable[Cell]]) -> Matrix | None:
+        """The values of a matrix, None where something of it was reported."""
+        columns = [self.column(row) for row in rows]
+        known = [column.entries for column in columns if column]
+        return Matrix.of(self.ring, known) if len(known) == len(columns) else None
+
     def rotation(self, parsed: ParsedRotation, what: str) -> Matrix | None:
         """The matrix of a rotation; a list that is no rotation is reported."""
         if parsed.turns:
@@ -207,13 +213,12 @@ class CellValues:
             for turn in parsed.turns:
                 matrix = matrix @ elementary(self.ring, turn.axis, turn.angle)
             return matrix
-        rows = [self.column(row) for row in parsed.rows]
-        if None in rows:
+        listed = self.matrix(parsed.rows)
+        if listed is None:
             return None
-        matrix = Matrix.of(self.ring, [row.entries for row in rows if row])
-        orthogonal, proper = is_rotation(matrix)
+        orthogonal, proper = is_rotation(listed)
         if orthogonal and proper:
-            return matrix
+            return listed
         if orthogonal:
             message = f"{what} are no rotation: the determinant is -1"
             help = "this is a reflection: turn the sign of one axis, so that x, y and z are right-handed"
