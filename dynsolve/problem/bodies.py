@@ -18,10 +18,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import Node, Number
 from dynsolve.problem.base import ParsedRotation, check_moving, read_rotation
-from dynsolve.problem.cells import Cell, read_cell, read_matrix, read_vector
+from dynsolve.problem.cells import Cell, denominators, read_cell, read_matrix, read_vector
 from dynsolve.problem.decoder import Decoder, Record
 from dynsolve.problem.kinds import (
     CENTERS,
@@ -134,6 +135,10 @@ class DrawnFrames(Struct, frozen=True):
             return None
         if link is None:
             return None
+        for cell in place.cells:
+            if any(rational_value(below) == 0 for below in denominators(cell.tree)):
+                faults.error(cell.span, f"{cell.what}: the denominator is zero")
+                return None
         *axes, origin = self.frames[link]
         away = [total([cell.tree, negated(start)]) for cell, start in zip(place.cells, origin, strict=True)]
         pairs = zip(place.cells, axes, strict=True)

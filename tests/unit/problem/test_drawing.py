@@ -255,6 +255,13 @@ DRAWN_FAULTS = {
         "not fixed in link 3",
         "the letters of the slides",
     ),
+    "a denominator of zero": (
+        RRP_AS_DRAWN.replace("{drawn: [d3 + lc3, 0, L1]}", "{drawn: [«d3 + 1/0», 0, L1]}").replace(
+            "ZERO", "table"
+        ),
+        "the denominator is zero",
+        "",
+    ),
     "two ways at once": (
         "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1, center: «{along: 1/2, drawn: [l, 0, 0]}»}]",
         "one of along, near and drawn",
