@@ -35,7 +35,8 @@ what each result is in them, `Context.result`.  The energies and forces of a lon
 and g_k (`Context.is_in_letters`), and what is alike is said once for all:
 
     recurring            what stands in several places
-    abbreviations        which constants, sums and Christoffel symbols get names, and results in these
+    abbreviations        which constants and sums get names, and results in these
+    short_names          of a short model, which moments of inertia and Christoffel symbols
     entry_formulas       the formulas in d_ij, c_ijk and g_k
     long_model           what is said once, and D, c_ijk, C and g of a long model; `last_frame` its last frame
     named_steps          the steps of a short model in names, and where these are introduced
@@ -49,6 +50,7 @@ from importlib import import_module
 from msgspec.structs import replace
 
 from dynsolve.errors import attempted
+from dynsolve.explain import named_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.long_model.general import general_steps, told_once
 from dynsolve.explain.step import Detail, Step
@@ -69,16 +71,19 @@ _BESIDE = {
 def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
     """The steps of the given stages, or of all, in the order of the course."""
     wanted = set(Stage if stages is None else stages)
+    shown = [stage for stage in stages_of(context.robot) if stage in wanted]
+    if context.names is not None:
+        context = named_steps.in_names(context, shown)
     once = general_steps(context) if context.is_in_letters else {}
-    for stage in stages_of(context.robot):
-        if stage in wanted:
-            yield from _of_stage(stage, context, once)
+    for stage in shown:
+        yield from _of_stage(stage, context, once)
 
 
 def _of_stage(stage: Stage, context: Context, once: Mapping[str, Step]) -> Iterator[Step]:
     """The steps of a stage; where one fails, the bare results of those that are missing.
 
-    Of a long model those that are alike are told `once`.
+    Of a long model those that are alike are told `once`.  What fails in names is for whoever asked for them:
+    a name that was to be introduced there is missing everywhere after it.
     """
     shown: list[Step] = []
 
@@ -92,7 +97,10 @@ def _of_stage(stage: Stage, context: Context, once: Mapping[str, Step]) -> Itera
         told = {name for step in shown for name in (step.id, *step.also)}
         shown.extend(step for step in bare_steps(stage, context) if step.id not in told)
 
-    attempted(explained, bare, f"the explanation of the stage {stage}")
+    if context.names is None:
+        attempted(explained, bare, f"the explanation of the stage {stage}")
+    else:
+        explained()
     yield from shown
 
 

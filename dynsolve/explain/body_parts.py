@@ -11,6 +11,7 @@ from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.matrix_factors import factored
+from dynsolve.explain.named_steps import ending_of_several
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.identities import (
@@ -72,8 +73,12 @@ def _step(context: Context, body: Body) -> Step:
         why = "Its rotational part alone: its mass centre does not move."
     elif not turns:
         why = "Its linear part alone: it does not turn."
-    linear = (equation(linear_name(context, body), factored(context, context.form(f"Dv{b}"))),)
-    angular = (equation(angular_name(body), factored(context, context.form(f"Dw{b}"))),) if turns else ()
+    linear = (equation(linear_name(context, body), factored(context, context.named(context.form(f"Dv{b}")))),)
+    angular = (
+        (equation(angular_name(body), factored(context, context.named(context.form(f"Dw{b}")))),)
+        if turns
+        else ()
+    )
     both = turns and not (along_own_axes(context, body) or _is_in_two(context, body))
     return Step(
         id=f"D_direct{b}",
@@ -142,6 +147,7 @@ def sum_step(context: Context) -> Step | None:
     motors, bodies = bool(context.robot.actions.motors), context.robot.bodies
     who = ("body" if len(bodies) == 1 else "bodies") + (" and the rotors" if motors else "")
     added = [f"{part}{b.name}" for b in bodies for part in ("D_direct", *["Dw"] * _is_in_two(context, b))]
+    end = ending_of_several(context, "D_sum", tuple(_summed_entries(context, parts)))
     return Step(
         id="D_sum",
         title="The sum of these matrices",
@@ -154,7 +160,8 @@ def sum_step(context: Context) -> Step | None:
             so=", entry by entry" if same else "",
         ),
         source=spong("7.2.2"),
-        result=tuple(_summed_entries(context, parts)),
+        result=end.result,
+        names=end.names,
         listed=True,
         uses=(*added, "Dm"),
         is_task=False,
@@ -215,7 +222,7 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     product = letters.transposed_product(context.show(own.value), context.show(given))
     yield Line(
         ("The tensor along the body's own axes put in:",),
-        (equation(name, in_letters, factored(context, product)),),
+        (equation(name, in_letters, factored(context, context.named(product))),),
         (f"I_body{b}",),
     )
 

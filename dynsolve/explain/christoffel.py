@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from math import gcd
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.euler_lagrange import agreement
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.named_steps import ending_of_symbols, label_of
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate, slopes
+from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate, slopes, varying
 from dynsolve.explain.writing import counted_sum, is_small, listed, spong
-from dynsolve.notation.build import times
+from dynsolve.notation.build import split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    NAMED,
+    ZERO,
+    Matrix,
     Negative,
     Node,
     Parenthesized,
     Product,
+    Relation,
     Sum,
     Symbol,
     equation,
@@ -48,15 +55,22 @@ def christoffel_step(context: Context) -> Step:
         f"They are made of the derivatives of $𝐃$ with respect to the coordinates. {swapped}"
         "Partial derivatives that are zero are left out."
     )
+    results = [_symbol(context, *indices) for indices in nonzero]
+    single = None if context.names is None else context.names.single
+    if single is not None:
+        first = results[0]
+        assert isinstance(first, Relation)
+        *before, _ = first.parts
+        results[0] = Relation((*before, single.meaning, single.name), (*first.signs, NAMED))
+        why = (*why, " The symbol ", before[0], " is named ", single.name, ".")
+    end = ending_of_symbols(context, results, way)
     return Step(
         id="christoffel",
         title="Christoffel symbols",
         why=why if nonzero else say("$𝐃$ is constant, so every Christoffel symbol is zero."),
         formula=formula("c_ijk = ½ {slopes}", slopes=SLOPES),
         source=spong("7.3"),
-        lines=way.lines,
-        concluding=way.concluding,
-        result=tuple(_symbol(context, *indices) for indices in nonzero),
+        **asdict(end),
         hint=(
             "Each is made of three partial derivatives of entries of D. The first two indices may be "
             "swapped, which halves the work.",
@@ -84,7 +98,7 @@ def _sorted_symbols(context: Context) -> tuple[list[tuple[int, int, int]], list[
 
 def _symbol(context: Context, i: int, j: int, k: int) -> Node:
     """c_ijk = c_jik = ½ (...) = its value; partial derivatives that are zero are left out."""
-    value = context.forms.christoffel(i, j, k)
+    value = context.symbol(i, j, k)
     names: list[Node] = [letters.entry("c", i + 1, j + 1, k + 1)]
     if i != j:
         names.append(letters.entry("c", j + 1, i + 1, k + 1))
@@ -173,18 +187,15 @@ ROWS = "Cqd-rows"
 """The label of the rows of C q̇ that are compared."""
 
 
-def compared_rows(
-    context: Context, named: Callable[[int, int, int], Node] | None = None, *, written_out: bool = False
-) -> tuple[Line, ...]:
+def _compared_rows(context: Context) -> tuple[Line, ...]:
     """The rows of C q̇ by the Christoffel symbols, with a number; what they are, the step's text says."""
-    rows = coriolis_rows(context, named, written_out=written_out)
-    return tuple(replace(line, by=(), label=ROWS) for line in rows)
+    return tuple(Line((), line.formulas, line.uses, ROWS) for line in coriolis_rows(context))
 
 
 def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
     agreed = context.agreement or agreement(context.robot, context.values)
-    rows = compared_rows(context) if agreed.coriolis else ()
+    rows = _compared_rows(context) if agreed.coriolis else ()
     verdicts = (
         (say("$𝐃${where}", where=Reference(("D", "D_sum"), " in ")), agreed.inertia),
         (say("$𝐂 𝐪̇${where}", where=Reference(("Cqd", ROWS if rows else "C"), " in ")), agreed.coriolis),
@@ -224,7 +235,6 @@ def skew_step(context: Context) -> Step:
     robot, is_short = context.robot, context.is_short
     ring = robot.ring
     D, C = context.values["D"], context.values["C"]
-    rate = inertia_rate(context)
     step = Step(
         id="skew",
         title="Check: a matrix that must be skew-symmetric",
@@ -241,7 +251,12 @@ def skew_step(context: Context) -> Step:
             is_task=False,
         )
     result: tuple[Node, ...] = ()
-    if rate or is_small(context.form("D"), context.form("C")):
+    rate = _rate_in_symbols(context) if context.has_named_symbols else inertia_rate(context)
+    if context.has_named_symbols:
+        n = range(robot.n)
+        by_symbols = Matrix(tuple(tuple(_by_symbols(context, -1, k, j) for j in n) for k in n))
+        result = (equation(letters.bold("N"), by_symbols),)
+    elif rate or is_small(context.form("D"), context.form("C")):
         N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
         result = (equation(letters.bold("N"), context.show(N)),)
     general = () if result or robot.n == 1 else (_in_general(robot.n),)
@@ -272,3 +287,35 @@ def skew_step(context: Context) -> Step:
             "as zero."
         ),
     )
+
+
+def _rate_in_symbols(context: Context) -> tuple[Line, ...]:
+    """Ḋ by the symbols in their names: ∂d_kj/∂q_i = c_ijk + c_ikj."""
+    assert context.names is not None
+    symbols = (one.name for one in context.names.of_symbols if one != context.names.single)
+    slopes = [((i, j), q.index - 1) for i, j, q in varying(context)]
+    used = dict.fromkeys((*(label_of(context, name) for name in symbols), *with_slopes(context, slopes)))
+    return inertia_rate(context, lambda i, j: _by_symbols(context, 1, i, j), tuple(used))
+
+
+def _by_symbols(context: Context, sign: int, k: int, j: int) -> Node:
+    """Σ_i (c_ikj ± c_ijk) q̇_i: with + it is ḋ_kj, with - it is n_kj."""
+    c, rates = context.symbol, [letters.velocity(q) for q in context.robot.coordinates]
+    pairs = [((sign, c(i, j, k), rate), (1, c(i, k, j), rate)) for i, rate in enumerate(rates)]
+    return _collected(term for pair in pairs for term in pair)
+
+
+def _collected(terms: Iterable[tuple[int, Node, Node]]) -> Node:
+    """Σ factor · symbol · rate: the rates of each symbol in one sum, what their factors share in front."""
+    rates: dict[Node, Counter[Node]] = {}
+    for factor, symbol, rate in terms:
+        sign, name = split_sign(symbol)
+        if name != ZERO:
+            rates.setdefault(name, Counter())[rate] += sign * factor
+    found = []
+    for name, own in rates.items():
+        if shared := gcd(*own.values()):
+            shared = -shared if all(factor <= 0 for factor in own.values()) else shared
+            inner = total([times(factor // shared, [(rate, 1)]) for rate, factor in own.items()])
+            found.append(times(shared, [(name, 1), (inner, 1)]))
+    return total(found)

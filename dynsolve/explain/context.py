@@ -23,7 +23,7 @@ from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Convention, JointType, Robot
 
 if TYPE_CHECKING:
-    from dynsolve.explain.abbreviations import Abbreviated
+    from dynsolve.explain.abbreviations import Abbreviated, Definition
     from dynsolve.robot.drawing.normals import Normals
 
 
@@ -31,7 +31,8 @@ class Context(Struct, frozen=True):
     """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree.
 
     `normals` are those of a drawing that the table was found from, `lengths` values in m as the
-    file has them.  `names` are those that the steps are written in, where they are in some.
+    file has them.  `names` are those that the steps are written in, where they are in some,
+    and `introduced` which of them a step brings in, by its id.
     """
 
     robot: Robot
@@ -41,6 +42,7 @@ class Context(Struct, frozen=True):
     normals: Normals | None = None
     lengths: Mapping[str, str] = field(default_factory=dict)
     names: Abbreviated | None = None
+    introduced: Mapping[str, tuple[Definition, ...]] = field(default_factory=dict)
 
     @property
     def wanted(self) -> frozenset[str]:
@@ -73,6 +75,24 @@ class Context(Struct, frozen=True):
         """The tree of a quantity as its own step gives it: in names, where it has some."""
         named = None if self.names is None else self.names.forms.get(name)
         return self.form(name) if named is None else named
+
+    def named(self, node: Node) -> Node:
+        """A tree with the names of the sums of masses and lengths in it."""
+        return node if self.names is None else self.names.inertias.put(node)
+
+    def symbol(self, i: int, j: int, k: int) -> Node:
+        """c_ijk, from 0, as its own step gives it."""
+        return self.forms.christoffel(i, j, k) if self.names is None else self.names.symbol(i, j, k)
+
+    @property
+    def has_named_symbols(self) -> bool:
+        """Whether C and what is made of it are written by the Christoffel symbols in their names."""
+        return self.names is not None and self.names.at_symbols
+
+    @property
+    def leaves_values_out(self) -> bool:
+        """Whether equations end before values in full: of a short model whose names were asked for."""
+        return self.names is not None and not (self.names.long or self.names.at_symbols)
 
     @property
     def is_in_letters(self) -> bool:

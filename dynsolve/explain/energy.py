@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
@@ -102,16 +102,14 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     who += f", and that of the {'springs' if name == 'P' else 'rotors'}" if others else ""
     acting = [name + ("s" if name == "P" else "m")] if others else []
     way = summed(context, [*(name + body.name for body in bodies), *acting], name, letter)
-    result, more, notes = total_energy(context, name)
+    end, more, notes = total_energy(context, name, way)
     return Step(
         id=name,
         title=f"Total {kind} energy",
         why=(f"{who}.{' A point mass has no second term.' if len(points) > 1 else ''}", *more),
         formula=whole,
         source=spong("7.2.3" if name == "P" else "7.2.2"),
-        lines=way.lines,
-        concluding=way.concluding,
-        result=result,
+        **asdict(end),
         notes=notes,
         detail=Detail.BRIEF,
         normal=STATED,

@@ -1,11 +1,12 @@
-"""The steps of a short model in names: which sums have one, and where it is introduced.
+"""How the steps of a short model end in names: which sums have one, and where it is introduced.
 
 Which:  a sum of masses and lengths that comes up again and again from the kinetic energy on, and what its
         derivatives are made of (`name_inertias`): σ₁, σ₂, ...
         what Christoffel symbols are, where C would fill half a page (`name_symbols`): σ₃, ...
         what all of them are but for sign: h.
 Where:  in the first step from the kinetic energy on in whose result it stands, after that result, which is
-        then written with the name; h beside the first symbol that it is, as in the book.
+        then written with the name; h beside the first symbol that it is, as in the book.  That is found
+        before the first step is made (`in_names`).
 After:  every result has the name in its place.  What a symbol is stands in forces beside products of rates,
         and is looked for there alone.
 
@@ -15,55 +16,25 @@ A name has one meaning in a report, and its line in the list of notation has the
 from __future__ import annotations
 
 import re
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from math import gcd
 
+from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.document import DEFINITIONS, Inline, Prose, Reference
+from dynsolve.document import DEFINITIONS, Prose, Reference
 from dynsolve.document.sentences import opened, say
-from dynsolve.explain.abbreviations import Abbreviated, Definition
-from dynsolve.explain.christoffel import compared_rows, with_slopes
+from dynsolve.explain.abbreviations import WITH_RATES, Abbreviated, Definition, InertiaNames
 from dynsolve.explain.context import Context
-from dynsolve.explain.entry_formulas import collected_coriolis_force
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.terms import Kind, name_of_term, rates_of, rows_in_names, terms_of
-from dynsolve.explain.working.derivatives import inertia_rate, varying
-from dynsolve.explain.working.identities import are_alike
+from dynsolve.explain.working.identities import SILENT, Way, are_alike
 from dynsolve.explain.writing import listed
-from dynsolve.notation.build import split_sign, times, total
-from dynsolve.notation.tree import (
-    NAMED,
-    ZERO,
-    Entry,
-    Letter,
-    Matrix,
-    Node,
-    Product,
-    Relation,
-    Sum,
-    Symbol,
-    column,
-    equation,
-    walk,
-    with_children,
-)
-from dynsolve.quantities import letters
+from dynsolve.notation.tree import Entry, Letter, Matrix, Node, Relation, Symbol, equation, walk
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.questions import Method
 
 DERIVATIVES = "derivatives-of-names"
 """The label of the derivatives of named sums."""
-
-_AFTER = (Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED)
-"""The stages whose steps are in the names of sums, as is the total kinetic energy."""
-
-_BODY_BY_BODY = frozenset({"inertia_poses", "point_masses"})
-"""The checks that ask what each body adds, and so show it."""
-
-_LOOKED_AT = {"definite": "D", "inertia_poses": "D", "point_masses": "D", "equilibrium": "g"}
-"""The checks in which D, or g row by row, is looked at."""
 
 _COLLECTED = frozenset({"D_sum", "g"})
 """The steps that are worked out anew from what stands before the names, and end in these."""
@@ -71,81 +42,8 @@ _COLLECTED = frozenset({"D_sum", "g"})
 _DIFFERENTIATED = re.compile(r"ddt\d+|christoffel")
 """The steps that differentiate what they are written in, by the time or by all coordinates."""
 
-_WITH_RATES = re.compile(r"ddt\d+|dLdq\d+|tau\d+|Cqd")
-"""The steps in whose results Christoffel symbols stand beside products of rates."""
-
-_ENDING_IN_VALUES = frozenset({"agreement", "skew"})
-"""The steps whose lines end in values: Ḋ by the derivatives of D alone, C q̇ by the symbols alone."""
-
 _BY_SYMBOLS = re.compile(r"ddt\d+|dLdq\d+|christoffel")
 """The steps that bring the names of symbols in, and so refer to them."""
-
-
-def in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
-    """The steps, with names in them and, of a long model, without what fills pages."""
-    if short.at_symbols:
-        return steps_in_names(steps, context, short)
-    return iter(steps) if short.long else _of_short_model(steps, context, short)
-
-
-def _of_short_model(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
-    """The steps with names in D, the Christoffel symbols, C and g alone, as they were asked for."""
-    forms, names = context.forms, context.robot.ring.names
-    rows = (collected_coriolis_force(names, short.symbol, k) for k in range(context.robot.n))
-    named = {
-        **_named_symbols(context, short),
-        forms("D"): short.D,
-        forms("C"): short.C,
-        forms("g"): short.g,
-        forms("Cqd"): column(*rows),
-    }
-    for step in steps:
-        if step.stage is Stage.VECTORIZED:
-            step = _result_exchanged(step, named)
-        if step.id in _ENDING_IN_VALUES:
-            step = replace(step, lines=_in_lines(step.lines, _without_value))
-        yield _with_cells(step, _without_value) if step.id == "terms" else step
-
-
-def _named_symbols(context: Context, short: Abbreviated) -> dict[Node, Node]:
-    return {context.forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()}
-
-
-def _without_value(node: Node) -> Node:
-    """A chain of equations without its last member, which is the value written out."""
-    if not isinstance(node, Relation):
-        return node
-    return node.parts[0] if len(node.parts) == 2 else equation(*node.parts[:-1])
-
-
-def _result_exchanged(step: Step, named: Mapping[Node, Node]) -> Step:
-    """The step with parts of its results exchanged."""
-
-    def exchanged(node: Node) -> Node:
-        found = named.get(node)
-        if found is not None:
-            return found
-        return with_children(node, exchanged) if isinstance(node, Relation | Sum | Product) else node
-
-    return replace(step, result=tuple(map(exchanged, step.result)))
-
-
-def _with_cells(step: Step, change: Callable[[Node], Node]) -> Step:
-    """The step with the formulas of its table changed."""
-    assert step.table is not None
-    rows = tuple(_changed(row, change) for row in step.table.rows)
-    return replace(step, table=replace(step.table, rows=rows))
-
-
-def _in_lines(lines: Iterable[Line], change: Callable[[Node], Node]) -> tuple[Line, ...]:
-    return tuple(replace(line, formulas=tuple(map(change, line.formulas))) for line in lines)
-
-
-def _changed(parts: Iterable[Inline], change: Callable[[Node], Node]) -> Prose:
-    return tuple(change(part) if isinstance(part, Node) else part for part in parts)
-
-
-# -- the names of sums and of symbols, each where it is met first -----------------------------------
 
 
 def labels_of_names(steps: Iterable[Step], short: Abbreviated) -> tuple[str, ...]:
@@ -154,278 +52,237 @@ def labels_of_names(steps: Iterable[Step], short: Abbreviated) -> tuple[str, ...
     return found if short.single is None else (*found, "christoffel")
 
 
-def steps_in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
-    """The steps in the names of `short`, each introduced in the first in whose result it stands."""
-    names = _Names(context, short)
-    for step in steps:
-        in_sums = names.in_sums(step)
-        written = names.in_symbols(names.ending_in_sums(in_sums))
-        met = names.first_met(written)
-        labels = tuple(dict.fromkeys((*written.names, *names.used(written))))
-        written = names.on_named(replace(written, names=labels))
+# -- the plan: where each name is introduced --------------------------------------------------------
+
+
+def in_names(context: Context, stages: Collection[Stage]) -> Context:
+    """The context of the steps of some stages, which knows what each of them introduces."""
+    names = context.names
+    if names is None or not names.at_symbols:
+        return context
+    known = set() if names.single is None else {names.single.name}
+    found: dict[str, tuple[Definition, ...]] = {}
+    for id, results in _results(context, names, stages):
+        needed = set(_symbols(results)) - known
+        for one in reversed(names.sums):
+            if one.name in needed:
+                slopes = (slope for slope in names.inertias.slopes if one.name in set(walk(slope)))
+                needed.update(_symbols((one.meaning, *slopes)))
+        met = tuple(one for one in names.sums if one.name in needed - known)
         if met:
-            plain = in_sums if met[0] in short.of_symbols else step
-            written = names.introducing(plain, written, met)
-        yield written
-        names.labels |= dict.fromkeys((one.name for one in met), f"{DEFINITIONS}{step.id}")
+            found[id] = met
+            known.update(one.name for one in met)
+    return replace(context, introduced=found)
+
+
+def _results(
+    context: Context, names: Abbreviated, stages: Collection[Stage]
+) -> Iterator[tuple[str, list[Node]]]:
+    """The ids of the steps in whose results names may be, in their order, and these."""
+    coordinates = [q.index for q in context.robot.coordinates]
+    by_recursions = context.robot.questions.method is Method.NEWTON_EULER
+    of_stages = {
+        Stage.ENERGY: ["K"],
+        Stage.LAGRANGIAN: ["L"],
+        Stage.TORQUE: [f"{stem}{k}" for k in coordinates for stem in ("dLdqd", "ddt", "dLdq", "tau")],
+        Stage.NEWTON_EULER: [f"tau{k}" for k in coordinates if by_recursions],
+        Stage.VECTORIZED: ["D", "Cqd"],
+    }
+    for stage, ids in of_stages.items():
+        if stage in stages:
+            yield from ((id, [names.forms[id]]) for id in ids if id in names.forms)
+    if Stage.VECTORIZED in stages:
+        yield "christoffel", list(names.christoffel.values())
+
+
+def label_of(context: Context, name: Node) -> str:
+    """The label of the equation that defines a name."""
+    step = next((id for id, met in context.introduced.items() if any(one.name == name for one in met)), None)
+    return "christoffel" if step is None else f"{DEFINITIONS}{step}"  # h stands beside the symbol
+
+
+# -- how a step ends -------------------------------------------------------------------------------
+
+
+class Ending(Struct, frozen=True):
+    """The lines to a result, what is said before it, the result, and the labels of the names in it."""
+
+    lines: tuple[Line, ...]
+    concluding: Prose
+    result: tuple[Node, ...]
+    names: tuple[str, ...] = ()
+
+
+def ending(context: Context, id: str, results: Mapping[str, Sequence[Node]], way: Way = SILENT) -> Ending:
+    """How the step `id` ends, in the names that there are; those that it introduces after its plain result.
+
+    `results` has what stands before = by the names of the quantities.
+    """
+    result = tuple(equation(*left, context.result(name)) for name, left in results.items())
+    names = context.names
+    if names is None or not names.at_symbols:
+        return Ending(way.lines, way.concluding, result)
+    plain_result = tuple(equation(*left, context.form(name)) for name, left in results.items())
+    plain, sums = Ending(way.lines, way.concluding, plain_result), names.inertias
+    in_sums = _in_sums(id, plain, sums)
+    has_way = bool(in_sums.lines and in_sums.concluding)
+    concluding = in_sums.concluding
+    if has_way:
+        if id.startswith("dLdq"):
+            before = set(walk(*in_sums.lines[-1].formulas))
+            new = (name for name in _symbols(in_sums.result) if name in sums.symbols and name not in before)
+            concluding = _ending_in(context, id, concluding, new)
+        added = set(walk(*result)) - set(walk(*in_sums.result))
+        symbols = [one.name for one in names.of_symbols if one.name in added]
+        concluding = _ending_in(context, id, concluding, symbols)
+    ended = Ending(in_sums.lines, concluding, result, tuple(_used(context, names, id, result, has_way)))
+    met = context.introduced.get(id, ())
+    if not met:
+        return ended
+    return _introducing(context, names, id, in_sums if met[0] in names.of_symbols else plain, ended)
+
+
+def _in_sums(id: str, plain: Ending, sums: InertiaNames) -> Ending:
+    """The end in the names of sums; the last line is left out where only the order of the result differs."""
+    lines = plain.lines
+    if id != "K":  # its plain sum stands before the names are defined
+        lines = _in_lines(lines, _last_put(sums) if id in _COLLECTED else sums.put)
+    result = tuple(map(sums.put, plain.result))
+    is_changed = (lines, result) != (plain.lines, plain.result)
+    if is_changed and lines and are_alike(lines[-1].formulas[-1], result[0]):
+        return Ending(lines[:-1], (), result)
+    return Ending(lines, plain.concluding, result)
+
+
+def _in_lines(lines: Iterable[Line], change: Callable[[Node], Node]) -> tuple[Line, ...]:
+    """Lines of which every formula is written otherwise."""
+    return tuple(replace(line, formulas=tuple(map(change, line.formulas))) for line in lines)
+
+
+def _last_put(sums: InertiaNames) -> Callable[[Node], Node]:
+    """Writes the last member of an equation in the names: beside the sum as it stands, or in its place."""
+
+    def put(node: Node) -> Node:
+        if not isinstance(node, Relation):
+            return sums.put(node)
+        *before, last = node.parts
+        named = sums.put(last)
+        in_letters = all(isinstance(part, Letter | Entry) for part in before)
+        is_alone = named != last and not isinstance(last, Matrix) and in_letters
+        return equation(*before, *([last] if is_alone else []), named)
+
+    return put
 
 
 def _symbols(nodes: Iterable[Node]) -> list[Symbol]:
     return [node for node in walk(*nodes) if isinstance(node, Symbol)]
 
 
-class _Names:
-    """The names of a short model, and the labels of those that are introduced already."""
+def _ending_in(context: Context, id: str, concluding: Prose, names: Iterable[Symbol]) -> Prose:
+    """What is said before a result: collected, written with σ₁ in (55)."""
+    names = list(dict.fromkeys(names))
+    if not names:
+        return concluding
+    *before, last = concluding
+    assert isinstance(last, str)
+    known = tuple(dict.fromkeys(label_of(context, name) for name in names if _is_known(context, id, name)))
+    said = say(
+        "{last}, written with {names}{known}:",
+        last=last.removesuffix(":"),
+        names=listed(list(names)),
+        known=Reference(known, " in ") if known else "",
+    )
+    return (*before, *said)
 
-    def __init__(self, context: Context, short: Abbreviated) -> None:
-        assert short.inertias is not None
-        self.context, self.short, self.sums = context, short, short.inertias
-        self.single = short.single
-        self.symbols = [one.name for one in short.of_symbols if one != self.single]
-        self.labels: dict[Symbol, str] = {}
-        if self.single is not None:
-            self.labels[self.single.name] = "christoffel"
 
-    # -- where names are introduced, and referred to ---------------------------------------------------
+def _is_known(context: Context, id: str, name: Node) -> bool:
+    """Whether a name was introduced before the step `id`."""
+    return all(one.name != name for one in context.introduced.get(id, ()))
 
-    def first_met(self, written: Step) -> tuple[Definition, ...]:
-        """The definitions of the names in a result that are not known, and those that these need."""
-        needed = set(_symbols(written.result)) - self.labels.keys()
-        for one in reversed(self.short.sums):
-            if one.name in needed:
-                slopes = (slope for slope in self.sums.slopes if one.name in set(walk(slope)))
-                needed.update(_symbols((one.meaning, *slopes)))
-        return tuple(one for one in self.short.sums if one.name in needed - self.labels.keys())
 
-    def introducing(self, plain: Step, written: Step, met: Sequence[Definition]) -> Step:
-        """The step that introduces names: its plain result stands before them, if it was collected."""
-        abbreviations = "abbreviations" if len(met) > 1 else "abbreviation"
-        meanings = tuple(equation(one.name, one.meaning) for one in met)
-        lines = [Line((f"{opened(abbreviations)}:",), meanings, label=f"{DEFINITIONS}{plain.id}")]
-        names = {one.name for one in met}
-        slopes = tuple(slope for slope in self.sums.slopes if not names.isdisjoint(walk(slope)))
-        if slopes:
-            lines.append(Line(("Hence:",), slopes, label=DERIVATIVES))
-        after = written.concluding
-        result = plain.result[0]
-        is_matrix = isinstance(result, Relation) and isinstance(result.parts[-1], Matrix)
-        if plain.id == "christoffel":
-            after = ("Put into the formula:",)
-        elif plain.concluding or not (plain.lines or is_matrix):
-            lines.insert(0, Line(plain.concluding, plain.result))
-            after = (f"With the {abbreviations}:",)
-        return replace(written, lines=(*written.lines, *lines), concluding=after)
+def _introducing(context: Context, names: Abbreviated, id: str, plain: Ending, ended: Ending) -> Ending:
+    """The end of a step that introduces names: its plain result stands before them, if it was collected."""
+    met = context.introduced[id]
+    abbreviations = "abbreviations" if len(met) > 1 else "abbreviation"
+    meanings = tuple(equation(one.name, one.meaning) for one in met)
+    lines = [Line((f"{opened(abbreviations)}:",), meanings, label=f"{DEFINITIONS}{id}")]
+    slopes = tuple(s for s in names.inertias.slopes if not {one.name for one in met}.isdisjoint(walk(s)))
+    if slopes:
+        lines.append(Line(("Hence:",), slopes, label=DERIVATIVES))
+    after = ended.concluding
+    result = plain.result[0]
+    is_matrix = isinstance(result, Relation) and isinstance(result.parts[-1], Matrix)
+    if id == "christoffel":
+        after = ("Put into the formula:",)
+    elif plain.concluding or not (plain.lines or is_matrix):
+        lines.insert(0, Line(plain.concluding, plain.result))
+        after = (f"With the {abbreviations}:",)
+    return Ending((*ended.lines, *lines), after, ended.result, ended.names)
 
-    def used(self, written: Step) -> Iterator[str]:
-        """The labels of what a step needs to be written in the names."""
-        id, names = written.id, [name for name in _symbols(written.result) if name in self.labels]
-        of_sums = [name for name in names if name in self.sums.symbols]
-        differentiated = self.sums.slopes and of_sums and _DIFFERENTIATED.fullmatch(id)
-        if differentiated or id in {f"dLdq{k}" for k in self.sums.by}:
-            yield DERIVATIVES
-        elif id in _COLLECTED:
-            yield from (self.labels[name] for name in of_sums)
-        if _BY_SYMBOLS.fullmatch(id) and not (_WITH_RATES.fullmatch(id) and _has_way(written)):
-            yield from (self.labels[name] for name in names if name in self.symbols)
 
-    def on_named(self, step: Step) -> Step:
-        """A check on D, or on g row by row, with the equations of what the names in these mean."""
-        looked_at = _LOOKED_AT.get(step.id)
-        if looked_at is None:
-            return step
-        found = set(_symbols([self.sums.put(self.context.matrix("D"))]))
-        if looked_at == "g":
-            found = set(_put_in(node for line in step.lines for node in line.formulas))
-        named = (one.name for one in self.sums.definitions if one.name in found)
-        defined = tuple(dict.fromkeys(self.labels[name] for name in named))
-        why = tuple(
-            replace(part, labels=(looked_at, *defined))
-            if isinstance(part, Reference) and part.labels == (looked_at,)
-            else part
-            for part in step.why
-        )
-        return replace(step, why=why, names=(*step.names, *defined) if step.result else step.names)
+def _used(
+    context: Context, names: Abbreviated, id: str, result: Sequence[Node], has_way: bool
+) -> Iterator[str]:
+    """The labels of what a step needs to be written in the names, each once."""
+    sums = names.inertias
+    found: dict[str, None] = {}
+    known = [name for name in _symbols(result) if name in names.symbols and _is_known(context, id, name)]
+    of_sums = [name for name in known if name in sums.symbols]
+    differentiated = sums.slopes and of_sums and _DIFFERENTIATED.fullmatch(id)
+    if differentiated or id in {f"dLdq{k}" for k in sums.by}:
+        found[DERIVATIVES] = None
+    elif id in _COLLECTED:
+        found |= dict.fromkeys(label_of(context, name) for name in of_sums)
+    if _BY_SYMBOLS.fullmatch(id) and not (WITH_RATES.fullmatch(id) and has_way):
+        own = {one.name for one in names.of_symbols if one != names.single}
+        found |= dict.fromkeys(label_of(context, name) for name in known if name in own)
+    yield from found
 
-    def _ending_in(self, step: Step, names: Sequence[Symbol]) -> Step:
-        """The step with what is said before its result: collected, written with σ₁ in (55)."""
-        if not names:
-            return step
-        *before, last = step.concluding
-        assert isinstance(last, str)
-        known = tuple(dict.fromkeys(self.labels[name] for name in names if name in self.labels))
-        said = say(
-            "{last}, written with {names}{known}:",
-            last=last.removesuffix(":"),
-            names=listed(list(names)),
-            known=Reference(known, " in ") if known else "",
-        )
-        return replace(step, concluding=(*before, *said))
 
-    # -- steps in the names of sums --------------------------------------------------------------------
+def ending_of_symbols(context: Context, results: Sequence[Node], way: Way) -> Ending:
+    """The end of the step of the Christoffel symbols, the slopes that they are made of by their names too."""
+    names = context.names
+    if names is None or not names.at_symbols:
+        return Ending(way.lines, way.concluding, tuple(results))
+    put_sums, put_symbols = names.inertias.put, names.put_symbols
 
-    def in_sums(self, step: Step) -> Step:
-        """A step in the names of sums; of the Christoffel symbols and what is made of them, in all names."""
-        named = step.id == "K" or (step.stage in _AFTER and step.id not in _BODY_BY_BODY)
-        written = self._made_of_symbols(step)
-        return self._in_inertias(written) if named else written
-
-    def _in_inertias(self, step: Step) -> Step:
-        """A step in the names; its last line is left out where only the order of the result differs."""
-        put = self.sums.put
-        last = self._last_put if step.id in _COLLECTED else put
-        # the plain sum of K stands before the names are defined
-        lines = step.lines if step.id == "K" else _in_lines(step.lines, last)
-        written = replace(
-            step if step.table is None else _with_cells(step, put),
-            why=_changed(step.why, put),
-            working=tuple(map(put, step.working)),
-            lines=lines,
-            result=tuple(map(last, step.result)),
-            notes=tuple(_changed(note, put) for note in step.notes),
-        )
-        result = written.result
-        alike = written != step and lines and result and are_alike(lines[-1].formulas[-1], result[0])
-        return replace(written, lines=lines[:-1], concluding=()) if alike else written
-
-    def _last_put(self, node: Node) -> Node:
-        """An equation whose last member is in the names: beside the sum as it stands, or in its place."""
+    def also_named(node: Node) -> Node:
         if not isinstance(node, Relation):
-            return self.sums.put(node)
-        *before, last = node.parts
-        named = self.sums.put(last)
-        in_letters = all(isinstance(part, Letter | Entry) for part in before)
-        is_alone = named != last and not isinstance(last, Matrix) and in_letters
-        return equation(*before, *([last] if is_alone else []), named)
+            return put_sums(node)
+        named = put_symbols(node.parts[-1])
+        return put_sums(node if named == node.parts[-1] else equation(*node.parts, named))
 
-    def ending_in_sums(self, step: Step) -> Step:
-        """A derivative of L that is collected in names which the line before has not: they are said."""
-        if not (step.id.startswith("dLdq") and _has_way(step)):
-            return step
-        before = set(walk(*step.lines[-1].formulas))
-        names = (name for name in _symbols(step.result) if name in self.sums.symbols and name not in before)
-        return self._ending_in(step, list(dict.fromkeys(names)))
-
-    # -- steps in the names of symbols -----------------------------------------------------------------
-
-    def in_symbols(self, step: Step) -> Step:
-        """A step whose result has the names of symbols beside products of rates."""
-        if not _WITH_RATES.fullmatch(step.id):
-            return step
-
-        def put(node: Node) -> Node:
-            match node:
-                case Relation(parts):
-                    return equation(*parts[:-1], put(parts[-1]))
-                case Matrix():
-                    return with_children(node, put)
-                case Sum(terms):
-                    return total(list(map(put, terms)))
-            return self.short.put_symbols(node) if any(name.dots == 1 for name in _symbols([node])) else node
-
-        written = replace(step, result=tuple(map(put, step.result)))
-        names = set(walk(*written.result)) - set(walk(*step.result))
-        shown = [one.name for one in self.short.of_symbols if one.name in names]
-        return self._ending_in(written, shown) if _has_way(step) else written
-
-    def _made_of_symbols(self, step: Step) -> Step:
-        context, short = self.context, self.short
-        match step.id:
-            case "christoffel":
-                return self._christoffel(step)
-            case "C":
-                return _result_exchanged(step, {context.form("C"): short.C})
-            case "model":
-                step = _result_exchanged(step, {context.form("C"): short.C})
-                has_rows = self.single is not None  # the forces were derived before h
-                return replace(step, lines=(rows_in_names(context, short.symbol),)) if has_rows else step
-            case "agreement":
-                rows = compared_rows(context, short.symbol, written_out=self.single is not None)
-                return replace(step, lines=rows)
-            case "skew":
-                return self._skew(step)
-            case "terms":
-                return self._terms(step)
-        return step
-
-    def _christoffel(self, step: Step) -> Step:
-        """The symbols and the slopes that they are made of by their names; h is introduced at the first."""
-
-        def also_named(node: Node) -> Node:
-            if not isinstance(node, Relation):
-                return node
-            named = self.short.put_symbols(node.parts[-1])
-            return node if named == node.parts[-1] else equation(*node.parts, named)
-
-        written = _result_exchanged(step, _named_symbols(self.context, self.short))
-        written = replace(written, lines=_in_lines(step.lines, also_named))
-        if self.single is None:
-            return written
-        first, *others = written.result
-        assert isinstance(first, Relation)
-        *before, name = first.parts
-        return replace(
-            written,
-            why=(*step.why, " The symbol ", before[0], " is named ", name, "."),
-            result=(Relation((*before, self.single.meaning, name), (*first.signs, NAMED)), *others),
-        )
-
-    def _skew(self, step: Step) -> Step:
-        """Ḋ and N by the symbols: ∂d_kj/∂q_i = c_ijk + c_ikj, so that n_kj = Σ_i (c_ikj - c_ijk) q̇_i."""
-        context, c = self.context, self.short.symbol
-        n, rates = context.robot.n, [letters.velocity(q) for q in context.robot.coordinates]
-
-        def entry(sign: int, k: int, j: int) -> Node:
-            """Σ_i (c_ikj ± c_ijk) q̇_i"""
-            pairs = [((sign, c(i, j, k), rate), (1, c(i, k, j), rate)) for i, rate in enumerate(rates)]
-            return _collected(term for pair in pairs for term in pair)
-
-        N = Matrix(tuple(tuple(entry(-1, k, j) for j in range(n)) for k in range(n)))
-        slopes = [((i, j), q.index - 1) for i, j, q in varying(context)]
-        named = (self.labels[name] for name in self.symbols)
-        used = tuple(dict.fromkeys((*named, *with_slopes(context, slopes))))
-        lines = inertia_rate(context, lambda i, j: entry(1, i, j), used)
-        return replace(step, lines=lines, result=(equation(letters.bold("N"), N), *step.result[-1:]))
-
-    def _terms(self, step: Step) -> Step:
-        """The table of the terms of the forces, centrifugal and Coriolis terms by the names."""
-        context, named = self.context, dict[Node, Node]()
-        for k in range(context.robot.n):
-            for term in terms_of(context, k):
-                if term.kind in (Kind.CENTRIFUGAL, Kind.CORIOLIS):
-                    (i, _), (j, _) = term.rates
-                    symbol = self.short.symbol(i, j, k)
-                    name = name_of_term(context, term)
-                    value = times(term.count, [(symbol, 1), *rates_of(context, term)])
-                    named[name] = equation(name, value)
-        return _with_cells(
-            step, lambda cell: named.get(cell.parts[0] if isinstance(cell, Relation) else cell, cell)
-        )
+    used = _used(context, names, "christoffel", results, bool(way.lines and way.concluding))
+    ended = Ending(_in_lines(way.lines, also_named), way.concluding, tuple(results), tuple(used))
+    if "christoffel" not in context.introduced:
+        return ended
+    return _introducing(context, names, "christoffel", ended, ended)
 
 
-def _has_way(step: Step) -> bool:
-    """Whether lines lead to the result, and something is said before that."""
-    return bool(step.lines and step.concluding)
+def ending_of_several(context: Context, id: str, results: Sequence[Node]) -> Ending:
+    """The end of a step that has several results in a row, the names in place of what they mean."""
+    names = context.names
+    if names is None or not names.at_symbols:
+        return Ending((), (), tuple(results))
+    result = tuple(map(_last_put(names.inertias), results))
+    return Ending((), (), result, tuple(_used(context, names, id, result, has_way=False)))
 
 
-def _put_in(nodes: Iterable[Node]) -> Iterator[Symbol]:
-    """The names of sums that are in one member of an equation, and no more in the next."""
+# -- checks on a result in names -------------------------------------------------------------------
+
+
+def looked_at(context: Context, name: str, seen: Iterable[Node]) -> tuple[str, ...]:
+    """The labels of a result that is looked at, and of the names of sums in what is `seen` of it."""
+    if context.names is None:
+        return (name,)
+    found = set(walk(*seen))
+    defined = (one.name for one in context.names.inertias.definitions if one.name in found)
+    return (name, *dict.fromkeys(label_of(context, each) for each in defined))
+
+
+def put_in(nodes: Iterable[Node]) -> Iterator[Symbol]:
+    """The names that are in one member of an equation, and no more in the next."""
     for relation in (node for node in walk(*nodes) if isinstance(node, Relation)):
         for before, after in pairwise(relation.parts):
             left = set(walk(after))
             yield from (name for name in _symbols([before]) if name not in left)
-
-
-def _collected(terms: Iterable[tuple[int, Node, Node]]) -> Node:
-    """Σ factor · symbol · rate: the rates of each symbol in one sum, what their factors share in front."""
-    rates: dict[Node, Counter[Node]] = {}
-    for factor, symbol, rate in terms:
-        sign, name = split_sign(symbol)
-        if name != ZERO:
-            rates.setdefault(name, Counter())[rate] += sign * factor
-    found = []
-    for name, own in rates.items():
-        if shared := gcd(*own.values()):
-            shared = -shared if all(factor <= 0 for factor in own.values()) else shared
-            inner = total([times(factor // shared, [(rate, 1)]) for rate, factor in own.items()])
-            found.append(times(shared, [(name, 1), (inner, 1)]))
-    return total(found)

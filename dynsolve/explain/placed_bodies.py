@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
@@ -16,7 +16,9 @@ from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import QUADRATIC, is_too_long
 from dynsolve.explain.matrix_factors import factored
+from dynsolve.explain.named_steps import Ending, ending
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.identities import SILENT, Way
 from dynsolve.explain.writing import is_small, listed, name_of, spong, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
@@ -149,21 +151,23 @@ def _sum_of_axes(context: Context, body: Body) -> Node:
 # They stand in the place of the energies of bodies, and of the D that is assembled from Jacobians.
 
 
-def total_energy(context: Context, name: str) -> tuple[tuple[Node, ...], Prose, tuple[Prose, ...]]:
-    """K or P: the result, and of a long model what else is said of it, and a note."""
+def total_energy(context: Context, name: str, way: Way = SILENT) -> tuple[Ending, Prose, tuple[Prose, ...]]:
+    """K or P: how its step ends, and of a long model what else is said of it, and a note."""
     letter = Letter(name, style="script")
-    result: tuple[Node, ...] = (equation(letter, context.form(name)),)
-    if context.is_in_letters and name == "K":
+    if name == "K":
         more = say(
             " It is a quadratic form in the rates; its coefficients are the entries of the symmetric inertia "
             "matrix $𝐃${D}, which the matrix form gives as sums over the bodies.",
             D=Reference(("D",)),
         )
-        return (equation(letter, QUADRATIC, context.result("K")),), more, ()
+        if context.is_in_letters:
+            return ending(context, "K", {"K": (letter, QUADRATIC)}, way), more, ()
+        return ending(context, "K", {"K": (letter,)}, way), (), ()
+    result = (equation(letter, context.form(name)),)
     if context.is_in_letters and is_too_long(result):
         note = say("It is written out in abbreviations where $𝐠${g} is derived.", g=Reference(("g",)))
-        return (), (), (note,)
-    return result, (), ()
+        return Ending(way.lines, way.concluding, ()), (), (note,)
+    return Ending(way.lines, way.concluding, result), (), ()
 
 
 def energy_steps(context: Context, given: GivenModel) -> Iterator[Step]:
@@ -195,13 +199,13 @@ def _potential(context: Context, given: GivenModel) -> Step:
 
 def _energy(context: Context, name: str, title: str, why: str) -> Step:
     """An energy that is given."""
-    result, more, notes = total_energy(context, name)
+    end, more, notes = total_energy(context, name)
     return Step(
         id=name,
         title=title,
         why=(why, *more),
         source=spong("7.1"),
-        result=result,
+        **asdict(end),
         notes=notes,
         detail=Detail.BRIEF,
     )
@@ -217,7 +221,7 @@ def _kinetic(context: Context, given: GivenModel) -> Step:
     rates = tuple(letters.velocity(q) for q in context.robot.coordinates)
     shown = Product((letters.HALF, tree.Matrix((rates,)), D, column(*rates)))
     given_by = say("The problem gives $𝐃$, and the kinetic energy is its quadratic form in the rates.")
-    result, more, _ = total_energy(context, "K")
+    end, more, _ = total_energy(context, "K")
     return Step(
         id="K",
         title="Kinetic energy",
@@ -225,7 +229,7 @@ def _kinetic(context: Context, given: GivenModel) -> Step:
         formula=equation(letters.K, QUADRATIC),
         source=spong("7.3"),
         working=(equation(letters.K, shown),) if is_small(D) else (),
-        result=result,
+        **asdict(end),
         detail=Detail.BRIEF,
         uses=(),
     )
@@ -241,7 +245,7 @@ def inertia_step(context: Context, given: GivenModel) -> Step:
         title="The inertia matrix, as the problem gives it",
         why=("Without the Lagrangian.", *ends),
         source=spong("7.3"),
-        result=(equation(letters.D, context.form("D_direct")),),
+        result=(equation(letters.D, context.result("D") if same else context.form("D_direct")),),
         uses=(),
         is_task=False,
     )

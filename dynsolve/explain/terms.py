@@ -22,7 +22,7 @@ from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.christoffel import equal_symbols
 from dynsolve.explain.context import Context
-from dynsolve.explain.entry_formulas import ChristoffelSymbols, collected_coriolis_force, pairs
+from dynsolve.explain.entry_formulas import collected_coriolis_force, pairs
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, spong, sum_of
@@ -31,7 +31,6 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
-    Matrix,
     Negative,
     Node,
     Number,
@@ -166,9 +165,13 @@ def _rows(
     context: Context, q: Coordinate, terms: list[Term], whole: frozenset[int]
 ) -> Iterator[tuple[Inline, ...]]:
     for place, term in enumerate(terms):
-        name = name_of_term(context, term)
-        is_whole = len(term.rates) in whole
-        form = equation(name, context.show(value_of_term(context, term))) if is_whole else name
+        form = name_of_term(context, term)
+        if context.has_named_symbols and term.kind in (Kind.CENTRIFUGAL, Kind.CORIOLIS):
+            (i, _), (j, _) = term.rates
+            symbol = context.symbol(i, j, q.index - 1)
+            form = equation(form, times(term.count, [(symbol, 1), *rates_of(context, term)]))
+        elif len(term.rates) in whole and not context.leaves_values_out:
+            form = equation(form, context.named(context.show(value_of_term(context, term))))
         yield (letters.force(q) if place == 0 else "", form, str(term.kind))
 
 
@@ -223,13 +226,13 @@ _HELD = formula("𝐀_cᵀ 𝛌")
 def closing_step(context: Context) -> Step:
     """D q̈ + C q̇ + g = τ, with friction on the left, Q and A_cᵀ λ on the right where there are any."""
     robot = context.robot
-    parts = [context.result(name) for name in ("D", "C", *(["friction"] * has_friction(context)), "g")]
+    names = ("D", "C", *(["friction"] * has_friction(context)), "g")
     qd, qdd = (column(*(Symbol(q.name, dots) for q in robot.coordinates)) for dots in (1, 2))
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
     result: tuple[Node, ...] = ()
-    fit = all(isinstance(part, Matrix) and matrix_width(context, part) <= WIDEST for part in parts)
-    if context.is_short and fit:
+    if context.is_short and all(matrix_width(context, context.matrix(name)) <= WIDEST for name in names):
+        parts = [context.result(name) for name in names]
         left = Sum((Product((parts[0], qdd)), Product((parts[1], qd)), *parts[2:]))
         result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
     return Step(
@@ -238,7 +241,7 @@ def closing_step(context: Context) -> Step:
         why=_meanings(context),
         formula=equations_of_motion(context),
         source=spong("7.3"),
-        lines=_shortest_row(context) if context.is_in_letters else (),
+        lines=_shortest_row(context) if context.is_in_letters else _rows_in_names(context),
         result=result,
         detail=Detail.BRIEF,
     )
@@ -260,22 +263,24 @@ def _shortest_row(context: Context) -> tuple[Line, ...]:
     return (Line(by, (equation(driving_row(context, q), row),)),)
 
 
-def rows_in_names(context: Context, symbol: ChristoffelSymbols) -> Line:
-    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k = τ_k with this robot's D and g, its symbols in names."""
-    robot, (D, g) = context.robot, (context.matrix(name) for name in ("D", "g"))
-    names = robot.ring.names
+def _rows_in_names(context: Context) -> tuple[Line, ...]:
+    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k = τ_k with h, before which the forces were derived."""
+    names, coordinates = context.names, context.robot.ring.names
+    if names is None or names.single is None:
+        return ()
+    D, g, symbol = names.D, names.g, names.symbol
     friction = context.matrix("friction") if has_friction(context) else None
 
     def row(k: int) -> Node:
-        entries = zip(D.rows[k], names, strict=True)
+        entries = zip(D.rows[k], coordinates, strict=True)
         inertial = [times(1, [(d, 1), (Symbol(name, 2), 1)]) for d, name in entries if d != ZERO]
         rubbing = () if friction is None else (friction.rows[k][0],)
         heights = [part for part in (g.rows[k][0],) if part != ZERO]
-        return total([*inertial, collected_coriolis_force(names, symbol, k), *rubbing, *heights])
+        return total([*inertial, collected_coriolis_force(coordinates, symbol, k), *rubbing, *heights])
 
-    rows = (equation(driving_row(context, q), row(k)) for k, q in enumerate(robot.coordinates))
-    forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), ", ")
-    return Line(("Row by row", forces, ":"), tuple(rows))
+    rows = (equation(driving_row(context, q), row(k)) for k, q in enumerate(context.robot.coordinates))
+    forces = Reference(tuple(f"tau{q.index}" for q in context.robot.coordinates), ", ")
+    return (Line(("Row by row", forces, ":"), tuple(rows)),)
 
 
 def has_friction(context: Context) -> bool:

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+from msgspec.structs import asdict
+
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import STATED, Detail, Group, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.working.derivatives import cancelling, coordinate_derivative, momentum_rate
+from dynsolve.explain.working.identities import Way
 from dynsolve.explain.writing import listed, spong, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Negative, Symbol, equation, number
@@ -42,48 +46,44 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     step = partial(Step, source=spong("7.1"), group=group, normal=STATED)
     by_rate = formula("∂ℒ/∂{rate}", rate=letters.velocity(q))
     by_coordinate = formula("∂ℒ/∂{q}", q=Symbol(q.name))
+    end = ending(context, f"dLdqd{i}", {f"dLdqd{i}": (by_rate,)})
     yield step(
         id=f"dLdqd{i}",
         title=f"Coordinate {i}: generalized momentum",
         why=_partial(context, letters.velocity(q), "coordinate", "rate"),
-        result=(equation(by_rate, context.result(f"dLdqd{i}")),),
+        **asdict(end),
     )
-    way = momentum_rate(context, q)
+    rate = letters.time_derivative(by_rate)
+    end = ending(context, f"ddt{i}", {f"ddt{i}": (rate,)}, momentum_rate(context, q))
     yield step(
         id=f"ddt{i}",
         title=f"Coordinate {i}: time derivative of the momentum",
         why=(*_rate_why(context, q), *_change_of_inertia(context, q)),
-        lines=way.lines,
-        concluding=way.concluding,
-        result=(equation(letters.time_derivative(by_rate), context.result(f"ddt{i}")),),
+        **asdict(end),
         hint=(
             "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, "
             "and each coordinate in it brings its own rate (product and chain rule).",
         ),
     )
-    way = coordinate_derivative(context, q)
+    end = ending(context, f"dLdq{i}", {f"dLdq{i}": (by_coordinate,)}, coordinate_derivative(context, q))
     yield step(
         id=f"dLdq{i}",
         title=f"Coordinate {i}: partial derivative of ℒ",
         why=_slope_why(context, q),
-        lines=way.lines,
-        concluding=way.concluding,
-        result=(equation(by_coordinate, context.result(f"dLdq{i}")),),
+        **asdict(end),
         hint=(
             "Differentiate ℒ with respect to the coordinate alone: the rates are held fixed, and a term "
             "in which the coordinate does not occur drops out.",
         ),
     )
     force, resisted = driving_row(context, q), [letters.friction(i)] * context.has_friction(i - 1)
+    end = ending(context, f"tau{i}", {f"tau{i}": (force,)}, Way((), cancelling(context, q)))
     yield step(
         id=f"tau{i}",
         title=f"Coordinate {i}: the {'torque' if turns(q) else 'force'}",
         why=(*driven, *how_collected(context)),
-        formula=equation(
-            force, sum_of([letters.time_derivative(by_rate), Negative(by_coordinate), *resisted])
-        ),
-        concluding=cancelling(context, q),
-        result=(equation(force, context.result(f"tau{i}")),),
+        formula=equation(force, sum_of([rate, Negative(by_coordinate), *resisted])),
+        **asdict(end),
         detail=Detail.BRIEF,
     )
 
@@ -168,12 +168,13 @@ def _driven_by(context: Context, q: Coordinate) -> Prose:
 
 def lagrangian_steps(context: Context) -> Iterator[Step]:
     """L = K - P"""
+    end = ending(context, "L", {"L": (letters.L,)})
     yield Step(
         id="L",
         title="Kinetic minus potential energy",
         why=("The one function from which every equation of motion follows.",),
         formula=formula("ℒ = 𝒦 - 𝒫"),
         source=spong("7.1"),
-        result=(formula("ℒ = {L}", L=context.result("L")),),
+        **asdict(end),
         detail=Detail.BRIEF,
     )

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
-from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
 from dynsolve.explain.context import Context
 from dynsolve.explain.long_model import vectorized as long_model
 from dynsolve.explain.long_model.inertia_entry import worked_entry
+from dynsolve.explain.named_steps import ending
 from dynsolve.explain.placed_bodies import inertia_step
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import STATED, Detail, Part, Step
 from dynsolve.explain.terms import closing_step, driving_side, terms_step
 from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums, gravity_rows
+from dynsolve.explain.working.identities import Way
 from dynsolve.explain.writing import (
     and_joined,
     are_counted,
@@ -96,6 +97,7 @@ def _inertia(context: Context) -> Step:
     is_diagonal = n > 1 and all(D[i, j].is_zero for i in range(n) for j in range(n) if i != j)
     forces = listed([letters.force(q) for q in robot.coordinates])
     is_force = not robot.actions.passive and driving_side(context) == letters.TAU
+    end = ending(context, "D", {"D": (letters.D,)})
     return Step(
         id="D",
         title="The inertia matrix, read off from the forces",
@@ -113,7 +115,7 @@ def _inertia(context: Context) -> Step:
         ),
         formula=formula("d_ij = ∂τ_i/∂q̈_j") if is_force else None,
         source=f"from {spong('7.3')}",
-        result=(formula("𝐃 = {D}", D=context.result("D")),),
+        **asdict(end),
         uses=_forces(context),
         entries=letters.entries("d", n),
         detail=Detail.BRIEF,
@@ -140,7 +142,8 @@ def _rest(context: Context) -> Step:
         "What is left of the forces without the accelerations: the terms with rates {are_C}; the others, "
         "which remain when the {machine} is at rest, are $𝐠$.{no_rates}{no_rest}{friction}"
     )
-    result = (formula("𝐂 𝐪̇ = {Cqd}", Cqd=context.result("Cqd")), formula("𝐠 = {g}", g=context.result("g")))
+    results = {"Cqd": (formula("𝐂 𝐪̇"),), "g": (letters.G,)}
+    end = ending(context, "Cqd", {"g": (letters.G,)} if context.is_in_letters else results)
     in_letters = say(" $𝐂 𝐪̇$ is not written out: the Christoffel symbols below give it.")
     return Step(
         id="Cqd",
@@ -156,7 +159,7 @@ def _rest(context: Context) -> Step:
         ),
         formula=formula("𝐂 𝐪̇ + 𝐠 = {left}", left=sum_of([*left, *([formula("-𝛕_f")] * has_friction)])),
         source=spong("7.3"),
-        result=result[1:] if context.is_in_letters else result,
+        **asdict(end),
         also=()
         if from_energies or context.is_in_letters
         else ("g",),  # from the energies a step of its own gives g
@@ -265,28 +268,27 @@ def _coriolis(context: Context) -> Step:
 
 def _gravity(context: Context) -> Step:
     still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
-    way = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
+    directly = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
     why = say(
         "{way}{springs}{still}",
-        way=way,
+        way=directly,
         springs=" The forces of the springs are part of it." if springs and not still else "",
         still=say(" It does not depend on any coordinate, so $𝐠$ is zero.") if still else "",
     )
-    lines, concluding = gravity_rows(context), Prose()
+    way = Way(gravity_rows(context))
     if context.is_in_letters and not still:
-        why, lines, concluding = long_model.gravity_told(context)
+        why, way = long_model.gravity_told(context)
+    end = ending(context, "g", {"g": (letters.G,)}, way)
     return Step(
         id="g",
         title=f"The {'gravity and spring' if springs else 'gravity'} terms, from the potential energy",
         why=why,
         formula=formula("g_k = ∂𝒫/∂q_k"),
         source=spong("7.3"),
-        lines=lines,
-        concluding=concluding,
-        result=(formula("𝐠 = {g}", g=context.result("g")),),
+        **asdict(end),
         normal=STATED | Part.WHY,
         uses=("P",),
-        hint=way,
+        hint=directly,
         entries=letters.entries_of_column("g", context.robot.n),
         detail=Detail.BRIEF,
     )

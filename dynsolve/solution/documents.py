@@ -289,7 +289,7 @@ def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
     """What the names in C, or in all of the matrices, stand for."""
     from dynsolve.explain.named_steps import labels_of_names
 
-    where = "the matrices" if short.inertias and short.inertias.definitions else letters.C
+    where = "the matrices" if short.inertias.definitions else letters.C
     below: Prose = ("In ", where, " and in the rows below")
     defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
     meanings = tuple(equation(one.name, one.meaning) for one in short.sums)

@@ -201,12 +201,7 @@ class Dynamics(Struct, frozen=True, dict=True):
         if stages is None and short is None:
             return iter(self.steps)
         context = replace(self._context, names=short)
-        steps = self._remarked(explain(context, stages), whole=stages is None)
-        if short is None:
-            return iter(steps)
-        from dynsolve.explain.named_steps import in_names
-
-        return in_names(steps, context, short)
+        return iter(self._remarked(explain(context, stages), whole=stages is None))
 
     @property
     def is_short(self) -> bool:
@@ -241,7 +236,7 @@ class Dynamics(Struct, frozen=True, dict=True):
 
     @cached_property
     def _with_symbols_named(self) -> Abbreviated | None:
-        from dynsolve.explain.abbreviations import name_symbols
+        from dynsolve.explain.short_names import name_symbols
 
         short = name_symbols(self.forms)
         return None if short is None else self._verified(short)
@@ -305,3 +300,5 @@ def _looked_up(known: Quantities, name: str) -> Iterator[str]:
     quantity = known[name]
     yield from (name, quantity.rule, quantity.whole, name.lower())
     yield from (known[part].rule for part in reversed(known.parts(name)))
+    if quantity.rule == "Cqd":  # of a long model, which does not write it out
+        yield "C"

@@ -26,7 +26,7 @@ from dynsolve.explain.sanity.conserved import is_carried_along
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.derivatives import coriolis_sums
 from dynsolve.explain.working.differentiation import by_symbol, differentiated
-from dynsolve.explain.working.identities import doubled_angles
+from dynsolve.explain.working.identities import Way, doubled_angles
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign, summands, times
@@ -189,7 +189,7 @@ def _in_symbols(context: Context) -> tree.Matrix:
     return coriolis_matrix(formulas.coordinates, formulas.c)
 
 
-def gravity_told(context: Context) -> tuple[Prose, tuple[Line, ...], Prose]:
+def gravity_told(context: Context) -> tuple[Prose, Way]:
     """Why, before g the potential energy of which it is the derivatives, and what leads to g."""
     names = names_of(context)
     assert names.P is not None
@@ -198,8 +198,7 @@ def gravity_told(context: Context) -> tuple[Prose, tuple[Line, ...], Prose]:
     example = gravity_example(context)
     return (
         ("The partial derivatives of the potential energy.",),
-        (potential, *example),
-        ("All entries:",) if example else ("Differentiated:",),
+        Way((potential, *example), ("All entries:",) if example else ("Differentiated:",)),
     )
 
 

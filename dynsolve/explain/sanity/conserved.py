@@ -201,7 +201,7 @@ def _written(context: Context, q: Coordinate) -> Node:
     """A momentum: its formula, or the entries of D times the rates where that is long."""
     form = context.form(f"dLdqd{q.index}")
     if cost(form) <= LONGEST:
-        return form
+        return context.named(form)
     row, k = context.values["D"].rows[q.index - 1], q.index
     coupled = [other for other in context.robot.coordinates if not row[other.index - 1].is_zero]
     return sum_of([Product((letters.entry("d", k, j.index), letters.velocity(j))) for j in coupled])

@@ -19,6 +19,7 @@ from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.named_steps import looked_at
 from dynsolve.explain.sanity.determinant import (
     MULTIPLIED_OUT,
     Determinant,
@@ -151,7 +152,7 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
     seen = listed([_least(context, k) for k in places if is_seen[k]])
     by_body = {k: _own_part(context, k) for k in places if not is_seen[k]}
     names = {k: letters.entry("d", k + 1, k + 1) for k in by_body}
-    where = Reference(("D",), " in ")
+    where = Reference(looked_at(context, "D", [context.result("D")]), " in ")
     why = say("On the diagonal of $𝐃${where}, {seen}.", where=where, seen=seen) if seen else ()
     if not by_body:
         return why

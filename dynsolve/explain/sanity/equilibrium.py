@@ -22,6 +22,7 @@ from dynsolve.derivation.kinematics import axis, joint_frame, origin
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.named_steps import looked_at, put_in
 from dynsolve.explain.sanity.definite import determinant
 from dynsolve.explain.sanity.determinant import cases, is_positive, sign_of, solved, with_lengths
 from dynsolve.explain.sanity.poses import Pose, at, degrees, poses, turning_in, written_pose
@@ -105,7 +106,7 @@ def _put(value: Expr, images: Mapping[int, int]) -> Expr:
 def written_zero(context: Context, zero: Zero) -> Node:
     """g_3 = m_3 g l_c3 c_23 = 0, so c_23 = 0, θ_2 + θ_3 = ±90°"""
     ring, factor = context.robot.ring, zero.factor
-    row = equation(letters.entry("g", zero.row + 1), context.show(zero.value), ZERO)
+    row = equation(letters.entry("g", zero.row + 1), context.named(context.show(zero.value)), ZERO)
     one, other = (ZERO, Degrees(180)) if factor.kind == "sin" else (Degrees(90), Negative(Degrees(90)))
     angle = Row((equation(angle_node(factor.angle, ring.names), one), Words(" or "), other))
     vanishing = equation(context.show(ring.generator(factor.index)), ZERO)
@@ -273,7 +274,7 @@ def rests_nowhere(context: Context) -> Step | None:
     k, sign = next(((k, sign) for k in range(context.robot.n) if (sign := sign_of(context, g[k, 0]))), (0, 0))
     if not sign:
         return None
-    parts = (letters.entry("g", k + 1), context.show(g[k, 0]), ZERO)
+    parts = (letters.entry("g", k + 1), context.named(context.show(g[k, 0])), ZERO)
     value = Relation(parts, ("=", ">" if sign > 0 else "<"))
     why = say(
         "{rest}But {value}{where} in every pose, so gravity is balanced in none.",
@@ -303,13 +304,13 @@ def at_one_length(context: Context) -> Step | None:
     if len(moments) < len(values) or len(lengths) != 1:
         return None
     either = equation(Symbol(angle), Row((degrees(values[0]), Words(" or "), degrees(values[1]))))
-    zero = equation(letters.entry("g", slid + 1), context.show(g[slid, 0]), ZERO)
+    zero = equation(letters.entry("g", slid + 1), context.named(context.show(g[slid, 0])), ZERO)
     rows = (as_row((zero, ", so ", level_where, ", ", either)), *(balance for balance, _ in moments))
     name = robot.coordinates[slid].name
     why = say(
         "{rest}The rows of $𝐠${where}; what ${entry} = 0$ says is put into the other:",
         rest=at_rest(context),
-        where=Reference(("g",), " in "),
+        where=Reference(looked_at(context, "g", put_in(rows)), " in "),
         entry=letters.entry("g", slid + 1),
     )
     balanced = equation(Symbol(name), *lengths)
@@ -344,7 +345,8 @@ def _moment(context: Context, row: int, slid: int, pose: Pose) -> tuple[Node, No
     linear = total([times(1, [(context.show(a), 1), (d, 1)]), context.show(b)])
     shown, collected = context.show(value), times(1, [(context.show(p), 1), (linear, 1)])
     members = (shown,) if are_alike(shown, collected) else (shown, collected)
-    zero = Row((*written_pose(pose), Words(": "), equation(letters.entry("g", row + 1), *members, ZERO)))
+    shown_zero = equation(letters.entry("g", row + 1), *map(context.named, members), ZERO)
+    zero = Row((*written_pose(pose), Words(": "), shown_zero))
     if a.is_number or b.is_zero:
         return zero, context.show(-b / a.number) if a.is_number else ZERO
     if sign_of(context, b) > 0:
@@ -495,7 +497,8 @@ def _rows_of(context: Context, rows: Sequence[Zero] | None) -> Prose:
         if context.robot.n > 1:
             text = "Of the entries of $𝐠${where} only {only} is not identically 0:"
     only = letters.entry("g", rows[0].row + 1) if rows else ""
-    return say(text, where=Reference(("g",), " in "), only=only)
+    seen = put_in(written_zero(context, row) for row in rows or ())
+    return say(text, where=Reference(looked_at(context, "g", seen), " in "), only=only)
 
 
 def _by_minors(context: Context, names: Sequence[str]) -> Prose:

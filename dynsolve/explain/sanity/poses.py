@@ -17,6 +17,7 @@ from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import linear_name
 from dynsolve.explain.context import Context
+from dynsolve.explain.named_steps import looked_at
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.derivatives import numbers_in
 from dynsolve.explain.writing import and_joined, is_small, listed, measured, side_by_side, spong, sum_of
@@ -66,7 +67,7 @@ def inertia_poses_step(context: Context) -> Step | None:
         if one
         else f"joints {numbers} move, respectively, the joints after them",
         rotors=", and those of the rotors" if context.robot.actions.motors else "",
-        where=Reference(("D",), " in "),
+        where=Reference(looked_at(context, "D", [context.result("D")]), " in "),
     )
     return Step(
         id="inertia_poses",
@@ -248,6 +249,7 @@ def point_masses_step(context: Context) -> Step | None:
             equation(Sum((letters.D, Negative(letters.D_POINTS))), rest),
         ),
         uses=(*(f"D_direct{body.name}" for body in moving), "D"),
+        names=looked_at(context, "D", [context.result("D")])[1:],
         is_task=False,
     )
 
@@ -271,7 +273,7 @@ def _why(context: Context, moving: Sequence[Body]) -> Prose:
         rotors=" and of the rotors" if robot.actions.motors else "",
         points=letters.D_POINTS,
         zero=say(f" ({zero} zero)", these=and_joined(still)) if still else "",
-        where=Reference(("D",), " in "),
+        where=Reference(looked_at(context, "D", [context.result("D")]), " in "),
         parts=Reference(tuple(rotational), " in "),
         sliding=say(turn_none, names=listed(sliding), s="s" * (len(sliding) == 1))
         if robot.has_table and sliding and not robot.actions.motors

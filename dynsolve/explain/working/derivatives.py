@@ -241,7 +241,8 @@ def inertia_rate(
         names = [
             replace(letters.entry("d", r + 1, c + 1), dots=1) for r, c in dict.fromkeys(((i, j), (j, i)))
         ]
-        shown.append(equation(*names, sum_of(terms), written(i, j)))
+        value = () if context.leaves_values_out else (written(i, j),)
+        shown.append(equation(*names, sum_of(terms), *value))
     left = [place for place in combinations_with_replacement(range(n), 2) if place not in rates]
     fixed: Prose = ()
     if left:
@@ -275,13 +276,8 @@ def coriolis_sums(context: Context) -> tuple[Line, ...]:
     return (Line(("The sums, without what is zero:",), tuple(shown)),)
 
 
-def coriolis_rows(
-    context: Context, named: Callable[[int, int, int], Node] | None = None, *, written_out: bool = False
-) -> tuple[Line, ...]:
-    """(C q̇)_k = Σ c_ijk q̇_i q̇_j, row by row, those that are not zero.
-
-    `named` has other names for c_ijk; behind these what they mean is `written_out`.
-    """
+def coriolis_rows(context: Context) -> tuple[Line, ...]:
+    """(C q̇)_k = Σ c_ijk q̇_i q̇_j, row by row, those that are not zero; behind h what it means."""
     n, rates = context.robot.n, [letters.velocity(q) for q in context.robot.coordinates]
     if not context.is_short or context.values["C"].is_zero:
         return ()
@@ -291,7 +287,7 @@ def coriolis_rows(
         powers = [(rates[i], 2)] if i == j else [(rates[i], 1), (rates[j], 1)]
         return times(1 if i == j else 2, [(symbol, 1), *powers])
 
-    whole = formula("𝐂 𝐪̇")
+    whole, names = formula("𝐂 𝐪̇"), context.names
     shown = []
     for k, (read_off,) in enumerate(context.matrix("Cqd").rows):
         pairs = [
@@ -299,14 +295,14 @@ def coriolis_rows(
         ]
         if not pairs:
             continue
-        value = read_off
-        if named is not None:
-            terms = {(i, j): quadratic(named(i, j, k), i, j) for i, j in pairs}
-            value = total(list(terms.values()))
-            pairs = _in_the_order_of(value, terms)
+        values = [] if context.leaves_values_out else [context.named(read_off)]
+        if names is not None and names.at_symbols:
+            terms = {(i, j): quadratic(names.symbol(i, j, k), i, j) for i, j in pairs}
+            values = [total(list(terms.values())), *(values if names.single else [])]
+            pairs = _in_the_order_of(values[0], terms)
         by_symbols = total([quadratic(letters.entry("c", i + 1, j + 1, k + 1), i, j) for i, j in pairs])
         row = Entry(whole, Number(k + 1)) if n > 1 else whole
-        shown.append(equation(row, by_symbols, value, *([read_off] if written_out else [])))
+        shown.append(equation(row, by_symbols, *values))
     return (Line(say("{rows}$𝐂 𝐪̇$, multiplied out:", rows="The rows of " if n > 1 else ""), tuple(shown)),)
 
 

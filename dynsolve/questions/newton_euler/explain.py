@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.derivation.kinematics import origin, rotation
@@ -21,6 +21,7 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.actions import friction_steps, in_recursions, rotor_moments, spring_steps
 from dynsolve.explain.context import MOST_JOINTS, Context
 from dynsolve.explain.jacobian import ZERO
+from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.torque import how_collected
@@ -494,6 +495,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
         terms.append(_rated(rate, Product((Transpose(held), axis))))
     kind, what = ("torque", "moment") if turns(q) else ("force", "force")
     beside, added = in_recursions(context, q)
+    end = ending(context, f"tau{q.index}", {f"tau{q.index}": (driving_row(context, q),)})
     return Step(
         id=f"tau{q.index}",
         title=f"Coordinate {q.index}: the {kind}",
@@ -507,7 +509,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
         said="" if beside else f"the {kind} of a motor",
         formula=equation(driving_row(context, q), sum_of([*terms, *added])),
         source=context.by_convention("7.6", "6.5"),
-        result=(equation(driving_row(context, q), context.result(f"tau{q.index}")),),
+        **asdict(end),
         detail=Detail.BRIEF,
     )
 

@@ -8,14 +8,22 @@ from typing import Any
 
 import pytest
 
-from dynsolve.document import Block, Table, Text
-from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.document import DEFINITIONS, Block, Table, Text
+from dynsolve.errors import ExplanationWarning
+from dynsolve.explain import vectorized
+from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
+from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Symbol, walk, with_children
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import load
+from dynsolve.problem.reader import find
 from dynsolve.render.line_breaking import unfolded
+from dynsolve.robot.questions import Method
 from dynsolve.solution.documents import solution_document
+from dynsolve.solution.dynamics import by_method
+from dynsolve.solution.solution import Solution
 from tests.support import solved
 from tests.unit.explain.test_abbreviated_steps import displayed
 
@@ -205,6 +213,27 @@ def test_forces_in_names_mean_the_same(problem: str, name: str) -> None:
     ours, theirs = evaluate(last(found.result[0]), values), evaluate(wanted, values)
     assert_same(ours, theirs) if isinstance(ours, list) else assert_same([ours], [theirs])
     assert "- (-" not in to_unicode(found.result[0])
+
+
+def test_by_the_recursions_names_are_introduced_in_the_forces() -> None:
+    solution = Solution.of(by_method(load(find("elbow-3r")), Method.NEWTON_EULER), states=1)
+    steps = solution.explain(short=solution.abbreviated("auto"))
+    labels = [line.label for step in steps for line in step.lines if line.label.startswith(DEFINITIONS)]
+    assert labels == [f"{DEFINITIONS}tau1", f"{DEFINITIONS}tau2"]
+
+
+def test_a_stage_that_fails_in_names_is_told_without_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    ending, solution = vectorized.ending, solved("planar-2r")
+
+    def failing(context: Context, *rest: Any) -> Any:
+        if context.names is not None:
+            raise LookupError("planted")
+        return ending(context, *rest)
+
+    in_full = solution_document(solution, abbreviate=Abbreviate.NEVER)
+    monkeypatch.setattr(vectorized, "ending", failing)
+    with pytest.warns(ExplanationWarning, match="names"):
+        assert solution_document(solution, abbreviate=Abbreviate.ALWAYS) == in_full
 
 
 def test_never_is_never() -> None:

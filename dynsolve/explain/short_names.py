@@ -1,0 +1,264 @@
+"""Names in a short model: for moments of inertia that come up again and again, and Christoffel symbols.
+
+The kinetic energy of an arm with bodies of many parts has long sums of masses and lengths as factors:
+
+    m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12) + m₄ d₃²
+
+Each stands in L, in momenta, forces, D, C and the summary.  It is named where it is met first
+(`explain.named_steps`), with its derivative where a joint that slides changes it.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring_values import value_of
+from dynsolve.explain.abbreviations import (
+    RECURRING,
+    SINGLE,
+    WITH_RATES,
+    Abbreviated,
+    Exchange,
+    Index,
+    InertiaNames,
+    as_shown,
+    free_names,
+    symbols_put,
+)
+from dynsolve.explain.context import is_short
+from dynsolve.explain.entry_formulas import coriolis_matrix
+from dynsolve.explain.forms import Forms, is_numeric
+from dynsolve.explain.recurring import Definition, expanded
+from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
+from dynsolve.notation.build import cost, negated, split_sign, summands, times, total
+from dynsolve.notation.printing import flat_factors
+from dynsolve.notation.tree import (
+    ZERO,
+    Function,
+    Matrix,
+    Negative,
+    Node,
+    Product,
+    Sum,
+    Symbol,
+    children,
+    equation,
+    walk,
+    with_children,
+)
+from dynsolve.quantities import letters
+
+_OF_COORDINATES = ("dLdqd", "ddt", "dLdq", "tau")
+"""What the names of the quantities of each coordinate begin with."""
+
+LEAST_SAVED_BY_SUMS = 80
+"""The operations that a name saves in the energies, momenta, forces and D, at least: four lines of text."""
+
+SHORTEST = 4
+"""The operations from which on such a sum, or one in its derivative, is worth a name."""
+
+
+# -- which sums get a name -------------------------------------------------------------------------
+
+
+def name_inertias(forms: Forms, names: Iterator[Symbol]) -> InertiaNames:
+    """Names for the sums by which LEAST_SAVED_BY_SUMS operations are saved; none of robots in numbers."""
+    robot = forms.robot
+    if is_numeric(robot):
+        return InertiaNames()
+    of_coordinates = (f"{stem}{q.index}" for q in robot.coordinates for stem in _OF_COORDINATES)
+    counted = (name for name in ("K", "D", "Cqd", *of_coordinates) if name in forms.values.rules)
+    trees = [forms(name) for name in counted]
+    found: list[Definition] = []
+    while (best := _worth_a_name(trees)) is not None:
+        found.append(Definition(next(names), best))
+        trees = [Exchange.of(found[-1]).put(node) for node in trees]
+    return _with_slopes(forms, found, names)
+
+
+def _worth_a_name(trees: Iterable[Node]) -> Sum | None:
+    """The sum without sines and rates by which most operations are saved."""
+    uses = Counter(part for tree in trees for part in _sums(tree) if not _moves(part))
+    saved = {part: (count - 1) * cost(part) for part, count in uses.items() if cost(part) >= SHORTEST}
+    best = max(saved, key=lambda part: saved[part], default=None)
+    return None if best is None or saved[best] < LEAST_SAVED_BY_SUMS else best
+
+
+def _sums(node: Node) -> Iterator[Sum]:
+    """The sums in a tree but those of angles."""
+    if isinstance(node, Sum):
+        yield node
+    if not isinstance(node, Function):
+        for part in children(node):
+            yield from _sums(part)
+
+
+def _moves(node: Node) -> bool:
+    """Whether there are sines or rates in a tree, and not parameters and lengths alone."""
+    return any(isinstance(part, Function) or (isinstance(part, Symbol) and part.dots) for part in walk(node))
+
+
+def _with_slopes(forms: Forms, found: Sequence[Definition], names: Iterator[Symbol]) -> InertiaNames:
+    """The names with their derivatives by the coordinates; sums in these have names too."""
+    ring = forms.robot.ring
+    slopes: list[tuple[Node, Symbol, Node, Node]] = []
+    for one, meaning in zip(found, expanded(found, [one.name for one in found]), strict=True):
+        value = value_of(ring, meaning)
+        for k, by in enumerate(map(Symbol, ring.names)):
+            if not (slope := ring.diff(value, k)).is_zero:
+                in_letters = letters.partial_derivative(one.name, by)
+                slopes.append((in_letters, by, differentiated(meaning, by_symbol(by)).tree, forms.of(slope)))
+    sums = (part for *_, collected in slopes for part in walk(collected) if isinstance(part, Sum))
+    long = (part for part in dict.fromkeys(sums) if cost(part) >= SHORTEST)
+    definitions = (*found, *(Definition(name, part) for part, name in zip(long, names, strict=False)))
+    named = InertiaNames(definitions, (), tuple(map(Exchange.of, definitions)))
+    equal: dict[Node, list[Node]] = {}
+    exchanges = list(named.exchanges)
+    for name, by, termwise, collected in slopes:
+        short, rate = named.put(collected), Symbol(by.name, 1)
+        equal.setdefault(short, []).append(name)
+        pairs = ((termwise, short), (_times(termwise, rate), _times(short, rate)))
+        exchanges += [Exchange(written, form) for written, form in pairs if isinstance(written, Sum)]
+    return InertiaNames(
+        definitions,
+        tuple(equation(*left, right) for right, left in equal.items()),
+        tuple(exchanges),
+        frozenset(ring.names.index(by.name) + 1 for _, by, _, _ in slopes),
+    )
+
+
+def _times(node: Node, rate: Symbol) -> Node:
+    """The terms of a sum times a rate, as the chain rule has them."""
+    return total([product_of(1, [(term, 1), (rate, 1)]) for term in summands(node)])
+
+
+# -- names for what Christoffel symbols are: h of the planar elbow, or σ₁, σ₂,  --------------------
+# Symbols are equal, or opposite, again and again: c_112 = -c_121.  Where all are one value but for its sign,
+# that is the books' h (Spong, Hutchinson, Vidyasagar, section 7.4).  Otherwise they get names where C would
+# fill half a page; C, Ḋ and N = Ḋ - 2C are then short sums of names and rates.
+#
+# What recurs in the energies already is named there, and the symbols are written by that.
+
+LONG_CORIOLIS = 50
+"""The operations of C from which on its symbols get names: it would not fit the page as a matrix."""
+
+
+def name_symbols(forms: Forms) -> Abbreviated | None:
+    """The model with names for its Christoffel symbols, and for long sums of masses and lengths in it.
+
+    None where it is short without, or the arm longer.
+    """
+    robot, C = forms.robot, forms("C")
+    if not is_short(robot, forms.values) or not isinstance(C, Matrix):
+        return None
+    taken = {*robot.ring.parameters, *robot.ring.names}
+    free = free_names(RECURRING, taken)
+    inertias = name_inertias(forms, free)
+
+    def form(value: Expr) -> Node:
+        return inertias.put(forms.of(value))
+
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    order = [values[key] for key in as_shown(values)]
+    definitions: Sequence[Definition] = ()
+    made: dict[Expr, Node] = {}
+    if SINGLE not in taken and _is_one_value(forms, values):
+        first = next(value for value in order if not value.is_zero)  # it has a plus
+        definitions = (Definition(Symbol(SINGLE), form(first)),)
+        made = {first: Symbol(SINGLE), -first: Negative(Symbol(SINGLE)), robot.ring.zero: ZERO}
+    elif sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG_CORIOLIS:
+        namer = _SymbolNames(form, order, free)
+        made, definitions = {value: namer.written(value) for value in order}, namer.definitions
+    symbols = {key: made[value] if made else form(value) for key, value in values.items()}
+    sums = (*inertias.definitions, *definitions)
+    if not sums:
+        return None
+    D, g = inertias.put(forms("D")), inertias.put(forms("g"))
+    assert isinstance(D, Matrix) and isinstance(g, Matrix)
+    C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
+    of_coordinates = (f"{stem}{q.index}" for q in robot.coordinates for stem in _OF_COORDINATES)
+    written: dict[str, Node] = {"D": D, "C": C, "g": g}
+    for name in ("K", "L", "Cqd", *of_coordinates):
+        if name in forms.values.rules:
+            written[name] = inertias.put(forms(name))
+            if WITH_RATES.fullmatch(name):
+                written[name] = _symbols_put_by_rates(definitions, written[name])
+    return Abbreviated((), sums, D, C, g, symbols, inertias=inertias, at_symbols=True, forms=written)
+
+
+def _symbols_put_by_rates(symbols: Sequence[Definition], node: Node) -> Node:
+    """A sum, or a matrix of sums, with the names of symbols in the terms with rates."""
+    match node:
+        case Matrix():
+            return with_children(node, partial(_symbols_put_by_rates, symbols))
+        case Sum(terms):
+            return total([_symbols_put_by_rates(symbols, term) for term in terms])
+    has_rates = any(isinstance(part, Symbol) and part.dots == 1 for part in walk(node))
+    return symbols_put(symbols, node) if has_rates else node
+
+
+def _is_one_value(forms: Forms, symbols: Mapping[Index, Expr]) -> bool:
+    """Whether several symbols are not zero, all of them the same but for sign, and worth a name."""
+    found = [value for value in symbols.values() if not value.is_zero]
+    alike = all(value in (found[0], -found[0]) for value in found)
+    return len(found) > 1 and alike and cost(forms.of(found[0])) >= SHORTEST
+
+
+class _SymbolNames:
+    """Gives a name to each symbol worth one; what has another one as factor or part is written by that."""
+
+    def __init__(self, form: Callable[[Expr], Node], values: Sequence[Expr], names: Iterator[Symbol]) -> None:
+        self.forms: dict[Expr, Node] = {}
+        for value in values:
+            if value not in self.forms and -value not in self.forms:
+                self.forms[value] = form(value)
+        self.definitions: list[Definition] = []
+        self._names = names
+        self._done: dict[Expr, Node] = {}
+
+    def written(self, value: Expr) -> Node:
+        """A symbol by its name, by that of another one, or as it is."""
+        if value not in self.forms:
+            return total([negated(self.written(-value))])
+        found = self._done.get(value)
+        if found is None:
+            form = self.forms[value]
+            found = form if cost(form) < SHORTEST else self._multiple(value) or self._named(self._sum(form))
+            self._done[value] = found
+        return found
+
+    def _named(self, form: Node) -> Node:
+        minus = isinstance(summands(form)[0], Negative)  # of a sum, that every term has one
+        name = next(self._names)
+        self.definitions.append(Definition(name, total([negated(form)]) if minus else form))
+        return Negative(name) if minus else name
+
+    def _multiple(self, value: Expr) -> Node | None:
+        """The symbol as a product in which another one, worth a name, is a factor."""
+        sign, inner = split_sign(self.forms[value])
+        factors = Counter(_factors(inner))
+        for other, form in self.forms.items():
+            other_sign, part = split_sign(form)
+            own = Counter(_factors(part))
+            if cost(part) >= SHORTEST and own < factors:
+                rest = [(factor, 1) for factor in (factors - own).elements()]
+                return times(sign * other_sign, [(self.written(other), 1), *rest])
+        return None
+
+    def _sum(self, form: Node) -> Node:
+        """A sum in which all terms of another symbol's stand, with the name of that in their place."""
+        terms = summands(form)
+        for other, part in self.forms.items():
+            for sign in (1, -1):
+                own = summands(part) if sign > 0 else tuple(map(negated, summands(part)))
+                if 1 < len(own) < len(terms) and set(own) <= set(terms):
+                    rest = [term for term in terms if term not in own]
+                    return total([*rest, times(sign, [(self.written(other), 1)])])
+        return form
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    return flat_factors(node) if isinstance(node, Product) else (node,)
