@@ -24,8 +24,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
-from dynsolve.answers.diagnosis.slips import slip
-from dynsolve.answers.diagnosis.slips.terms import SET_SLIPS
+from dynsolve.answers.diagnosis.slips import SET_SLIPS, slip
 from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
 from dynsolve.answers.judging.answer_values import AnswerValue, same
 from dynsolve.answers.judging.configurations import ConfigurationKey

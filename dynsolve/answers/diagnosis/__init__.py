@@ -1,6 +1,6 @@
 """Diagnosis: which slip explains an answer that is wrong, told to the person it happened to.
 
-A slip is a record in a file of `slips`: its code, its kind in a few words, a message in the second
+A slip is a record in `slips`: its code, its kind in a few words, a message in the second
 person that says what happened, and what to look at.  A diagnosis is true or silent: every slip
 brings its mend (`mends`), and is told only where the mend, put into the student's own value,
 gives exactly the value that the student's own nearest answers lead to; where no slip does, what
@@ -23,8 +23,6 @@ What they share: `wrong_entry` (the scalar that is wrong, its terms in words, a 
 `mends` (what mends an answer, and an expression as terms), `own_steps` (what steps give from the student's
 own answers).
 
-`slips.terms` are what is said of sets of configurations, which are held in numbers.
-
-To add a slip, write its record with an example in a file of `slips`, and its recognition with
+To add a slip, write its record in `slips`, an example in the tests, and its recognition with
 its mend in the file above that it belongs to; the tests run every example.
 """

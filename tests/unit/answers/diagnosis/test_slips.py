@@ -10,25 +10,23 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.own_steps import DerivationSlips
 from dynsolve.answers.diagnosis.slips import SLIPS
-from dynsolve.answers.diagnosis.slips.dynamics import Slip
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
+from tests.unit.answers.diagnosis.slip_examples import EXAMPLES
 from tests.unit.answers.hands import checker, codes, judged, key, problem
 
-WITH_EXAMPLES = [slip for slip in SLIPS.values() if slip.example]
 STEMS = ["in3140-rp", "planar-2r", "elbow-3r", "scara-rrpr", "rp-vertical"]
 
 
-@pytest.mark.parametrize("slip", WITH_EXAMPLES, ids=lambda slip: slip.code)
-def test_the_example_of_a_slip_shows_it(slip: Slip) -> None:
-    example = slip.example
-    assert example is not None
+@pytest.mark.parametrize("code", EXAMPLES)
+def test_the_example_of_a_slip_shows_it(code: str) -> None:
+    example = EXAMPLES[code]
     answer = judged(example.problem, example.name, example.value, **example.beside)
     assert answer.verdict == "wrong"
-    assert slip.code in codes(answer)
+    assert code in codes(answer)
 
 
 @lru_cache
@@ -70,7 +68,7 @@ def test_every_slip_has_an_example_or_a_step() -> None:
     steps = {told.code for stem in STEMS for node in graph(stem).answer_ring.rules
              for _, told in variants(graph(stem).robot, node, graph(stem).key)}  # fmt: skip
     told_elsewhere = {"trig_part", "terms_differ"}
-    assert set(SLIPS) - {s.code for s in WITH_EXAMPLES} - steps == told_elsewhere
+    assert set(SLIPS) - EXAMPLES.keys() - steps == told_elsewhere
 
 
 @pytest.mark.parametrize(
