@@ -4,7 +4,7 @@
     judging         the trees -> values in one ring -> compared with the key, and with what
                     the student's own earlier answers lead to
     diagnosis       what is left is wrong: which slip explains it
-    marking         verdicts -> marks, by the policy of a course
+    marks           verdicts -> marks, by the policy of a course
     feedback        the `Report` as JSON, and as a document for a student or a teacher
     verdict         the records of all that is said, of a hand-in as it was read, and of what was not judged
 

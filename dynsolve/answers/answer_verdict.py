@@ -3,7 +3,7 @@
     unreadable   it has no value (the reader or the ring refused it)
     correct      every entry is the key's
     follows      every entry that is not is explained by the student's own earlier answers,
-                 none of which keeps nothing of the key (`judging.content`)
+                 none of which keeps nothing of the key (`judging.explanation`)
     wrong        else; then each wrong entry is diagnosed
 
 A matrix has a verdict for each entry, C for each row of C q̇, and takes the worst.

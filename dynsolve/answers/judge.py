@@ -61,7 +61,7 @@ from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison
-from dynsolve.answers.marking.marks import Policy, mark, weighed
+from dynsolve.answers.marks import Policy, mark, weighed
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.reading.report_text import NO_CLAIMS
 from dynsolve.answers.table_verdict import NAME as TABLE

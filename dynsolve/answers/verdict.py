@@ -219,7 +219,7 @@ class JudgedAnswer(Struct, frozen=True):
     """What is said of one answer; `written` is the tree of what the student wrote.
 
     What it is worth beside its verdict (`zero`, `empty`, `loss`, `parts`) is explained in
-    `marking.marks`.
+    `marks`.
     """
 
     name: str

@@ -17,6 +17,6 @@
     public              `dynsolve.grade` and `dynsolve.override`
 
 Nothing of a verdict is decided here; `dynsolve.answers` does that.  How to add a learning
-platform stands in `platforms`; a rule of marking is a field of `answers.marking.marks.Policy`,
-described and read in `set_file` and applied in `answers.marking.marks`.
+platform stands in `platforms`; a rule of marking is a field of `answers.marks.Policy`,
+described and read in `set_file` and applied in `answers.marks`.
 """

@@ -15,7 +15,7 @@ from hashlib import sha256
 from html import escape
 from pathlib import Path
 
-from dynsolve.answers.marking.marks import shown
+from dynsolve.answers.marks import shown
 from dynsolve.render.files import temporary_of, write_changed
 from dynsolve.render.prose import visible
 

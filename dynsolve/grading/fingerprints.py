@@ -16,7 +16,7 @@ from fractions import Fraction
 from hashlib import sha256
 from typing import Any
 
-from dynsolve.answers.marking.marks import Policy, mark, shown, to_data
+from dynsolve.answers.marks import Policy, mark, shown, to_data
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.grading.hand_ins import HandIn, Intake
 from dynsolve.grading.pool import Bounds, program

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from msgspec import Struct
 
-from dynsolve.answers.marking.marks import deduction, points, shown
+from dynsolve.answers.marks import deduction, points, shown
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.cohort import Entry, for_a_human, most, queue, standings
 from dynsolve.grading.files import decimal, folder_name, remove_others, safe, table, write

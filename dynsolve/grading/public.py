@@ -15,7 +15,7 @@ from unicodedata import normalize
 
 from msgspec import Struct
 
-from dynsolve.answers.marking.marks import shown
+from dynsolve.answers.marks import shown
 from dynsolve.errors import Finding, InputError, UsageError
 from dynsolve.grading.cohort import Entry, queue, standings
 from dynsolve.grading.fingerprints import changes

@@ -20,7 +20,7 @@ from urllib.parse import quote
 
 from msgspec import Struct, field
 
-from dynsolve.answers.marking.marks import points, shown
+from dynsolve.answers.marks import points, shown
 from dynsolve.answers.reading.files import ENDINGS, FORMATS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import ReadError

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 from msgspec import Struct
 
-from dynsolve.answers.marking.marks import Marked, Policy, deduction, mark, points
+from dynsolve.answers.marks import Marked, Policy, deduction, mark, points
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.errors import UsageError
 from dynsolve.quantities.index import Quantities

@@ -20,7 +20,7 @@ from typing import Any, Protocol
 
 from msgspec import Struct
 
-from dynsolve.answers.marking.marks import to_data
+from dynsolve.answers.marks import to_data
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,

@@ -37,7 +37,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from dynsolve.algebra.rationals import rational_value
-from dynsolve.answers.marking.marks import Policy, from_data, shown, to_data
+from dynsolve.answers.marks import Policy, from_data, shown, to_data
 from dynsolve.errors import Finding, ProblemError, UsageError
 from dynsolve.grading.record import Record
 from dynsolve.grading.uploads import Extension, Fault, read_extensions, read_list

@@ -20,7 +20,7 @@ from urllib.parse import quote
 
 from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.answers.feedback import FeedbackView, not_recognized, opening, readings, slips
-from dynsolve.answers.marking.marks import shown
+from dynsolve.answers.marks import shown
 from dynsolve.answers.verdict import Report
 from dynsolve.document import Block, Document, Note, Text
 from dynsolve.explain.context import style_of

@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 from msgspec.structs import replace
 
 from dynsolve.answers.judge import REMEDY, Checker, Judge, Stopped, limited
-from dynsolve.answers.marking.marks import Marked, from_data, mark
+from dynsolve.answers.marks import Marked, from_data, mark
 from dynsolve.answers.reading.answer_list import readable
 from dynsolve.answers.verdict import (
     Answer,

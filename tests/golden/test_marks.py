@@ -15,7 +15,7 @@ import pytest
 from msgspec.structs import replace
 
 from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.marking.marks import Policy, mark
+from dynsolve.answers.marks import Policy, mark
 from dynsolve.problem import load
 from tests.conftest import LARGE
 from tests.support import STEMS, TEXTBOOKS, problem_file, solved

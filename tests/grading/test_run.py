@@ -12,7 +12,7 @@ import pytest
 from msgspec.structs import replace
 
 import dynsolve
-from dynsolve.answers.marking.marks import Policy
+from dynsolve.answers.marks import Policy
 from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
 from dynsolve.grading import public

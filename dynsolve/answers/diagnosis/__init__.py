@@ -9,9 +9,7 @@ slip of a step is told of an entry only where it spoils none that is right; of C
 where it alone is not Christoffel's, else a row of C q̇.  `diagnoser` decides that, and tries the
 explanations one after the other, the nearest first, in the order of the list at its end:
 
-    steps            this step done otherwise, from the student's own inputs (`kinematic_steps`: of what
-                     exercises ask of the kinematics)
-    action_steps     the same of springs, rotors and friction
+    steps            this step done otherwise, from the student's own inputs
     exchanges        one factor where another belongs (`factors` has the pairs), a sign, a number, a missing
                      term, and the words of the mend; several such slips, each in a term of its own
     substitution     one symbol, angle or function for another throughout

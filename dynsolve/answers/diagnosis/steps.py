@@ -1,30 +1,38 @@
 """Slips in one step: the step done otherwise, from the student's own inputs.
 
-Each function gives, for a node and the values of its inputs, what comes out when
-the step goes wrong in a way that people do.
+Each function gives, for the robot, what owns the quantity (a joint, a body, a coordinate, a point, or
+None), and the values of the inputs, what comes out when the step goes wrong in a way that people do.
+The table at the end says which of them are tried for a quantity of which family.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from fractions import Fraction
+from functools import partial
+from itertools import chain
 from typing import Any
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis import kinematic_steps
+from dynsolve.algebra.matrix import AtState, Matrix
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.derivation import euler_lagrange, kinematics, link_frame
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.quantities import families
-from dynsolve.quantities.family import Family
+from dynsolve.quantities import action_families, families
+from dynsolve.quantities.family import Family, Owner
 from dynsolve.quantities.index import quantities
+from dynsolve.questions import rates, statics
+from dynsolve.questions import task as of_task
+from dynsolve.questions.statics.derive import jacobians, total, wrench
+from dynsolve.robot.actions import Actions
 from dynsolve.robot.model import AxesKind, Body, Convention, Coordinate, Joint, Robot
+from dynsolve.robot.questions import NamedPoint
 
 Variant = tuple[Any, Diagnosis]
 """A value that a step gives when it goes wrong, and the slip."""
@@ -32,41 +40,37 @@ Variant = tuple[Any, Diagnosis]
 InputValue = Callable[[str], Any]
 """The nearest value of a node."""
 
+Variants = Callable[[Robot, Any, InputValue], Iterator[Variant]]
+
 
 def variants(robot: Robot, node: str, value: InputValue) -> Iterator[Variant]:
     """The values that a step gives when it is done wrongly, with the slip; `value` gives its inputs."""
     quantity = quantities(robot).of_rule(node)
     if quantity is None:
         return
-    family, index = quantity.family, quantity.index
-    if family in _OF_ROBOT:
-        yield from _OF_ROBOT[family](robot, value)
-    elif family in _OF_ROW:
-        yield from _OF_ROW[family](robot, robot.joints[index[0] - 1], value)
-    elif family in _OF_BODY:
-        yield from _OF_BODY[family](robot, robot.bodies[index[0] - 1], value)
-    elif family in _OF_COORDINATE:
-        yield from _OF_COORDINATE[family](robot, robot.coordinates[index[0] - 1], value)
-    elif family in kinematic_steps.OF_POINT:
-        yield from kinematic_steps.OF_POINT[family](robot, robot.questions.points[index[0] - 1], value)
-    if robot.actions:
-        from dynsolve.answers.diagnosis.action_steps import action_variants
-
-        yield from action_variants(robot, quantity, value)
+    owners: dict[Owner, Sequence[Any]] = {
+        Owner.ROW: robot.joints,
+        Owner.BODY: robot.bodies,
+        Owner.COORDINATE: robot.coordinates,
+        Owner.POINT: robot.questions.points,
+    }
+    owner = quantity.family.owner
+    of = owners[owner][quantity.index[0] - 1] if owner in owners else None
+    if quantity.family in _OTHERWISE:
+        yield from _OTHERWISE[quantity.family](robot, of, value)
 
 
 # -- kinematics ------------------------------------------------------------------------------------
 
 
 def _dh(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
-    right = kinematics.dh_matrix(robot, joint)
     bare = Angle(tuple(t for t in joint.theta.terms if t[0][0][0] in robot.ring.names))
     if joint.theta != bare and bare.terms:
         yield kinematics.dh_matrix(robot, replace(joint, theta=bare)), slip("offset")
     other = Convention.MODIFIED if robot.convention is Convention.STANDARD else Convention.STANDARD
     yield kinematics.dh_matrix(replace(robot, convention=other), joint), slip("convention")
     yield kinematics.dh_matrix(robot, replace(joint, alpha=-joint.alpha)), slip("twist_sign")
-    yield right.T, slip("transposed")
+    yield kinematics.dh_matrix(robot, joint).T, slip("transposed")
 
 
 def _frame(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
@@ -75,13 +79,41 @@ def _frame(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
 
 
 def _center(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
-    if not robot.has_table:
-        return
-    for link in (body.link, body.link - 1):
-        yield (
-            kinematics.origin(value(f"H{link}")),
-            slip("frame_origin", part=str(link), other=body.name),
-        )
+    for link in (body.link, body.link - 1) if robot.has_table else ():
+        yield kinematics.origin(value(f"H{link}")), slip("frame_origin", part=str(link), other=body.name)
+
+
+def _rotation(robot: Robot, frame: int | None, value: InputValue) -> Matrix:
+    return Matrix.identity(robot.ring, 3) if frame is None else kinematics.rotation(value(f"H{frame}"))
+
+
+def _ground(frame: int | None) -> str:
+    return "the world" if frame is None else f"frame {frame}"
+
+
+def _along_last_axes(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    """R_nᵀ J: the Jacobian along the axes of the last frame."""
+    last = len(robot.joints)
+    R = _rotation(robot, last, value)
+    if Matrix.identity(robot.ring, 3) != R:
+        yield R.T @ value("Jv"), slip("tool_frame", part=f"frame {last}", asked="the base")
+
+
+def _along_other_axes(name: str, robot: Robot, point: NamedPoint, value: InputValue) -> Iterator[Variant]:
+    """What is asked for along the axes of one frame, along those of the world and of every other."""
+    right = value(name + point.name)
+    world = _rotation(robot, point.axes, value) @ right
+    for frame in (None, *range(1, len(robot.joints) + 1)):
+        own = _rotation(robot, frame, value).T @ world
+        if own != right:
+            yield own, slip("tool_frame", part=_ground(frame), asked=_ground(point.axes))
+
+
+def _joint_rates(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    """J_rᵀ ṙ in place of J_r⁻¹ ṙ."""
+    if (wanted := robot.questions.velocity) is not None:
+        at = _at(robot)
+        yield at.matrix(value("Jr")).T @ at.matrix(wanted), slip("transpose_for_inverse")
 
 
 # -- Jacobians -------------------------------------------------------------------------------------
@@ -94,20 +126,16 @@ def _frames(value: InputValue, link: int) -> list[Matrix]:
 def _linear_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
     if not robot.has_table:
         return
-    frames = _frames(value, len(robot.joints))
-    tip = kinematics.origin(frames[body.link])
-    yield (
-        kinematics.linear_jacobian(robot, frames, tip, body.link),
-        slip("frame_origin", part=str(body.link), other=body.name),
-    )
-    if body.link < len(robot.joints):
-        yield (
-            kinematics.linear_jacobian(robot, frames, value(f"rc{body.name}"), len(robot.joints)),
-            slip("joint_columns", part=body.name),
-        )
+    links = len(robot.joints)
+    frames = _frames(value, links)
+    at_origin = kinematics.linear_jacobian(robot, frames, kinematics.origin(frames[body.link]), body.link)
+    yield at_origin, slip("frame_origin", part=str(body.link), other=body.name)
+    if body.link < links:
+        of_all = kinematics.linear_jacobian(robot, frames, value(f"rc{body.name}"), links)
+        yield of_all, slip("joint_columns", part=body.name)
 
 
-def _end_jacobian(robot: Robot, value: InputValue) -> Iterator[Variant]:
+def _end_jacobian(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     links = len(robot.joints)
     yield _all_turn(robot, _frames(value, links), links), slip("prismatic_turns")
 
@@ -133,6 +161,45 @@ def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
     return Matrix.of(robot.ring, ([c[i, 0] for c in columns] for i in range(3)))
 
 
+# -- forces at rest --------------------------------------------------------------------------------
+
+
+def _outer_forces(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    loads = robot.questions.loads
+    if _have_moments(robot) and any(not load.force.is_zero for load in loads):
+        yield _without_moments(robot, value), slip("moments_left_out")
+
+
+def _holding(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    g, Q = Matrix.zero(robot.ring, robot.n, 1), value("Q")
+    if robot.bodies:
+        g = _at(robot).matrix(value("g"))
+    yield g + Q, slip("load_sign")
+    if _have_moments(robot):
+        yield g - _without_moments(robot, value), slip("moments_left_out")
+    if not g.is_zero:
+        yield -Q, slip("weight_left_out")
+
+
+def _have_moments(robot: Robot) -> bool:
+    return any(not load.moment.is_zero for load in robot.questions.loads)
+
+
+def _without_moments(robot: Robot, value: InputValue) -> Matrix:
+    """Σ J_vᵀ F."""
+    parts = []
+    for load in robot.questions.loads:
+        frames = tuple(value(name) for name in kinematics.frame_names(load.link))
+        linear, _ = jacobians(robot, load, frames)
+        force, _ = wrench(load, frames[load.link])
+        parts.append(linear.T @ force)
+    return _at(robot).matrix(total(robot, tuple(parts)))
+
+
+def _at(robot: Robot) -> AtState:
+    return AtState(robot.ring, robot.questions.state.by_symbol)
+
+
 # -- inertia and energies --------------------------------------------------------------------------
 
 
@@ -140,12 +207,13 @@ def _body_inertia(robot: Robot, body: Body, value: InputValue) -> Iterator[Varia
     if body.inertia is None:
         return
     right = value(f"I_body{body.name}")
+    twice = slip("parallel_axis_twice", part=body.name)
     if body.about_point is None:
         yield from _about_joint(robot, body, right)
         return
     yield body.inertia, slip("parallel_axis_missing", part=body.name)
-    yield right + right - body.inertia, slip("parallel_axis_twice", part=body.name)
-    yield body.inertia + body.inertia - right, slip("parallel_axis_twice", part=body.name)
+    yield right + right - body.inertia, twice
+    yield body.inertia + body.inertia - right, twice
 
 
 def _about_joint(robot: Robot, body: Body, right: Matrix) -> Iterator[Variant]:
@@ -177,10 +245,9 @@ def _base_inertia(robot: Robot, body: Body, value: InputValue) -> Iterator[Varia
 def _rotational(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
     if body.is_point:
         return
-    w = value(f"w{body.name}")
-    yield link_frame.rotational_energy(w, value(f"I_body{body.name}")), slip("spin_frame", part=body.name)
-    for tensor, told in _base_inertia(robot, body, value):
-        yield link_frame.rotational_energy(w, tensor), told
+    in_own_frame = value(f"I_body{body.name}"), slip("spin_frame", part=body.name)
+    for tensor, told in chain((in_own_frame,), _base_inertia(robot, body, value)):
+        yield link_frame.rotational_energy(value(f"w{body.name}"), tensor), told
 
 
 def _linear(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
@@ -188,12 +255,20 @@ def _linear(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
         yield link_frame.linear_energy(body.mass, link_frame.velocity(robot, J)), told
 
 
-def _total_potential(robot: Robot, value: InputValue) -> Iterator[Variant]:
-    right = value("P")
-    springs = value("Ps") if robot.actions.springs else robot.ring.zero
+def _spring_part(robot: Robot, value: InputValue) -> Expr:
+    """The part of P that springs have."""
+    part: Expr = value("Ps") if robot.actions.springs else robot.ring.zero
+    return part
+
+
+def _total_potential(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    right, springs = value("P"), _spring_part(robot, value)
     yield springs + springs - right, slip("gravity_sign")
     for body in robot.bodies:
         yield right - value(f"P{body.name}"), slip("body_missing", part=body.name, other="P")
+    if robot.actions.springs:
+        yield right - springs, slip("springs_missing")
+        yield right - springs - springs, slip("spring_sign")
 
 
 def _potential(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
@@ -208,153 +283,198 @@ def _kinetic(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
     yield value(f"Kw{body.name}"), slip("translation_missing")
 
 
-def _total_kinetic(robot: Robot, value: InputValue) -> Iterator[Variant]:
-    bodies = robot.bodies
-    if not bodies:
-        return
+def _total_kinetic(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     rotors = value("Km") if robot.actions.motors else robot.ring.zero
-    total = link_frame.total(robot.ring, (*(value(f"K{b.name}") for b in bodies), rotors))
-    for b in bodies:
-        if len(bodies) > 1:
-            yield total - value(f"K{b.name}"), slip("body_missing", part=b.name, other="K")
-    yield (
-        link_frame.total(robot.ring, (*(value(f"Kv{b.name}") for b in bodies), rotors)),
-        slip("rotation_missing"),
-    )
+    if bodies := robot.bodies:
+        every = link_frame.total(robot.ring, (*(value(f"K{b.name}") for b in bodies), rotors))
+        for b in bodies if len(bodies) > 1 else ():
+            yield every - value(f"K{b.name}"), slip("body_missing", part=b.name, other="K")
+        linear = link_frame.total(robot.ring, (*(value(f"Kv{b.name}") for b in bodies), rotors))
+        yield linear, slip("rotation_missing")
+    if robot.actions.motors:
+        yield value("K") - rotors, slip("rotors_missing")
 
 
 # -- Lagrange --------------------------------------------------------------------------------------
 
 
-def _lagrangian(robot: Robot, value: InputValue) -> Iterator[Variant]:
-    yield value("K") + value("P"), slip("lagrangian_sum")
-    springs = value("Ps") if robot.actions.springs else robot.ring.zero
-    yield value("K") - springs, slip("gravity_missing")
+def _lagrangian(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    K, P, springs = value("K"), value("P"), _spring_part(robot, value)
+    yield K + P, slip("lagrangian_sum")
+    yield K - springs, slip("gravity_missing")
+    if robot.actions.springs:
+        yield K - P + springs, slip("springs_missing")
 
 
 def _rate(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
     """d/dt ∂L/∂q̇ with one coordinate held constant, all of them, or inner derivatives left out."""
     ring, p = robot.ring, value(f"dLdqd{q.index}")
-    partials = [ring.diff(p, k) for k in range(robot.n)]
-    moving = [k for k, one in enumerate(partials) if not one.is_zero]
+    moving = {
+        q.name: partial for k, q in enumerate(robot.coordinates) if not (partial := ring.diff(p, k)).is_zero
+    }
     if not moving:
         return
     right = ring.time_derivative(p)
-    names = [q.name for q in robot.coordinates]
-    accelerated = right
-    for k in moving:
-        accelerated = accelerated - partials[k] * ring.symbol(names[k], 1)
-    every = ", ".join(_written(names[k]) for k in moving)
-    yield accelerated, slip("product_rule", part=every)
-    for k in moving:
-        part = partials[k] * ring.symbol(names[k], 1)
-        yield right - part, slip("product_rule", part=_written(names[k]))
-        yield right - part + partials[k], slip("chain_rule", part=_written(names[k], 1))
-    bare = accelerated
-    for k in moving:
-        bare = bare + partials[k]
-    yield bare, slip("chain_rule", part="q̇")
+    parts = {name: partial * ring.symbol(name, 1) for name, partial in moving.items()}
+    accelerated = right - _sum(ring.zero, parts.values())
+    yield accelerated, slip("product_rule", part=", ".join(map(_written, moving)))
+    for name, part in parts.items():
+        yield right - part, slip("product_rule", part=_written(name))
+        yield right - part + moving[name], slip("chain_rule", part=_written(name, 1))
+    yield accelerated + _sum(ring.zero, moving.values()), slip("chain_rule", part="q̇")
 
 
 def _written(name: str, dots: int = 0) -> str:
     return to_unicode(Symbol(name, dots), PLAIN)
 
 
+def _sum(start: Expr, terms: Iterable[Expr]) -> Expr:
+    for term in terms:
+        start = start + term
+    return start
+
+
 def _force(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
-    rate, dLdq = value(f"ddt{q.index}"), value(f"dLdq{q.index}")
-    if dLdq.is_zero:
-        return
-    resisted = value("friction")[q.index - 1, 0] if "friction" in robot.actions.kinds else robot.ring.zero
-    yield rate + dLdq + resisted, slip("slope_sign")
-    yield rate + resisted, slip("slope_missing")
+    """A force without ∂L/∂q or with its wrong sign; the same of friction; without springs."""
+    ring, rate, slope = robot.ring, value(f"ddt{q.index}"), value(f"dLdq{q.index}")
+    friction = value("friction")[q.index - 1, 0] if "friction" in robot.actions.kinds else ring.zero
+    if not slope.is_zero:
+        yield rate + slope + friction, slip("slope_sign")
+        yield rate + friction, slip("slope_missing")
+    if not friction.is_zero:
+        yield rate - slope, slip("friction_missing")
+        yield rate - slope - friction, slip("friction_sign")
+    if robot.actions.springs and not (held := ring.diff(value("Ps"), q.index - 1)).is_zero:
+        yield rate - slope + friction - held, slip("springs_missing")
 
 
 # -- the vectorized form ---------------------------------------------------------------------------
 
 
-def _forces(robot: Robot, value: InputValue) -> Iterator[Variant]:
-    yield from _rows(value("tau"))
-
-
-def _rows(right: Matrix) -> Iterator[Variant]:
+def _rows_of(name: str, robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     """Two rows exchanged."""
+    right: Matrix = value(name)
     rows = list(right.rows)
     for i in range(len(rows)):
         for j in range(i + 1, len(rows)):
             if rows[i] != rows[j]:
                 swapped = list(rows)
                 swapped[i], swapped[j] = rows[j], rows[i]
-                yield (
-                    Matrix(right.ring, tuple(swapped)),
-                    slip("rows_swapped", part=str(i + 1), other=str(j + 1)),
-                )
+                told = slip("rows_swapped", part=str(i + 1), other=str(j + 1))
+                yield Matrix(right.ring, tuple(swapped)), told
 
 
-def _gravity(robot: Robot, value: InputValue) -> Iterator[Variant]:
-    right = value("g")
-    springs = Matrix.zero(robot.ring, robot.n, 1)
+def _gravity(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    right, springs = value("g"), Matrix.zero(robot.ring, robot.n, 1)
     if robot.actions.springs:
         springs = euler_lagrange.gravity_vector(robot, value("Ps"))
     yield springs + springs - right, slip("gravity_sign")
-    yield from _rows(right)
+    yield from _rows_of("g", robot, of, value)
+    if robot.actions.springs:
+        yield right - springs, slip("springs_missing")
 
 
-def _coriolis(robot: Robot, value: InputValue) -> Iterator[Variant]:
-    D = value("D")
-    symbols = euler_lagrange.christoffel_symbols(robot, D)
-    ring, n = robot.ring, robot.n
-    rates = link_frame.velocities(robot)
+def _coriolis(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    symbols = euler_lagrange.christoffel_symbols(robot, value("D"))
+    ring, n, velocities = robot.ring, range(robot.n), link_frame.velocities(robot)
     plain = Matrix.of(
-        ring,
-        ([_sum(ring.zero, (symbols[min(i, j), max(i, j), k] for i in range(n))) for j in range(n)]
-         for k in range(n)),
-    )  # fmt: skip
-    yield plain @ rates, slip("christoffel_without_rates")
-    right = euler_lagrange.coriolis_matrix(robot, symbols) @ rates
+        ring, ([_sum(ring.zero, (symbols[min(i, j), max(i, j), k] for i in n)) for j in n] for k in n)
+    )
+    yield plain @ velocities, slip("christoffel_without_rates")
+    right = euler_lagrange.coriolis_matrix(robot, symbols) @ velocities
     yield right + right, slip("christoffel_half")
-    yield from _rows(right)
+    yield from _rows_of("Cqd", robot, of, lambda name: right)
 
 
-def _sum(zero: Expr, terms: Iterator[Expr]) -> Expr:
-    for term in terms:
-        zero = zero + term
-    return zero
+# -- springs, rotors, friction ---------------------------------------------------------------------
 
 
-def _inertia_matrix(robot: Robot, value: InputValue) -> Iterator[Variant]:
-    yield from _rows(value("D"))
+_SQUARES: tuple[tuple[str, Callable[[Expr, Expr], Expr]], ...] = (
+    ("spring_rest", lambda x, rest: x * x),
+    ("spring_square", lambda x, rest: x * x - rest * rest),
+    ("spring_rest_sign", lambda x, rest: (x + rest) ** 2),
+)
+"""What stands in the place of the square of a spring's stretch x - rest."""
 
 
-_OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
-    families.JW: _end_jacobian,
-    families.P: _total_potential,
-    families.K: _total_kinetic,
-    families.L: _lagrangian,
-    families.TAU: _forces,
-    families.D: _inertia_matrix,
-    families.CQD: _coriolis,
-    families.G: _gravity,
-    **kinematic_steps.OF_ROBOT,
-}
+def _springs(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    right = value("Ps")
+    yield right + right, slip("spring_half")
+    yield -right, slip("spring_sign")
+    for code, square in _SQUARES:
+        energies = (
+            spring.energy if (law := spring.law) is None else law.stiffness * square(law.of, law.rest) / 2
+            for spring in robot.actions.springs
+        )
+        yield _sum(robot.ring.zero, energies), slip(code)
 
-_OF_ROW: dict[Family, Callable[[Robot, Joint, InputValue], Iterator[Variant]]] = {
+
+def _rotors(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    from dynsolve.derivation.actions import rotor_energy
+
+    motors, one = robot.actions.motors, robot.ring.one
+    last = max(motor.carrier for motor in motors)
+    frames = tuple(value(name) for name in kinematics.frame_names(last)) if last else ()
+
+    def energy(**changes: Any) -> Expr:
+        changed = tuple(replace(motor, **changes) for motor in motors)
+        return rotor_energy(replace(robot, actions=Actions(motors=changed)), *frames)
+
+    if last:
+        yield energy(carrier=0), slip("carried_spin")
+    if any(motor.ratio != one for motor in motors):
+        yield energy(ratio=one), slip("gear_missing")
+        single = energy()  # with k_r in place of k_r² beside the square of the rate
+        for motor in motors:
+            rate = robot.ring.symbol(robot.ring.names[motor.turns], 1)
+            square = motor.inertia * rate * rate * Fraction(1, 2)
+            single = single + square * motor.ratio - square * motor.ratio * motor.ratio
+        yield single, slip("gear_square")
+
+
+def _friction(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    from dynsolve.derivation.actions import friction
+
+    acting, zero = robot.actions, robot.ring.zero
+    yield -value("friction"), slip("friction_sign")
+    if any(not one.coulomb.is_zero for one in acting.friction):
+        smooth = replace(acting, friction=tuple(replace(one, coulomb=zero) for one in acting.friction))
+        yield friction(replace(robot, actions=smooth)), slip("coulomb_missing")
+    if acting.dampers:
+        yield friction(replace(robot, actions=replace(acting, dampers=()))), slip("dampers_missing")
+
+
+_OTHERWISE: dict[Family, Variants] = {
     families.A: _dh,
     families.H: _frame,
-}
-
-_OF_BODY: dict[Family, Callable[[Robot, Body, InputValue], Iterator[Variant]]] = {
     families.RC: _center,
+    families.JV: _along_last_axes,
+    families.JW: _end_jacobian,
     families.JV_BODY: _linear_jacobian,
     families.JW_BODY: _angular_jacobian,
     families.I_BODY: _body_inertia,
     families.I: _base_inertia,
     families.P_BODY: _potential,
+    families.P: _total_potential,
     families.KV: _linear,
     families.KW: _rotational,
     families.K_BODY: _kinetic,
-}
-
-_OF_COORDINATE: dict[Family, Callable[[Robot, Coordinate, InputValue], Iterator[Variant]]] = {
+    families.K: _total_kinetic,
+    families.L: _lagrangian,
     families.DDT: _rate,
     families.FORCE: _force,
+    families.TAU: partial(_rows_of, "tau"),
+    families.D: partial(_rows_of, "D"),
+    families.CQD: _coriolis,
+    families.G: _gravity,
+    action_families.PS: _springs,
+    action_families.KM: _rotors,
+    action_families.FRICTION: _friction,
+    of_task.JV_POINT: partial(_along_other_axes, "Jv"),
+    of_task.JW_POINT: partial(_along_other_axes, "Jw"),
+    of_task.V_POINT: partial(_along_other_axes, "v"),
+    rates.QD: _joint_rates,
+    statics.Q: _outer_forces,
+    statics.TAU_STATIC: _holding,
 }
+"""How the steps to quantities go wrong, by their families."""

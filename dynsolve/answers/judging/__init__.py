@@ -6,10 +6,10 @@ answer_values      the answers of a hand-in with their values: in the problem's 
                    the
                    student's own, names of generalized forces, and the rows that planar robots leave out
 graph              which answers lead to which, by which routes
-own_constraint     A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds
 entry_comparison   whether two scalars are equal, and whether vectors span the same space
 key_comparison     an answer compared with the key, entry by entry
-other_solutions    what is right without being the key's: rates, the parameters a of τ = Y a
+equivalences       what is right without being the key's: a table of tests and words; the parameters a of
+                   τ = Y a; A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds
 mechanism          whether two Denavit-Hartenberg tables describe one mechanism
 hand_in            all of these for one hand-in; the zero of height, equations in which A_cᵀ λ stands
 follow_through     the values that the student's own answers lead to

@@ -28,8 +28,7 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import RingPlan
 from dynsolve.algebra.ring_values import ring_of
 from dynsolve.algebra.sampling import Transfer
-from dynsolve.answers.judging.evaluate import KnownValues
-from dynsolve.answers.judging.ring_extension import Known, extension_of
+from dynsolve.answers.judging.evaluate import Known, KnownValues, extension_of
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules
 from dynsolve.errors import AlgebraError

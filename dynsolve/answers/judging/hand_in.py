@@ -36,10 +36,15 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues, multiplier_names
 from dynsolve.answers.judging.entry_comparison import EntryComparer
+from dynsolve.answers.judging.equivalences import (
+    Other,
+    OwnConstraint,
+    as_matrix,
+    own_parameters,
+    with_own_constraint,
+)
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison, Obstacle
-from dynsolve.answers.judging.other_solutions import Other, as_matrix, own_parameters
-from dynsolve.answers.judging.own_constraint import OwnConstraint, with_own_constraint
 from dynsolve.answers.verdict import Answer
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, Symbol, names_in, walk, with_children

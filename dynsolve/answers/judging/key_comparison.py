@@ -13,8 +13,8 @@ from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, fitted, unfolded
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, difference, readings, spans
-from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.other_solutions import (
+from dynsolve.answers.judging.equivalences import (
+    Case,
     Other,
     as_matrix,
     forces_of,
@@ -22,6 +22,7 @@ from dynsolve.answers.judging.other_solutions import (
     other_solution,
     wrong_parameters,
 )
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
@@ -133,7 +134,7 @@ class KeyComparer:
         other = (
             None
             if compared.correct
-            else other_solution(self.graph, target.node, rows, self.compare, is_equation=is_equation)
+            else other_solution(Case(self.graph, target.node, rows, self.compare, is_equation))
         )
         if other is None:
             return compared

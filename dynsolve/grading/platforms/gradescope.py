@@ -15,7 +15,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from dynsolve.answers.marking.marks import points
+from dynsolve.answers.marks import points
 from dynsolve.grading.cohort import Standing, standings
 from dynsolve.grading.files import folder_name, remove_others
 from dynsolve.grading.platforms.roster import Roster, not_judged

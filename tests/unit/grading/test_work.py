@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from dynsolve.answers.marking.marks import Policy, to_data
+from dynsolve.answers.marks import Policy, to_data
 from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
 from dynsolve.grading.pool import Bounds, LocalPool, Worker

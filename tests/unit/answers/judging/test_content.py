@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.marking.marks import Policy, mark
+from dynsolve.answers.marks import Policy, mark
 from dynsolve.answers.verdict import Report
 from dynsolve.quantities.index import quantities
 from tests.unit.answers.hands import Text, checker, judge, problem, verdicts

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.answers.judging.other_solutions import Other
+from dynsolve.answers.judging.equivalences import Other
 from dynsolve.answers.verdict import JudgedAnswer
 
 BLADE = """

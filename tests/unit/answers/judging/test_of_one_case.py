@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.judging.other_solutions import Other
+from dynsolve.answers.judging.equivalences import Other
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from tests.unit.answers.hands import checker
 from tests.unit.answers.judging.elbow import ELBOW

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.answers.judging.other_solutions import Other
+from dynsolve.answers.judging.equivalences import Other
 from tests.unit.answers.hands import Text, judge, verdicts
 
 LINE = """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.answers.judge import check
-from dynsolve.answers.judging.other_solutions import Other
+from dynsolve.answers.judging.equivalences import Other
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.problem import read_problem
 from tests.unit.answers.hands import judge, judged, verdicts

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from dynsolve.answers.marking.marks import Policy, deduction, mark, maximum, rounded, shown
+from dynsolve.answers.marks import Policy, deduction, mark, maximum, rounded, shown
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.owners import Owners
