@@ -1,9 +1,8 @@
 """Comparing what a student wrote with the key, and with what the student's own answers lead to.
 
-answer_ring        the ring that holds the key and all that was written; `ring_extension` what that brings
-evaluate           a formula tree -> its value in that ring
-answer_values      the answers of a hand-in with their values: in the problem's coordinates, with names of
-                   the
+answer_ring        the ring that holds the key and all that was written
+evaluate           what a formula tree brings to that ring, and its value in it
+answer_values      the answers of a hand-in with their values: in the problem's coordinates, with names of the
                    student's own, names of generalized forces, and the rows that planar robots leave out
 graph              which answers lead to which, by which routes
 entry_comparison   whether two scalars are equal, and whether vectors span the same space
@@ -12,11 +11,10 @@ equivalences       what is right without being the key's: a table of tests and w
                    τ = Y a; A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds
 mechanism          whether two Denavit-Hartenberg tables describe one mechanism
 hand_in            all of these for one hand-in; the zero of height, equations in which A_cᵀ λ stands
-follow_through     the values that the student's own answers lead to
-content            where these start, which way between τ and D, C, g, and what a wrong answer keeps of the
-                   key,
-                   so that inventions lead nowhere and nothing explains itself
-explanation        which of those explains an answer
-configurations     sets of configurations and equilibria, in numbers; angles count modulo 2π
-branches           branches of the inverse; `target_branches` configurations that are to reach numbers
+follow_through     the values that the student's own answers lead to, and which way between τ and D, C, g,
+                   so that nothing explains itself
+explanation        which of those explains an answer, and what a wrong one keeps of the key, so that
+                   inventions lead nowhere
+configurations     sets of equations in numbers: singular configurations, equilibria, reduced motions
+branches           branches of the inverse, and configurations that are to reach numbers
 """

@@ -1,25 +1,16 @@
-"""Verdicts on sets of configurations: singular ones, and the branches of the inverse kinematics.
+"""Verdicts on sets of configurations and of equations, held in numbers at points of a fixed seed.
 
-They are held in numbers, at points of a fixed seed.  A branch is put into r(q) at values that
-configurations of samples reach; it is right where it gives them back, whatever its formula.  Of a set
-of equations, points on each alternative are found by Newton's method: at every point of the key
-the student's set must hold, and at every point of the student's the Jacobian must lose rank.
-
-Verdicts on equilibria: sets of equations, held in numbers against gravity and springs.
-
-At every point of the key's set the student's must hold, and at every point of the student's
-nothing may move.  An angle counts modulo 2π where the forces have that period in it.
-
-A configuration in round numbers, as an example of what is said of a set of configurations.
-
-Equations that hold together, in numbers: of a set of configurations one alternative.
+Of a set of equations, points on each alternative are found by Newton's method: at every point of the key
+the student's set must hold, and at every point of the student's there must be what is asked for: of
+singular configurations the Jacobian loses rank, of equilibria nothing moves.  An angle counts modulo 2π
+where the forces have that period in it.  Branches of the inverse kinematics are held in `branches`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from math import degrees, pi, radians, remainder
 from typing import TYPE_CHECKING, Any
 
@@ -30,7 +21,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import WIDEST
-from dynsolve.answers.judging.branches import RIGHT, BranchKey, SetVerdict
+from dynsolve.answers.judging.branches import RIGHT, BranchKey, SetVerdict, TargetKey
 from dynsolve.answers.verdict import ConfigurationAnswer, Part
 from dynsolve.derivation.configurations import (
     NO_VALUE,
@@ -61,11 +52,12 @@ from dynsolve.questions.singular.forms import SingularForms
 from dynsolve.robot.model import JointType, Robot
 
 if TYPE_CHECKING:
-    from dynsolve.answers.judging.target_branches import TargetKey
     from dynsolve.questions.constraints.check import ConstrainedStates
 
 
 # A configuration in round numbers, as an example of what is said of a set of configurations
+
+ANYWHERE = "At some configurations"
 
 _STEP = 15
 """Angles are told in multiples of so many degrees, lengths in whole numbers."""
@@ -99,10 +91,10 @@ def example_point(
             )
         if words and holds(at) and not fails(at):
             return f"At {', '.join(words)}"
-    return "At some configurations"
+    return ANYWHERE
 
 
-# Equations that hold together, in numbers: of a set of configurations one alternative
+# Sets of equations, in numbers
 
 
 class HeldEquations(Struct, frozen=True):
@@ -140,87 +132,98 @@ def _without_angle(part: Node) -> Node:
     return Number(0) if isinstance(part, Function) and part.name in ARCS else part
 
 
-# Verdicts on equilibria: sets of equations, held in numbers against gravity and springs
-
 _TURNS = 3
 """So many whole turns either way are looked at."""
 
 
-class EquilibriumKey:
-    """Equilibria: the forces that must be 0, the alternatives, and the numbers that the problem gives."""
+class EquationSet(Struct, frozen=True):
+    """A set of equations as the key has it: its alternatives, and whether a configuration `belongs` to it.
 
-    def __init__(
-        self,
-        robot: Robot,
-        forces: Sequence[Node],
-        alternatives: Sequence[Sequence[Node]],
-        numbers: Mapping[str, float],
-    ) -> None:
-        self.robot, self.alternatives, self.numbers = robot, alternatives, numbers
-        self.forces, self._forces = forces, compile_trees(forces)
+    `formulas` are those that it is about; points are looked for from the configurations `begun`.  The
+    angles `periodic` count modulo 2π each, those `together` where all of them turn; `wrong` and `missing`
+    are the codes of what is said of an alternative with too much, and of one that is not there.
+    """
+
+    robot: Robot
+    formulas: Sequence[Node]
+    alternatives: Sequence[Sequence[Node]]
+    belongs: Callable[[Mapping[str, float]], bool]
+    begun: Sequence[dict[str, float]]
+    wrong: str
+    missing: str
+    periodic: Collection[str] = ()
+    together: Collection[str] = ()
 
     def verdict(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
         """Whether a set is that of the key."""
         names = [q.name for q in self.robot.coordinates]
-        theirs = [held_equations((part.node for part in one), names, self._periodic) for one in given]
-        formulas = [*self.forces, *(part.node for one in given for part in one)]
-        for number, one in enumerate(given, 1):
-            points = list(self._points(tuple(part.node for part in one)))
+        alternatives = [tuple(part.node for part in one) for one in given]
+        theirs = [held_equations(one, names, self.periodic) for one in alternatives]
+        formulas = [*self.formulas, *(node for one in alternatives for node in one)]
+        for number, (nodes, held) in enumerate(zip(alternatives, theirs, strict=True), 1):
+            points = list(self._points(nodes))
             if not points:
                 return SetVerdict(False, "condition_never_holds", number)
-            if not all(map(self._is_balanced, points)):
-                holds = theirs[number - 1].hold
-                where = example_point(self.robot, formulas, points, holds, self._is_balanced)
-                return SetVerdict(False, "no_equilibrium", number, where=where)
+            if not all(map(self.belongs, points)):
+                where = example_point(self.robot, formulas, points, held.hold, self.belongs)
+                return SetVerdict(False, self.wrong, number, where=where)
 
         def is_met(q: Mapping[str, float]) -> bool:
             return any(one.hold(turned) for turned in self._turned(q) for one in theirs)
 
-        all_points = [q for conditions in self.alternatives for q in self._points(tuple(conditions))]
-        missed = [q for q in all_points if not is_met(q)]
+        missed = [q for one in self.alternatives for q in self._points(one) if not is_met(q)]
         if not missed:
             return RIGHT
-        shown = missed if given else []
-        where = example_point(self.robot, formulas, shown, self._is_balanced, is_met)
-        return SetVerdict(False, "equilibria_missing", where=where)
+        where = example_point(self.robot, formulas, missed if given else [], self.belongs, is_met)
+        return SetVerdict(False, self.missing, where=where)
 
-    def _is_balanced(self, q: Mapping[str, float]) -> bool:
-        return is_zero(self._forces, q)
-
-    def _points(self, conditions: tuple[Node, ...]) -> Iterator[dict[str, float]]:
+    def _points(self, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:
         """Configurations at which everything is 0; any at all where there is no condition."""
         program = compile_trees(list(conditions))
-        begun = starts(self.robot, self.numbers)
-        found = (zero_near(self.robot, program, start) if conditions else start for start in begun)
+        found = (zero_near(self.robot, program, start) if conditions else start for start in self.begun)
         return with_half_turns(self.robot, program, (q for q in found if q is not None))
 
     def _turned(self, q: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
         """The configuration, and those that are the same by whole turns of angles that turn together."""
         yield q
-        for turns in range(-_TURNS, _TURNS + 1) if self._together else ():
-            yield {**q} | {name: q[name] + 2 * pi * turns for name in self._together}
+        for turns in range(-_TURNS, _TURNS + 1) if self.together else ():
+            yield {**q} | {name: q[name] + 2 * pi * turns for name in self.together}
 
-    @property
-    def _turning(self) -> tuple[str, ...]:
-        return tuple(q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
 
-    @cached_property
-    def _periodic(self) -> frozenset[str]:
-        """The angles in which the forces have the period 2π."""
-        return frozenset(name for name in self._turning if self._have_period([name]))
+def equilibria_of(
+    robot: Robot,
+    forces: Sequence[Node],
+    alternatives: Sequence[Sequence[Node]],
+    numbers: Mapping[str, float],
+) -> EquationSet:
+    """The set where forces are 0; `numbers` are those that the problem gives."""
+    program, begun = compile_trees(forces), list(starts(robot, numbers))
+    turning = turning_in(robot)
 
-    @cached_property
-    def _together(self) -> tuple[str, ...]:
-        """The other angles, where the forces have that period in all together, as with springs between."""
-        others = tuple(name for name in self._turning if name not in self._periodic)
-        return others if others and self._have_period(others) else ()
-
-    def _have_period(self, names: Sequence[str]) -> bool:
+    def have_period(names: Sequence[str]) -> bool:
         """Whether the forces are the same after a turn of these angles."""
-        at = next(starts(self.robot, self.numbers))
-        turned = {**at, **{name: at[name] + 2 * pi for name in names}}
-        pairs = zip(self._forces.run(at), self._forces.run(turned), strict=True)
+        turned = {**begun[0], **{name: begun[0][name] + 2 * pi for name in names}}
+        pairs = zip(program.run(begun[0]), program.run(turned), strict=True)
         return all(abs(a - b) < CLOSE for a, b in pairs)
+
+    periodic = [name for name in turning if have_period([name])]
+    others = [name for name in turning if name not in periodic]
+    return EquationSet(
+        robot,
+        forces,
+        alternatives,
+        partial(is_zero, program),
+        begun,
+        "no_equilibrium",
+        "equilibria_missing",
+        periodic,
+        others if others and have_period(others) else (),
+    )
+
+
+def turning_in(robot: Robot) -> tuple[str, ...]:
+    """The coordinates that are angles."""
+    return tuple(q.name for q in robot.coordinates if q.type is JointType.REVOLUTE)
 
 
 SETS = ("singular", "equilibria", "balance", "reduced")
@@ -251,15 +254,14 @@ class ConfigurationKey:
         """Whether a set is that of the key."""
         if not self._known(answer):
             return SetVerdict(False, "foreign_name")
-        if answer.name == "inverse":
-            return self._branches.verdict(answer.alternatives)
-        if answer.name == "equilibria":
-            return self._equilibria.verdict(answer.alternatives)
-        if answer.name == "balance":
-            return self._balance(answer.alternatives)
-        if answer.name == "reduced":
-            return self._reduced(answer.alternatives)
-        return self._equations(answer.alternatives)
+        held = {
+            "inverse": lambda given: self._branches.verdict(given),
+            "singular": self._singular_verdict,
+            "equilibria": lambda given: self._equilibria.verdict(given),
+            "balance": self._balance,
+            "reduced": self._reduced,
+        }
+        return held[answer.name](answer.alternatives)
 
     def vanishing(self, name: str) -> str:
         """What is 0 on a set: the determinant, or the forces; empty for any other set."""
@@ -278,7 +280,7 @@ class ConfigurationKey:
         )
         if not names_in(*zeros) <= self._names:
             return False
-        return EquilibriumKey(self.robot, zeros, [zeros], self.numbers).verdict(answer.alternatives).is_right
+        return equilibria_of(self.robot, zeros, [zeros], self.numbers).verdict(answer.alternatives).is_right
 
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
@@ -291,8 +293,6 @@ class ConfigurationKey:
     @cached_property
     def _branches(self) -> BranchKey | TargetKey:
         if self.inverse.target is not None:
-            from dynsolve.answers.judging.target_branches import TargetKey
-
             return TargetKey(self.inverse.target, self.exact, self.robot.questions.all_branches)
         (task,) = self.values.rules["inverse"].inputs
         form = self.forms(task)
@@ -300,12 +300,12 @@ class ConfigurationKey:
         return BranchKey(self.robot, self.values[task], form, self.inverse, states)
 
     @cached_property
-    def _equilibria(self) -> EquilibriumKey:
+    def _equilibria(self) -> EquationSet:
         forces = in_balance(self.robot, self.forms(balanced_forces(self.robot)))
         alternatives = self.equilibria.equilibria
         if any(self._is_special(one.factor) for one in self.values["equilibria"].special):
             alternatives = (tuple(forces),)
-        return EquilibriumKey(self.robot, forces, alternatives, self.numbers)
+        return equilibria_of(self.robot, forces, alternatives, self.numbers)
 
     def _is_special(self, factor: Expr) -> bool:
         """Whether a factor is 0 for the numbers of the problem, for which the equilibria are others."""
@@ -365,57 +365,30 @@ class ConfigurationKey:
         limited = dict(values)
         for one in self.robot.questions.limits:
             low, high = compile_trees([one.low, one.high]).run(values)
-            widest = pi if one.coordinate in self._turning else WIDEST
+            widest = pi if one.coordinate in turning_in(self.robot) else WIDEST
             limited[one.coordinate] = low + (high - low) * (values[one.coordinate] + widest) / (2 * widest)
         return limited
 
-    # -- equations ---------------------------------------------------------------------------------
-
-    def _equations(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
-        names, turning = [q.name for q in self.robot.coordinates], self._turning
-        theirs = [held_equations((part.node for part in one), names, turning) for one in given]
-        formulas = [self._jacobian_form, *(part.node for one in given for part in one)]
-        for number, one in enumerate(theirs, 1):
-            points = list(self._points(one.program))
-            if not points:
-                return SetVerdict(False, "condition_never_holds", number)
-            if not all(map(self._is_singular, points)):
-                where = example_point(self.robot, formulas, points, one.hold, self._is_singular)
-                return SetVerdict(False, "not_singular", number, where=where)
-
-        def is_met(q: Mapping[str, float]) -> bool:
-            return any(one.hold(q) for one in theirs)
-
-        alternatives = map(compile_trees, self.singular.singular)
-        missed = [q for one in alternatives for q in self._points(one) if not is_met(q)]
-        if not missed and (theirs or not self.singular.singular):
-            return RIGHT
-        shown = missed if theirs else []
-        where = example_point(self.robot, formulas, shown, self._is_singular, is_met)
-        return SetVerdict(False, "configurations_missing", where=where)
-
-    def _is_singular(self, q: Mapping[str, float]) -> bool:
-        assert self.singular.singular_set is not None
-        return rank_of(self._jacobian.run(q)[0]) < self.singular.singular_set.rank
-
     @cached_property
-    def _jacobian_form(self) -> Node:
+    def _singular(self) -> EquationSet:
         (name,) = self.values.rules["singular"].inputs
-        return self.forms(name)
+        form, found = self.forms(name), self.singular.singular_set
+        assert found is not None
+        jacobian, rank = compile_trees([form]), found.rank
+        return EquationSet(
+            self.robot,
+            [form],
+            self.singular.singular,
+            lambda q: rank_of(jacobian.run(q)[0]) < rank,
+            self._states(jacobian),
+            "not_singular",
+            "configurations_missing",
+            turning_in(self.robot),
+        )
 
-    @cached_property
-    def _jacobian(self) -> Program:
-        return compile_trees([self._jacobian_form])
-
-    @cached_property
-    def _turning(self) -> tuple[str, ...]:
-        return tuple(q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
-
-    @cached_property
-    def _starts(self) -> list[dict[str, float]]:
-        return self._states(self._jacobian)
-
-    def _points(self, zeros: Program) -> Iterator[dict[str, float]]:
-        """Configurations at which everything is 0, looked for from all quadrants."""
-        found = (zero_near(self.robot, zeros, start) for start in self._starts)
-        return with_half_turns(self.robot, zeros, (q for q in found if q is not None))
+    def _singular_verdict(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
+        """Whether a set is that of the singular configurations; none is right only where there is none."""
+        found = self._singular.verdict(given)
+        if found.is_right and self.singular.singular and not given:
+            return SetVerdict(False, self._singular.missing, where=ANYWHERE)
+        return found
