@@ -155,6 +155,16 @@ class Expr:
         """Whether it is a rational number."""
         return bool(self.poly.is_constant())
 
+    @property
+    def used(self) -> tuple[int, ...]:
+        """The places of the generators that occur."""
+        return tuple(i for i, degree in enumerate(self.poly.degrees()) if degree > 0)
+
+    def quotient(self, divisor: Expr) -> Expr | None:
+        """This over a divisor, None where that does not divide it."""
+        quotient, rest = divmod(self.poly, divisor.poly)
+        return None if rest else Expr(self.ring, quotient)
+
     def __len__(self) -> int:
         """The number of terms of the normal form."""
         return len(self.poly)

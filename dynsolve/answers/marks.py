@@ -27,7 +27,7 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.entry_comparison import substituted
+from dynsolve.answers.judging.entry_comparison import placed, substituted
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
@@ -408,7 +408,7 @@ class _Substance:
         if not numbers:
             return values
         ring = self.hand_in.answer_ring.ring
-        put = {ring.symbol_indices[n, 0]: v for n, v in numbers.items() if ring.has_symbol(n)}
+        put = placed(numbers, ring)
         return [substituted(value, put) for value in values]
 
 

@@ -25,7 +25,7 @@ from dynsolve.algebra.fraction import RationalExpr, as_expr, cancelled, equal, i
 from dynsolve.algebra.linear_systems import fraction_of
 from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermDiagnoser, TermSlip, ratio_of
 from dynsolve.answers.diagnosis.factors import FactorPairs
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, is_small, mends, parts, used
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, is_small, mends, parts
 from dynsolve.answers.diagnosis.own_steps import OF_THE_MATRIX, DerivationSlips, MatrixDiagnoser, OwnSteps
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
 from dynsolve.answers.diagnosis.substitution import substitutions, throughout
@@ -36,7 +36,7 @@ from dynsolve.answers.diagnosis.wrong_entry import (
     number_for_a_letter,
     what_differs,
 )
-from dynsolve.answers.judging.entry_comparison import substituted
+from dynsolve.answers.judging.entry_comparison import placed, substituted
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
@@ -275,18 +275,16 @@ class Diagnoser:
     @property
     def _numbers(self) -> dict[int, Fraction]:
         """The numbers of the problem file, by the places of their symbols in the ring."""
-        indices = self.ring.symbol_indices
-        given = self.problem.values.items()
-        return {indices[name, 0]: value for name, value in given if (name, 0) in indices}
+        return placed(self.problem.values, self.ring)
 
     def _with_numbers(self, mine: Expr, expected: Expr) -> list[tuple[Expr, Expr]]:
         """Both as they are, and with the numbers of the problem file, where the answer lacks symbols.
 
         Those that are most alike come first.
         """
-        put, here = self._numbers, set(used(mine))
+        put, here = self._numbers, set(mine.used)
         unused = {i: value for i, value in put.items() if i not in here}
-        if not unused.keys() & set(used(expected)):
+        if not unused.keys() & set(expected.used):
             return [(mine, expected)]
         choices = [
             (mine, substituted(expected, unused)),
@@ -324,7 +322,7 @@ class Diagnoser:
 
     def _another_model(self, case: Case) -> Iterator[Explanation]:
         """Something more than the problem has, as a load at the tip: without its letters all is right."""
-        here = [self.ring.generators[i] for i in used(case.mine)]
+        here = [self.ring.generators[i] for i in case.mine.used]
         unknown = [g for g in here if g.kind == "symbol" and self.words.is_unknown(g)]
         if unknown:
             mend = Renaming(case.mine, {g.index: self.ring.zero.poly for g in unknown})

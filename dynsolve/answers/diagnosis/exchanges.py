@@ -37,7 +37,6 @@ from dynsolve.answers.diagnosis.mends import (
     monomial_expr,
     parts,
     stands_in,
-    used,
 )
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.wrong_entry import TermWriter
@@ -108,7 +107,7 @@ class Exchanges:
 
     def _with_power(self, mend: Exchange) -> Exchange:
         """L̇₂² where L₂ L̇₂ belongs, in place of L̇₂ where L₂ does: all that stands there of one symbol."""
-        g = self.ring.generators[next(used(mend.written))]
+        g = self.ring.generators[mend.written.used[0]]
         more = self.ring.generator(g.index) ** _degree(mend.rest, g)
         return Exchange(Expr(self.ring, mend.rest.poly / more.poly), mend.written * more, mend.wanted * more)
 
@@ -118,7 +117,7 @@ class Exchanges:
             return self._left_out(mend)
         if mend.wanted == one:
             return self._too_many(mend)
-        written, wanted = ([self.ring.generators[i] for i in used(e)] for e in (mend.written, mend.wanted))
+        written, wanted = ([self.ring.generators[i] for i in e.used] for e in (mend.written, mend.wanted))
         strange = self._strange(mend.written)
         if strange is not None:
             return 2, "odd_argument" if strange.kind == "function" else "unknown_symbol"
@@ -131,9 +130,8 @@ class Exchanges:
 
     def _left_out(self, mend: Exchange) -> tuple[int, str]:
         """The name of a factor that was left out."""
-        found = list(used(mend.wanted))
-        g = self.ring.generators[found[0]]
-        if len(found) > 1 or g.kind != "symbol":
+        g = self.ring.generators[mend.wanted.used[0]]
+        if len(mend.wanted.used) > 1 or g.kind != "symbol":
             return 3, "dropped_factor"
         if mend.wanted == self.ring.generator(g.index) and _degree(mend.rest, g) == 1:
             return 1, "dropped_square"
@@ -150,16 +148,15 @@ class Exchanges:
         strange = self._strange(mend.written)
         if strange is not None:
             return 2, "odd_argument" if strange.kind == "function" else "unknown_symbol"
-        found = list(used(mend.written))
-        g = self.ring.generators[found[0]]
-        if len(found) > 1 or g.kind != "symbol":
+        g = self.ring.generators[mend.written.used[0]]
+        if len(mend.written.used) > 1 or g.kind != "symbol":
             return 3, "extra_factor"
         single = mend.written == self.ring.generator(g.index)
         return 2, "extra_square" if single and _degree(mend.rest, g) > 0 else "extra_factor"
 
     def _strange(self, expr: Expr) -> Generator | None:
         """The first symbol, or function, that the problem does not have."""
-        found = (self.ring.generators[i] for i in used(expr))
+        found = (self.ring.generators[i] for i in expr.used)
         unknown = [g for g in found if self.words.is_unknown(g)]
         return min(unknown, key=lambda g: g.kind != "function", default=None)
 
@@ -256,7 +253,7 @@ class OnePlace:
         something else is no slip that anybody makes.
         """
         mend, form = one.mend, self.words.form
-        if not any(self.ring.generators[i].kind in ("sin", "cos") for i in used(mend.written - mend.wanted)):
+        if not any(self.ring.generators[i].kind in ("sin", "cos") for i in (mend.written - mend.wanted).used):
             return True
         return _holds(form(mend.have), form(mend.written)) and _holds(form(mend.want), form(mend.wanted))
 

@@ -18,7 +18,7 @@ from msgspec import Struct
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.answers.diagnosis.mends import put_polynomials, used
+from dynsolve.answers.diagnosis.mends import put_polynomials
 from dynsolve.errors import AlgebraError
 
 MOST_SYMBOLS = 16
@@ -42,12 +42,7 @@ class Divisor(Struct, frozen=True):
 
     def quotient(self, off: Expr) -> Expr | None:
         """off / the difference, None where it does not divide."""
-        return _quotient(off * self.conjugates, self.norm)
-
-
-def _quotient(dividend: Expr, divisor: Expr) -> Expr | None:
-    quotient, rest = divmod(dividend.poly, divisor.poly)
-    return None if rest else Expr(dividend.ring, quotient)
+        return (off * self.conjugates).quotient(self.norm)
 
 
 class FactorPairs:
@@ -61,12 +56,12 @@ class FactorPairs:
 
     def of_symbols(self, off: Expr) -> Iterator[Found]:
         """Pairs of symbols whose difference divides what an answer is off by, with the quotient."""
-        generators = [self.ring.generators[i] for i in used(off)]
+        generators = [self.ring.generators[i] for i in off.used]
         symbols = [g for g in generators if g.kind in ("symbol", "function") and g.name != "pi"]
         if len(symbols) > MOST_SYMBOLS:
             return
         for a, b in self._symbol_pairs(symbols):
-            quotient = _quotient(off, a - b)
+            quotient = off.quotient(a - b)
             if quotient is not None:
                 yield (a, b), "", quotient
 
@@ -115,7 +110,7 @@ class FactorPairs:
 
     def of_strange_functions(self, off: Expr) -> Iterator[Found]:
         """Functions whose argument is no angle, for which a sine or cosine belongs."""
-        for g in (self.ring.generators[i] for i in used(off)):
+        for g in (self.ring.generators[i] for i in off.used):
             if g.kind == "function":
                 written = self.ring.generator(g.index)
                 rest = Expr(self.ring, -off.poly.derivative(g.index))
@@ -125,7 +120,7 @@ class FactorPairs:
 
     def _angles_in(self, *values: Expr) -> frozenset[int]:
         """The basic angles whose sine or cosine occurs."""
-        here = {i for value in values for i in used(value)}
+        here = {i for value in values for i in value.used}
         return frozenset(k for k, pair in enumerate(self.ring.pairs) if {pair.sine, pair.cosine} & here)
 
     def _at_a_point(self, off: Expr, angles: frozenset[int]) -> Expr:
@@ -147,7 +142,7 @@ class FactorPairs:
             (a, b), _, angles = self._function_pairs[place]
             norm, conjugates = a - b, self.ring.one
             for pair in (self.ring.pairs[k] for k in angles):
-                if pair.sine in used(norm):
+                if pair.sine in norm.used:
                     turned = put_polynomials(norm, {pair.sine: -self.ring.generator(pair.sine).poly})
                     conjugates, norm = conjugates * turned, norm * turned
             self._divisors[place] = Divisor(conjugates, norm)

@@ -15,7 +15,7 @@ in common are told apart by this factor alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from math import prod
 from typing import Any, Protocol
 
@@ -86,12 +86,6 @@ def monomial_expr(ring: Ring, monomial: Monomial) -> Expr:
     for index, power in monomial:
         total = total * ring.generator(index) ** power
     return total
-
-
-def used(expr: Expr) -> Iterator[int]:
-    """The generators that occur."""
-    if expr.poly:
-        yield from (i for i, degree in enumerate(expr.poly.degrees()) if degree > 0)
 
 
 def stands_in(term: Expr, whole: Expr) -> bool:

@@ -10,7 +10,7 @@ from flint import fmpq
 
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, put_polynomials, used
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, put_polynomials
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.wrong_entry import TermWriter
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -35,9 +35,9 @@ class _Pair:
     def __init__(self, mine: Expr, expected: Expr, whole: bool = False) -> None:
         pair = (mine, expected) if whole else (_differing(mine, expected), _differing(expected, mine))
         self.mine, self.expected = pair
-        self.right = {*used(mine - self.mine)}
+        self.right = {*(mine - self.mine).used}
         self.ring = mine.ring
-        kinds = {self.ring.generators[i].kind for i in (*used(self.mine), *used(self.expected))}
+        kinds = {self.ring.generators[i].kind for i in (*self.mine.used, *self.expected.used)}
         self.point = _point(self.ring) if kinds <= {"symbol", "sin", "cos"} else []
         self.value = self.mine.poly(*self.point) if self.point else None
 
@@ -85,9 +85,9 @@ def substitutions(graph: AnswerGraph, words: TermWriter, mine: Expr, expected: E
 def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Found]:
     ring, expected = values.ring, values.expected
     """The sign of gravity in all terms that have it, or none of them."""
-    strength = {i for entry in graph.robot.gravity.entries for i in used(entry)}
+    strength = {i for entry in graph.robot.gravity.entries for i in entry.used}
     for index in sorted(i for i in strength if ring.generators[i].kind == "symbol"):
-        if index not in set(used(expected)) or index in values.right:
+        if index not in set(expected.used) or index in values.right:
             continue
         turned = {index: -ring.generator(index).poly}
         if values.becomes(turned):
@@ -98,7 +98,7 @@ def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Found]:
 
 def _angles(words: TermWriter, values: _Pair) -> Iterator[Found]:
     """An angle for another throughout, or sine and cosine of one exchanged."""
-    ring, here = values.ring, {*used(values.expected)}
+    ring, here = values.ring, {*values.expected.used}
     for pair in ring.pairs:
         if not here & {pair.sine, pair.cosine}:
             continue
@@ -145,7 +145,7 @@ def _holds(node: Node, part: Node) -> bool:
 def _symbols(words: TermWriter, values: _Pair) -> Iterator[Found]:
     """One parameter for another throughout, or two exchanged."""
     mine, expected, parameters = values.mine, values.expected, _parameters(values.ring)
-    have, wanted = {*used(mine)}, {*used(expected)}
+    have, wanted = {*mine.used}, {*expected.used}
     changed = (mine - expected).poly.monoms()
     for a, b in permutations(parameters, 2):
         if a.index in wanted and b.index in have and all(m[a.index] or m[b.index] for m in changed):
@@ -156,7 +156,7 @@ def throughout(words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Found]
     """One parameter for another everywhere, also where the other stands rightly."""
     if max(len(mine), len(expected)) > MOST_TERMS:
         return
-    values, have, wanted = _Pair(mine, expected, whole=True), {*used(mine)}, {*used(expected)}
+    values, have, wanted = _Pair(mine, expected, whole=True), {*mine.used}, {*expected.used}
     for a, b in permutations(_parameters(values.ring), 2):
         is_gone = a.index in wanted - have and b.index in have & wanted
         if is_gone and values.becomes({a.index: values.ring.generator(b.index).poly}):

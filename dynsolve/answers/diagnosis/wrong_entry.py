@@ -23,7 +23,7 @@ from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
-from dynsolve.answers.diagnosis.mends import Exchange, is_small, monomial_expr, parts, put_polynomials, used
+from dynsolve.answers.diagnosis.mends import Exchange, is_small, monomial_expr, parts, put_polynomials
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
@@ -80,8 +80,8 @@ def has_a_plain_number(expr: Expr) -> bool:
 
 def _absent(mine: Expr, expected: Expr) -> list[Generator]:
     """The parameters that are expected and not there."""
-    ring, here = mine.ring, set(used(mine))
-    found = (ring.generators[i] for i in used(expected) if i not in here)
+    ring, here = mine.ring, set(mine.used)
+    found = (ring.generators[i] for i in expected.used if i not in here)
     return [g for g in found if g.kind == "symbol" and not g.dots and g.name not in (*ring.names, "pi")]
 
 

@@ -27,6 +27,7 @@ from dynsolve.algebra.fraction import RationalExpr, equal, simplified
 from dynsolve.algebra.linear_systems import rank_parts, same_span
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational
+from dynsolve.algebra.ring import Ring
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, walk, with_children
 
@@ -89,7 +90,7 @@ class EntryComparer(Struct, frozen=True):
         if equal(expected, written.value):
             return ""
         ring = expected.ring
-        put = {ring.symbol_indices[n, 0]: v for n, v in self.values.items() if ring.has_symbol(n)}
+        put = placed(self.values, ring)
         if not put:
             return None
         number = simplified(put_numbers(expected, put))
@@ -101,12 +102,8 @@ class EntryComparer(Struct, frozen=True):
     def _with_numbers(self, expected: Expr, mine: RationalExpr) -> tuple[Expr, RationalExpr]:
         """Both with numbers for those valued symbols that do not occur in the answer."""
         ring = expected.ring
-        used = _used(mine.numerator) | (_used(mine.divisor) if mine.divisor else set())
-        put = {
-            ring.symbol_indices[(name, 0)]: value
-            for name, value in self.values.items()
-            if ring.has_symbol(name) and ring.symbol_indices[(name, 0)] not in used
-        }
+        used = {*mine.numerator.used, *mine.denominator.used}
+        put = {i: value for i, value in placed(self.values, ring).items() if i not in used}
         return substituted(expected, put), mine
 
     def _mixed(self, expected: Expr, mine: RationalExpr) -> bool:
@@ -116,7 +113,7 @@ class EntryComparer(Struct, frozen=True):
         its symbols, so that two lengths of one value are not taken for each other.
         """
         ring = expected.ring
-        put = {ring.symbol_indices[(n, 0)]: v for n, v in self.values.items() if ring.has_symbol(n)}
+        put = placed(self.values, ring)
         if mine.divisor is not None or substituted(expected, put) != substituted(mine.numerator, put):
             return False
         theirs = [[int(e) for e in exponents] for exponents in expected.poly.monoms()]
@@ -136,16 +133,15 @@ class EntryComparer(Struct, frozen=True):
                 yield value.numerator - written.value.numerator
 
 
+def placed(values: Mapping[str, Fraction], ring: Ring) -> dict[int, Fraction]:
+    """Numbers of symbols by the places of these in a ring."""
+    return {ring.symbol_indices[n, 0]: v for n, v in values.items() if ring.has_symbol(n)}
+
+
 def put_numbers(value: RationalExpr, put: Mapping[int, Fraction]) -> RationalExpr:
     """A fraction with numbers for some generators."""
     divisor = value.divisor and substituted(value.divisor, put)
     return RationalExpr(substituted(value.numerator, put), divisor)
-
-
-def _used(expr: Expr) -> set[int]:
-    if not expr.poly:
-        return set()
-    return {i for i, degree in enumerate(expr.poly.degrees()) if degree > 0}
 
 
 def substituted(expr: Expr, put: Mapping[int, Fraction]) -> Expr:
@@ -347,7 +343,7 @@ def spans(key: Matrix, written: Sequence[Matrix], values: Mapping[str, Fraction]
     if any(_same(key, one) for one in written):
         return True
     ring = key.ring
-    put = {ring.symbol_indices[n, 0]: v for n, v in values.items() if ring.has_symbol(n)}
+    put = placed(values, ring)
     if not put:
         return False
     numbers = key.map(lambda entry: substituted(entry, put))

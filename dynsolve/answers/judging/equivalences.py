@@ -37,7 +37,7 @@ from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.answer_values import AnswerValue, Rows, as_value, same
-from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, put_numbers
+from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, placed, put_numbers
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS
 from dynsolve.derivation.elimination import solved
@@ -254,7 +254,7 @@ def _solves(case: Case) -> bool:
     if system is None:
         return False
     ring = case.graph.answer_ring.ring
-    put = {ring.symbol_indices[n, 0]: v for n, v in case.compare.values.items() if ring.has_symbol(n)}
+    put = placed(case.compare.values, ring)
     J, right = (m.map(lambda entry: put_numbers(RationalExpr(entry), put).numerator) for m in system)
     x = [put_numbers(row[0].value, put) for row in case.rows]
     if sum(len(entry.numerator) + len(entry.denominator) for entry in x) > LONGEST:

@@ -26,7 +26,7 @@ from typing import Any
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.entry_comparison import spans, substituted
+from dynsolve.answers.judging.entry_comparison import placed, spans, substituted
 from dynsolve.answers.judging.equivalences import covers
 from dynsolve.answers.judging.follow_through import (
     Direction,
@@ -64,7 +64,7 @@ class Content:
 
     def __init__(self, dimensions: Dimensions, numbers: Mapping[str, Fraction]) -> None:
         ring = dimensions.ring
-        self._put = {ring.symbol_indices[n, 0]: v for n, v in numbers.items() if ring.has_symbol(n)}
+        self._put = placed(numbers, ring)
         self._places: dict[int, str] = {}
         for g in ring.generators:
             role = dimensions.of_generator(g)

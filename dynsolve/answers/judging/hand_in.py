@@ -178,7 +178,8 @@ def _levels(answer_ring: AnswerRing, values: Mapping[str, Expr], dimensions: Dim
         if difference.is_zero:
             yield difference
             continue
-        level = _quotient(difference, masses[name])
+        mass = masses[name]
+        level = None if mass.is_zero else difference.quotient(mass)
         if level is not None and is_zero_height(answer_ring, level, dimensions):
             yield level
 
@@ -194,24 +195,12 @@ def is_zero_height(answer_ring: AnswerRing, level: Expr, dimensions: Dimensions)
             strength = entry.poly if strength is None else strength.gcd(entry.poly)
     if strength is None:
         return False
-    height = _quotient(level, Expr(ring, strength))
+    gravity = Expr(ring, strength)
+    height = level.quotient(gravity)
     if height is None:
         return False
-    taken = {i for body in robot.bodies for i in _used(body.mass)} | set(_used(Expr(ring, strength)))
-    if taken & set(_used(height)):
-        return False
-    return dimensions.fits(height, LENGTH)
-
-
-def _quotient(expr: Expr, divisor: Expr) -> Expr | None:
-    if divisor.is_zero:
-        return None
-    quotient, rest = divmod(expr.poly, divisor.poly)
-    return None if rest else Expr(expr.ring, quotient)
-
-
-def _used(expr: Expr) -> list[int]:
-    return [i for i, degree in enumerate(expr.poly.degrees()) if degree > 0] if expr.poly else []
+    taken = {i for body in robot.bodies for i in body.mass.used}.union(gravity.used)
+    return taken.isdisjoint(height.used) and dimensions.fits(height, LENGTH)
 
 
 IN_NUMBERS = "it repeats the answer with numbers, which the problem does not give"
