@@ -381,8 +381,9 @@ def _packed(pages: tuple[str, str]) -> tuple[str, str]:
 
 
 def _rendered(blocks: tuple[Block, ...], style: Style) -> tuple[str, str]:
+    from dynsolve.notation.extent import Ruler
     from dynsolve.render.html import render as render_html
     from dynsolve.render.markdown import render as render_markdown
 
-    document = Document((Text((HEAD_HERE,)), *blocks))
-    return render_html(document, style), render_markdown(document, style)
+    document, ruler = Document((Text((HEAD_HERE,)), *blocks)), Ruler(style)
+    return render_html(document, style, ruler), render_markdown(document, style, ruler)

@@ -216,9 +216,9 @@ _DOUBLE_NAME = re.compile(r"\b[A-Z][a-z]+-[A-Z][a-z]+\b")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
 
 
-def render(document: Document, style: Style = PLAIN) -> str:
-    """A page that is complete in itself."""
-    return _file(document, f"<main>\n{_Page(_Formulas(style), document).all()}</main>")
+def render(document: Document, style: Style = PLAIN, ruler: Ruler | None = None) -> str:
+    """A page that is complete in itself; `ruler` knows widths of its formulas already."""
+    return _file(document, f"<main>\n{_Page(_Formulas(style, ruler), document).all()}</main>")
 
 
 def render_choice(documents: Mapping[str, Document], style: Style, chosen: str) -> str:
@@ -280,9 +280,9 @@ class _Entry(Struct):
 class _Formulas:
     """Formulas in MathML, each printed once however often a page has it."""
 
-    def __init__(self, style: Style) -> None:
+    def __init__(self, style: Style, ruler: Ruler | None = None) -> None:
         self.printer = PagePrinter(style)
-        self.ruler = Ruler(style)
+        self.ruler = Ruler(style) if ruler is None else ruler
         self.text = cache(self.printer.text)
         self.pieces = cache(FormulaSplitter(html_notation(self.printer), self.ruler, _FINE, _FRACTION).pieces)
 

@@ -22,6 +22,7 @@ from dynsolve.document import (
     Text,
     Verbatim,
 )
+from dynsolve.notation.extent import Ruler
 from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Words
@@ -41,9 +42,9 @@ _SPECIAL = re.compile(r"[\\`*_{}\[\]#|~$<>&]")
 _ENTITIES = {"<": "&lt;", ">": "&gt;", "&": "&amp;", "$": "&#36;", "|": "&#124;"}
 
 
-def render(document: Document, style: Style = PLAIN) -> str:
-    """The document in Markdown."""
-    return "\n".join(_Page(style, numbered(document)).blocks(document.blocks))
+def render(document: Document, style: Style = PLAIN, ruler: Ruler | None = None) -> str:
+    """The document in Markdown; `ruler` knows widths of its formulas already."""
+    return "\n".join(_Page(style, numbered(document), ruler).blocks(document.blocks))
 
 
 class _Printer(LatexPrinter):
@@ -60,9 +61,9 @@ class _Printer(LatexPrinter):
 class _Page(TypesetPage):
     """Turns blocks into Markdown, each with an empty line after it."""
 
-    def __init__(self, style: Style, labels: dict[str, int]) -> None:
+    def __init__(self, style: Style, labels: dict[str, int], ruler: Ruler | None = None) -> None:
         printer = _Printer(style)
-        super().__init__(printer, latex_notation(printer), labels, PAGE, _NUMBER)
+        super().__init__(printer, latex_notation(printer), labels, PAGE, _NUMBER, ruler)
 
     def heading(self, heading: Heading) -> Iterator[str]:
         yield f"{'#' * heading.level} {self.words(heading.text)}\n"

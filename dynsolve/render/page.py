@@ -403,9 +403,10 @@ class TypesetPage(MarkupPage):
         labels: Mapping[str, int],
         width: float,
         number: float,
+        ruler: Ruler | None = None,
     ) -> None:
         super().__init__(printer, labels)
-        self.notation, self.ruler = notation, Ruler(printer.style)
+        self.notation, self.ruler = notation, Ruler(printer.style) if ruler is None else ruler
         self.width, self.number = width, number
         self.closing: tuple[Block, ...] = ()
 

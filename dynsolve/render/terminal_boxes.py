@@ -41,9 +41,12 @@ _OTHERS = Words("every other entry")
 
 def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
     """Whether a matrix stands in a formula, near enough to its top to be laid out."""
-    if isinstance(node, Matrix):
-        return True
-    return depth > 0 and any(holds_matrix(part, depth - 1) for part in children(node))
+    level = [node]
+    for _ in range(depth + 1):
+        if any(type(part) is Matrix for part in level):
+            return True
+        level = [part for above in level for part in children(above)]
+    return False
 
 
 def height(node: Node) -> int:
