@@ -15,7 +15,7 @@ The verdict of what a student says of matrices: whether each can be an inertia m
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import pairwise
 
@@ -41,6 +41,7 @@ from dynsolve.answers.verdict import (
     Occurrence,
     Verdict,
     VerdictAnswer,
+    unjudged,
     worst,
 )
 from dynsolve.derivation.graph import Derivation
@@ -77,17 +78,8 @@ class AnswerJudge:
         chains = self.hand_in.chains[name]
         compared = self.hand_in.comparisons[name]
         value, answer = compared.answer_value, compared.answer_value.answer
-        base = JudgedAnswer(
-            name,
-            Verdict.UNREADABLE,
-            answer.label,
-            answer.place,
-            answer.read_as,
-            answer.notes,
-            of=Fraction(self.problem.marks.get(name, 0)),
-            occurrences=self._occurrences(name, chains),
-            written=answer.node,
-        )
+        base = unjudged(answer, name, Fraction(self.problem.marks.get(name, 0)))
+        base = replace(base, occurrences=self._occurrences(name, chains))
         if value.rows is None:
             unreadable = replace(base, fault=value.fault, expected=value.expected)
             return self._partly(unreadable, value) if value.read is not None else unreadable
@@ -316,6 +308,17 @@ def waiting(answer: JudgedAnswer, fault: str) -> JudgedAnswer:
 # The verdict of a set of configurations: singular ones, branches of the inverse kinematics
 
 
+def _as_read(
+    answer: ConfigurationAnswer | VerdictAnswer, of: Fraction, asked: Container[str]
+) -> JudgedAnswer:
+    """The record of what is no formula, with its fault where it could not be read or was not asked for."""
+    foreign = "" if answer.name in asked else f"{answer.name} is not asked for in this problem"
+    return JudgedAnswer(
+        answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of,
+        fault=answer.fault or foreign, expected=answer.expected,
+    )  # fmt: skip
+
+
 def judged_set(
     key: ConfigurationKey,
     answer: ConfigurationAnswer,
@@ -324,11 +327,9 @@ def judged_set(
     unread: Mapping[str, str],
 ) -> JudgedAnswer:
     """What is said of a set; `of` are its marks, `unread` as in `Explanations.before`."""
-    base = JudgedAnswer(answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of)
-    if answer.fault:
-        return replace(base, fault=answer.fault, expected=answer.expected)
-    if answer.name not in key.values:
-        return replace(base, fault=f"{answer.name} is not asked for in this problem")
+    base = _as_read(answer, of, key.values.rules)
+    if base.fault:
+        return base
     if key.is_skipped(answer.name):
         return replace(base, fault=f"{answer.name} could not be derived here; a person must judge it")
     found = key.verdict(answer)
@@ -350,11 +351,9 @@ def judged_set(
 
 def judged_verdicts(robot: Robot, derived: Derivation, answer: VerdictAnswer, of: Fraction) -> JudgedAnswer:
     """What is said of the verdicts on matrices, each an entry of its own; `of` are their marks."""
-    base = JudgedAnswer(answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of)
-    if answer.fault:
-        return replace(base, fault=answer.fault, expected=answer.expected)
-    if answer.name not in derived.rules:
-        return replace(base, fault=f"{answer.name} is not asked for in this problem")
+    base = _as_read(answer, of, derived.rules)
+    if base.fault:
+        return base
     names = [candidate.name for candidate in robot.questions.candidates]
     spelled = {key(name): name for name in names}
     given = {spelled.get(key(name), name): word for name, word in answer.words}
@@ -369,8 +368,8 @@ def judged_verdicts(robot: Robot, derived: Derivation, answer: VerdictAnswer, of
         _entry(place, name, found, given.get(name, ""))
         for place, (name, found) in enumerate(zip(names, derived[answer.name], strict=True), 1)
     )
-    undecided = [name for name, found in zip(names, derived[answer.name], strict=True)
-                 if not isinstance(found, Definiteness)]  # fmt: skip
+    unread = (entry.verdict is Verdict.UNREADABLE for entry in entries)
+    undecided = [name for name, is_unread in zip(names, unread, strict=True) if is_unread]
     if undecided:
         return replace(base, fault=f"{', '.join(undecided)} must be judged by a person", entries=entries)
     slips = tuple(dict.fromkeys(one for entry in entries for one in entry.diagnosis))

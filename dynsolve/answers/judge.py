@@ -140,16 +140,8 @@ def unwritten(graph: AnswerGraph, name: str, of: Fraction, answers: Answers) -> 
         return _within_whole(graph, base, answers) or base
     verdict = worst([part.verdict for part in parts])
     used = [source for part in parts for source in part.follows_from] if verdict is Verdict.FOLLOWS else []
-    return JudgedAnswer(
-        name,
-        verdict,
-        parts[0].label,
-        parts[0].place,
-        of=of,
-        given=False,
-        notes=(BY_PARTS,),
-        follows_from=in_order(graph, used),
-    )
+    found = JudgedAnswer(name, verdict, parts[0].label, parts[0].place, of=of, given=False, notes=(BY_PARTS,))
+    return replace(found, follows_from=in_order(graph, used))
 
 
 def _incomplete(graph: AnswerGraph, name: str, answers: Answers) -> Iterator[str]:
@@ -209,16 +201,8 @@ def coriolis_entries(
     for row in whole.entries:
         for j in range(len(whole.entries)):
             name = f"C{row.index[0]}{j + 1}"
-            yield (
-                name,
-                replace(
-                    answers[name],
-                    verdict=row.verdict,
-                    follows_from=row.follows_from,
-                    diagnosis=row.diagnosis,
-                    difference=row.difference,
-                ),
-            )
+            told = {"diagnosis": row.diagnosis, "difference": row.difference}
+            yield name, replace(answers[name], verdict=row.verdict, follows_from=row.follows_from, **told)
 
 
 class Checker:
@@ -355,20 +339,14 @@ class Judge:
             answers[TABLE] = self.checker.table_judge(self.tables)
         sets = self.submission.configurations
         answers |= {
-            answer.name: judged_set(
-                self.checker.configurations,
-                answer,
-                self._marks_of(answer.name),
-                self.explanations,
-                unread,
+            one.name: judged_set(
+                self.checker.configurations, one, self._marks_of(one.name), self.explanations, unread
             )
-            for answer in sets
+            for one in sets
         }
         answers |= {
-            answer.name: judged_verdicts(
-                self.problem.robot, self.checker.key, answer, self._marks_of(answer.name)
-            )
-            for answer in self.submission.verdicts
+            one.name: judged_verdicts(self.problem.robot, self.checker.key, one, self._marks_of(one.name))
+            for one in self.submission.verdicts
         }
         assembled = self.hand_in.assembled_coriolis
         if assembled is not None:
@@ -449,7 +427,7 @@ class Judge:
         return Fraction(self.problem.marks.get(name, 0))
 
     def _unwritten(self, name: str, answers: dict[str, JudgedAnswer]) -> JudgedAnswer:
-        return unwritten(self.graph, name, Fraction(self.problem.marks.get(name, 0)), answers)
+        return unwritten(self.graph, name, self._marks_of(name), answers)
 
 
 IN_OWN_FRAMES = "in your own frames"

@@ -39,7 +39,15 @@ from dynsolve.answers.judging.mechanism.tables import (
     TableRow,
     read_table,
 )
-from dynsolve.answers.verdict import Answer, Diagnosis, EntryVerdict, JudgedAnswer, Occurrence, Verdict
+from dynsolve.answers.verdict import (
+    Answer,
+    Diagnosis,
+    EntryVerdict,
+    JudgedAnswer,
+    Occurrence,
+    Verdict,
+    unjudged,
+)
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated
 from dynsolve.notation.tree import ZERO, Degrees, Node, Symbol
@@ -295,25 +303,13 @@ class TableJudge:
             yield from in_own_frames(self.problem, table, found, self.comparer.letters)
 
     def _judged(self, answer: Answer) -> JudgedAnswer:
-        base = JudgedAnswer(
-            NAME,
-            Verdict.UNREADABLE,
-            answer.label,
-            answer.place,
-            answer.read_as,
-            answer.notes,
-            of=Fraction(self.problem.marks.get(NAME, 0)),
-            written=answer.node,
-        )
+        base = unjudged(answer, NAME, Fraction(self.problem.marks.get(NAME, 0)))
         if not isinstance(answer.node, tree.Matrix):
             return replace(base, fault=answer.fault or "this is no table", expected=answer.expected)
         rows = answer.node.rows
         if self.problem.robot.is_tree:
-            fault, help = (
-                "the links of this robot branch, which a table handed in does not say",
-                "a person has to look at this",
-            )
-            return replace(base, fault=fault, expected=help)
+            fault = "the links of this robot branch, which a table handed in does not say"
+            return replace(base, fault=fault, expected="a person has to look at this")
         try:
             table = read_table(rows, self.problem.robot.coordinates)
             found = self.comparer(table)

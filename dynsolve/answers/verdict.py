@@ -246,6 +246,14 @@ class JudgedAnswer(Struct, frozen=True):
     parts: tuple[JudgedAnswer, ...] = ()
 
 
+def unjudged(answer: Answer, name: str, of: Fraction) -> JudgedAnswer:
+    """The record of an answer before anything is said of it; `of` are its marks."""
+    return JudgedAnswer(
+        name, Verdict.UNREADABLE, answer.label, answer.place, answer.read_as, answer.notes,
+        of=of, written=answer.node,
+    )  # fmt: skip
+
+
 class Report(Struct, frozen=True):
     """What is said of a hand-in; `answers` stand in the order of the derivation.
 

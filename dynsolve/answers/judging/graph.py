@@ -8,15 +8,9 @@ The formulas are the textbook's rules on the robot in the answers' ring; here st
 they are fed with.  Many matrices C give the same C q̇, so this
 vector is what the Coriolis term is compared by.
 
-Velocities and Jacobians by differentiating, beside the geometric way: v = ṙ_c, J_v = ∂r_c/∂q.
-
-Further ways to results about the task: J_r by rows of J_v, and forces to the joints by J_rᵀ.
-
-The way to a force from what the recursions give: the component along the joint's axis.
-
-Ways to what is asked of the equations of motion: Y by the parameters of the key, or by the student's.
-
-One way in which an answer may be come to from others.
+Further routes: by differentiating, v = ṙ_c and J_v = ∂r_c/∂q; J_r by rows of J_v, and forces to the
+joints by J_rᵀ; the component of a force of the recursions along the joint's axis; Y by the key's
+parameters or by the student's.
 """
 
 from __future__ import annotations
@@ -320,10 +314,11 @@ class AnswerGraph:
         if node == "D":
             return (Route(("tau",), self._inertia), Route(("K",), self._inertia_from_energy))
         if node == "g":
-            return (Route(("tau",), self._gravity), Route(("P",), self._gravity_vector))
+            of_energy = partial(euler_lagrange.gravity_vector, self.robot)
+            return (Route(("tau",), self._gravity), Route(("P",), of_energy))
         return (
             Route(("tau", *self._friction), self._coriolis),
-            Route(("D",), self._coriolis_from_inertia),
+            Route(("D",), lambda D: self._coriolis_matrix(D) @ velocities(self.robot)),
             Route(("D",), self._coriolis_entry_by_entry),
         )
 
@@ -357,9 +352,6 @@ class AnswerGraph:
     def _coriolis_matrix(self, D: Matrix) -> Matrix:
         return euler_lagrange.coriolis_matrix(self.robot, self._symbols(D))
 
-    def _coriolis_from_inertia(self, D: Matrix) -> Matrix:
-        return self._coriolis_matrix(D) @ velocities(self.robot)
-
     def _coriolis_entry_by_entry(self, D: Matrix) -> Matrix | None:
         """Σ_i ∂D/∂q_i q̇_i q̇ - ½ ∂(q̇ᵀ D q̇)/∂q of a D that is not symmetric: each d_ij from its own place."""
         if D.rows == D.T.rows:
@@ -371,9 +363,6 @@ class AnswerGraph:
         ]
         halves = [(rates.T @ moving).entries[0] * euler_lagrange.HALF for moving in partials]
         return Matrix.column(ring, [a - b for a, b in zip(moved, halves, strict=True)])
-
-    def _gravity_vector(self, P: Expr) -> Matrix:
-        return euler_lagrange.gravity_vector(self.robot, P)
 
 
 def _has_dots(ring: Any, expr: Expr, dots: int) -> bool:
