@@ -3,7 +3,7 @@
 An answer may hold angles that the problem's ring does not know (θ/2, 2θ₁ - θ₂ on
 another basis of angles), roots, denominators, names of its own, or arguments that nobody
 expects (sin θ̇₂).  An `AnswerRingPlan` holds what was collected of these from trees
-(`ring_extension`), within bounds; an `AnswerRing` is the ring that holds them, with the
+(`evaluate`), within bounds; an `AnswerRing` is the ring that holds them, with the
 robot and its key carried over.
 
 Contexts are FLINT's for a number of generators and never for names, and the number
