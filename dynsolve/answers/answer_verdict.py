@@ -275,7 +275,6 @@ def _placed_in_chain(base: JudgedAnswer, chain: Chain) -> JudgedAnswer:
 
 
 def _called(name: str, compared: KeyComparison, i: int, j: int) -> str:
-    """What a message calls an entry."""
     if name == "C":
         return f"Row {i + 1} of C q̇"
     height, width = len(compared.rows), len(compared.rows[0])

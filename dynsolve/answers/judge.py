@@ -413,7 +413,6 @@ class Judge:
 
     @property
     def _wholes(self) -> list[str]:
-        """The matrices that were written, of which not every entry could be read."""
         return [answer.whole for answer in self.submission.answers if answer.whole]
 
     @property

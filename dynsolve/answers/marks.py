@@ -186,7 +186,6 @@ def _rounding(exact: Fraction, marks: Fraction, policy: Policy) -> str:
 
 
 def _share(answer: JudgedAnswer, policy: Policy) -> tuple[Fraction, str]:
-    """The share of its marks that an answer earns, and why."""
     if answer.empty and answer.zero:
         return Fraction(0), f"{answer.verdict}, but {answer.loss}"
     if answer.verdict is Verdict.CORRECT:
@@ -480,7 +479,6 @@ def _names(values: list[Expr]) -> set[str]:
 
 
 def _names_of(value: Any) -> Iterator[str]:
-    """The symbols, and the coordinates of the angles, that a value holds."""
     ring = value.ring
     degrees = value.poly.degrees() if value.poly else ()
     for generator, degree in zip(ring.generators, degrees, strict=False):

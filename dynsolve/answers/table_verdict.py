@@ -234,7 +234,6 @@ def effect(comparer: TableComparer, table: Table, repair: Repair) -> str:
 
 
 def _joints(comparer: TableComparer, table: Table, row: int) -> tuple[str, str]:
-    """The axes that a row leads from and to."""
     moving = sum(other.variable is not None for other in table[: row + 1])
     is_fixed = table[row].variable is None
     n = len(comparer.joints)

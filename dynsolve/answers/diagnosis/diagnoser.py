@@ -267,14 +267,12 @@ class Diagnoser:
                 return
 
     def _over(self, below: Expr, told: Diagnosis) -> Diagnosis:
-        """What is told of a numerator, with its denominator."""
         if below.is_number:
             return told
         return replace(told, message=f"Over {self.words.of(below)}: {told.message}")
 
     @property
     def _numbers(self) -> dict[int, Fraction]:
-        """The numbers of the problem file, by the places of their symbols in the ring."""
         return placed(self.problem.values, self.ring)
 
     def _with_numbers(self, mine: Expr, expected: Expr) -> list[tuple[Expr, Expr]]:

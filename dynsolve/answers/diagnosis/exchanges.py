@@ -129,7 +129,6 @@ class Exchanges:
         return 2, "symbol"
 
     def _left_out(self, mend: Exchange) -> tuple[int, str]:
-        """The name of a factor that was left out."""
         g = self.ring.generators[mend.wanted.used[0]]
         if len(mend.wanted.used) > 1 or g.kind != "symbol":
             return 3, "dropped_factor"
@@ -144,7 +143,6 @@ class Exchanges:
         )
 
     def _too_many(self, mend: Exchange) -> tuple[int, str]:
-        """The name of a factor that is too many."""
         strange = self._strange(mend.written)
         if strange is not None:
             return 2, "odd_argument" if strange.kind == "function" else "unknown_symbol"
@@ -362,7 +360,6 @@ LIKELY = {"symbol", "dropped_dot", "extra_dot", "odd_argument", "unknown_symbol"
 
 
 def _without_common(have: Monomial, want: Monomial) -> tuple[Monomial, Monomial]:
-    """Two monomials without the factors that they have in common."""
     change = dict(want)
     for index, power in have:
         change[index] = change.get(index, 0) - power

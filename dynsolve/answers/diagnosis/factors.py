@@ -196,5 +196,4 @@ class FactorPairs:
 
 
 def _is_product(angle: Angle) -> bool:
-    """Whether coordinates are multiplied in an angle."""
     return any(len(atom) > 1 for atom, _ in angle.terms)

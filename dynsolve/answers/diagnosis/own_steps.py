@@ -201,7 +201,6 @@ class OwnSteps:
         return all(new in (wanted, mine) for new, mine, wanted in entries)
 
     def _before(self, node: str) -> frozenset[str]:
-        """The nodes that lead to a node."""
         if node not in self._leading:
             self._leading[node] = frozenset()
             inputs = {name for route in self.graph.routes(node) for name in route.inputs}
@@ -295,7 +294,6 @@ class MatrixDiagnoser:
             yield right.T, slip("transposed")
 
     def _is_transposed_coriolis(self, compared: KeyComparison) -> bool:
-        """Whether the transpose of C gives the right C q̇."""
         rows = compared.answer_value.rows or ()
         n = self.graph.robot.n
         mine = [as_expr(entry) for row in rows for entry in row]

@@ -256,7 +256,6 @@ def _linear(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
 
 
 def _spring_part(robot: Robot, value: InputValue) -> Expr:
-    """The part of P that springs have."""
     part: Expr = value("Ps") if robot.actions.springs else robot.ring.zero
     return part
 

@@ -55,7 +55,6 @@ class _Pair:
 
 
 def _differing(a: Expr, b: Expr) -> Expr:
-    """The terms of one expression that another has not."""
     there = b.poly.to_dict() if b.poly else {}
     kept = {e: v for e, v in a.poly.to_dict().items() if there.get(e) != v} if a.poly else {}
     return Expr(a.ring, a.ring.ctx.from_dict(kept))

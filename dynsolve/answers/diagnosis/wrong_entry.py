@@ -79,7 +79,6 @@ def has_a_plain_number(expr: Expr) -> bool:
 
 
 def _absent(mine: Expr, expected: Expr) -> list[Generator]:
-    """The parameters that are expected and not there."""
     ring, here = mine.ring, set(mine.used)
     found = (ring.generators[i] for i in expected.used if i not in here)
     return [g for g in found if g.kind == "symbol" and not g.dots and g.name not in (*ring.names, "pi")]
@@ -186,7 +185,6 @@ class TermWriter:
 
 
 def _coefficient(node: Node) -> Fraction:
-    """The number before a product."""
     match node:
         case Number(p, q):
             return Fraction(p, q)

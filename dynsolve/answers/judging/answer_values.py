@@ -294,7 +294,6 @@ class OwnNames:
         raise GivenNowhereError(name)
 
     def _own(self, name: str, row: int | None, column: int | None) -> RationalExpr | None:
-        """The student's own value, however it is given; None where it is not."""
         if name in self._busy:
             return None
         self._busy.add(name)
@@ -344,7 +343,6 @@ class OwnNames:
         return RationalExpr(total)
 
     def _times_rates(self, matrix: str, row: int) -> RationalExpr | None:
-        """A row of a matrix times q̇."""
         ring = self.answer_ring.ring
         total = ring.zero
         for column, name in enumerate(ring.names, 1):

@@ -115,7 +115,6 @@ class BranchKey:
 
     @cached_property
     def _names(self) -> frozenset[str]:
-        """The coordinates that a branch must give."""
         free = self.shown.solved.solving.free if self.shown.solved is not None else ()
         return frozenset(q.name for q in self.robot.coordinates) - set(free)
 

@@ -204,7 +204,6 @@ def _differs_by_springs(case: Case) -> bool:
 
 
 def _parameters(values: Iterable[Expr]) -> set[str]:
-    """The parameters that occur in some values."""
     found: set[str] = set()
     for value in values:
         degrees, known = value.poly.degrees(), value.ring.parameters

@@ -147,7 +147,6 @@ class Explanations:
 
     @cached_property
     def _empty(self) -> frozenset[str]:
-        """The nodes whose values keep nothing of the key."""
         graph = self.hand_in.graph
         return frozenset(
             node
@@ -215,7 +214,6 @@ class Explanations:
         return self._direction_to(compared).ways(compared.target.node)
 
     def _explain_all(self, node: str, values: Iterator[PossibleValue]) -> bool:
-        """Whether values explain all entries of a node's answers that are not the key's."""
         left = [
             (compared, i, j)
             for compared in self.hand_in.comparisons.values()

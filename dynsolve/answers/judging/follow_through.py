@@ -93,7 +93,6 @@ class FollowThrough(Struct, dict=True):
 
     @cached_property
     def _wrong(self) -> frozenset[str]:
-        """The nodes of the answers that are not correct."""
         return frozenset(node for node, value in self.students.items() if not value.correct)
 
     def choices(self, node: str) -> tuple[PossibleValue, ...]:

@@ -234,14 +234,12 @@ class AnswerGraph:
         return value if body is None else value + self.zero_potential * body.mass
 
     def _own_regressor(self, node: str) -> Any:
-        """The regressor that belongs to the student's own parameters."""
         if node not in self._regressors:
             rule = self.answer_ring.rules[node]
             self._regressors[node] = rule.compute(*map(self.key, rule.inputs))
         return self._regressors[node]
 
     def _lifted(self, node: str) -> Body | None:
-        """The body whose potential energy a node is."""
         quantity = self.quantities.of_rule(node)
         is_lifted = quantity is not None and quantity.family is families.P_BODY
         return self.robot.bodies[quantity.index[0] - 1] if quantity is not None and is_lifted else None
@@ -310,7 +308,6 @@ class AnswerGraph:
         return ("friction",) if "friction" in self.answer_ring.rules else ()
 
     def _routes_of_model(self, node: str) -> tuple[Route, ...]:
-        """The routes to D, C q̇ and g."""
         if node == "D":
             return (Route(("tau",), self._inertia), Route(("K",), self._inertia_from_energy))
         if node == "g":

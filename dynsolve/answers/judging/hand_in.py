@@ -262,7 +262,6 @@ class ComparedHandIn:
         return with_moved_multipliers(own, with_own_constraint(own, compared), self.compare)
 
     def _own_parameters(self) -> Mapping[str, Matrix]:
-        """The parameters a of τ = Y a that the student chose."""
         asked = PARAMETERS.keys() | REGRESSORS.keys() | {REFERENCE}
         if not self.chains.keys() & asked:
             return {}
@@ -326,7 +325,6 @@ def last(chains: Sequence[Chain]) -> AnswerValue:
 
 
 def _by_quantity(values: Sequence[AnswerValue], compare: KeyComparer) -> dict[str, list[Chain]]:
-    """The equations of each quantity, in the order of the hand-in."""
     found: dict[str, list[Chain]] = {}
     for value in values:
         chains = found.setdefault(_quantity(value, compare), [])

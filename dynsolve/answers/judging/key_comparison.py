@@ -177,7 +177,6 @@ class KeyComparer:
         return KeyComparison(value, target, ((first,),), (("",),), written=written)
 
     def _rows(self, name: str, value: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
-        """The entries as they are compared, in the key's shape."""
         assert value.rows is not None
         rows = fitted(value.rows, key)
         if rows is None:

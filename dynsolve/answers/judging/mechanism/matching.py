@@ -355,7 +355,6 @@ def _turned_about(before: _Turned, vector: Vector, target: Vector) -> _Turned:
 
 
 def _rotation_to(vector: Vector, target: Vector) -> Rotation:
-    """A rotation that takes one unit vector to another."""
     axis, cosine = cross(vector, target), dot(vector, target)
     sine = _length(axis)
     if sine > 1e-12:
@@ -368,7 +367,6 @@ def _rotation_to(vector: Vector, target: Vector) -> Rotation:
 
 
 def _across(vector: Vector, direction: Vector) -> Vector:
-    """The part of a vector across a unit direction."""
     return minus(vector, scaled(direction, dot(vector, direction)))
 
 

@@ -373,7 +373,6 @@ def _without_references(tree: Node) -> Node:
 
 
 def _degrees(value: float | None) -> Fraction:
-    """A number of degrees that a table may have."""
     if value is None:
         raise NotExact
     found = Fraction(value).limit_denominator(60)

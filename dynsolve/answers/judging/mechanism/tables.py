@@ -395,7 +395,6 @@ def _near(mine: NumberRow, theirs: NumberRow) -> bool:
 
 
 def _rates(row: TableRow, n: int) -> list[float]:
-    """How a row's joint variable changes with each coordinate."""
     found = dict(row.rates)
     return [float(found.get(k, 0)) for k in range(n)]
 
