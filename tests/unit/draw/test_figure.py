@@ -1,14 +1,26 @@
-"""Drawings beside a step: every name stands once, and on no other."""
+"""Drawings beside a step: of lengths and angles, and of the arm in a singular configuration."""
 
 from __future__ import annotations
 
 from itertools import combinations
 from math import pi
 
-from dynsolve.document.figures import Figure, FigureAngle, FigureLine, LineKind
-from dynsolve.draw.figure import drawn, figure_scene
+import pytest
+
+import dynsolve
+from dynsolve.document.figures import ArmFigure, Figure, FigureAngle, FigureLine, LineKind
+from dynsolve.draw.figure import drawn, drawn_arm, figure_scene
+from dynsolve.draw.pose_search import held_pose
+from dynsolve.draw.skeleton import numbers, orientation, skeleton
+from dynsolve.draw.vectors import dot, length, subtract
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree_values import evaluate
+from dynsolve.problem import read_problem
+from dynsolve.robot.model import JointType
+
+# -- drawings beside a step: every name stands once, and on no other ---------------------------------
+
 
 TRIANGLE = Figure(
     "A triangle.",
@@ -46,3 +58,70 @@ def test_a_picture_has_its_words() -> None:
     assert "<desc>A triangle.</desc>" in picture.svg
     assert picture.latex.startswith("{")
     assert picture.caption == "A triangle."
+
+
+# -- the arm in a singular configuration, as it is drawn: the tip does not move along the arrow ------
+
+
+ELBOW = (
+    "dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, a: L2}, {theta: q3*, a: L3}]\nfind: [singular]\n"
+)
+SLIDING = """
+dh:
+  - {theta: q1* + 180deg, d: L1, alpha: 90deg}
+  - {theta: -90deg, d: d2* + L2, alpha: 90deg}
+  - {theta: q3* + 90deg, a: L3}
+find: [singular]
+"""
+PLANAR = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nfind: [singular]\n"
+TURNING = PLANAR.replace("find", "task: [tip.x, tip.y, q1 + q2]\nfind")
+"""With the direction of the hand a third component, no motion of the tip alone is lost."""
+
+
+def figures(text: str) -> list[ArmFigure]:
+    steps = dynsolve.solve(text).steps
+    return [step.figure for step in steps if isinstance(step.figure, ArmFigure)]
+
+
+@pytest.mark.parametrize(("text", "count"), [(ELBOW, 2), (SLIDING, 2), (PLANAR, 1), (TURNING, 0)])
+def test_a_case_has_its_drawing(text: str, count: int) -> None:
+    assert len(figures(text)) == count
+
+
+@pytest.mark.parametrize("text", [ELBOW, SLIDING, PLANAR])
+def test_the_tip_does_not_move_along_the_arrow(text: str) -> None:
+    """Each joint moved a little, in numbers: the motion of the tip is orthogonal to w."""
+    problem = read_problem(text, "own.yaml")
+    robot, known = problem.robot, numbers(problem)
+    for figure in figures(text):
+        found = held_pose(robot, known, orientation(robot, known), figure.zeros)
+        assert found is not None
+        _, at = found
+        assert max(abs(float(evaluate(zero, at))) for zero in figure.zeros) < 1e-6
+        units = [known.unit if c.type is JointType.PRISMATIC else 1.0 for c in robot.coordinates]
+        q = [at[c.name] / unit for c, unit in zip(robot.coordinates, units, strict=True)]
+        (arrow,) = figure.arrows
+        x, y, z = (float(evaluate(part, at)) for part in arrow.direction)
+        assert length((x, y, z)) > 1e-3
+        for k in range(robot.n):
+            tips = [
+                skeleton(robot, known, [*q[:k], q[k] + change, *q[k + 1 :]]).frames[-1].origin
+                for change in (-1e-5, 1e-5)
+            ]
+            assert abs(dot(subtract(tips[1], tips[0]), (x, y, z))) < 1e-8
+
+
+def test_the_same_drawing_every_time() -> None:
+    problem = read_problem(PLANAR, "own.yaml")
+    (figure,) = figures(PLANAR)
+    first, second = (drawn_arm(figure, problem, Style()) for _ in range(2))
+    assert first is not None
+    assert first == second
+    assert "<svg" in first.svg and "picture" in first.latex
+    assert first.caption == "The arm in this case: its tip cannot move along the arrow."
+
+
+def test_no_drawing_where_nothing_is_zero() -> None:
+    problem = read_problem(PLANAR, "own.yaml")
+    never = ArmFigure("", (Symbol("l1"),))
+    assert drawn_arm(never, problem, Style()) is None

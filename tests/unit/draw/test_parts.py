@@ -1,24 +1,36 @@
-"""What pictures are made of: lengths, the chain of points, shapes, places for labels, conversions."""
+"""What pictures are made of: shapes, places for labels, uniform bodies and their thicknesses."""
 
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from pathlib import Path
+from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.kinematics import base_transform, dh_matrix, frame
-from dynsolve.draw import PictureFormat, draw, picture
+from dynsolve.draw import PictureFormat, draw, paths, picture
 from dynsolve.draw.figure import to_pdf, to_png
-from dynsolve.draw.labels import Box, Taken
-from dynsolve.draw.paths import circle, flattened, typeset
-from dynsolve.draw.skeleton import numbers, skeleton
-from dynsolve.draw.vectors import IDENTITY, applied, distance, into, turned
+from dynsolve.draw.labels import CELL, Box, Taken
+from dynsolve.draw.mass_centers import DrawnBody, Form, drawn_bodies, sleeves, with_masses
+from dynsolve.draw.paths import BLACK, circle, flattened, typeset
+from dynsolve.draw.pose_search import LARGEST, best_pose
+from dynsolve.draw.scene import Scene
+from dynsolve.draw.skeleton import numbers, orientation, skeleton
+from dynsolve.draw.solids import BODY, body_solids
+from dynsolve.draw.vectors import IDENTITY, applied, distance, dot, into, turned
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Degrees, Letter, Number, Quotient, Row, Sum, Symbol, Words
 from dynsolve.problem import load, read_problem
+from dynsolve.problem.model import Problem
+from dynsolve.robot.model import JointType
 from tests.support import LIBRARY, TEXTBOOKS
+from tests.unit.draw.pictures import drawn, drawn_text, names
+
+# -- what pictures are made of: lengths, the chain of points, shapes, places for labels, conversions -
 
 
 def problem(text: str):
@@ -152,3 +164,163 @@ def test_parts_of_a_robot_keep_apart() -> None:
         centers = [part.center for part in pose.parts.joints]
         gaps = [distance(a, b) * pose.view.size for k, a in enumerate(centers) for b in centers[k + 1 :]]
         assert min(gaps, default=99.0) > 30.0, path.stem
+
+
+# -- which places on paper are taken -----------------------------------------------------------------
+
+
+def test_the_cells_in_a_box_are_counted_as_lines_are_added() -> None:
+    """Against every cell of the box asked for by itself."""
+    random, taken = Random(7), Taken()
+    assert taken.inside(Box(-9.0, -9.0, 9.0, 9.0)) == 0
+    for _ in range(40):
+        a, b, corner = (tuple(random.uniform(-40, 40) for _ in range(2)) for _ in range(3))
+        taken.add_line(a, b)
+        box = Box(corner[0], corner[1], corner[0] + random.uniform(0, 30), corner[1] + random.uniform(0, 30))
+        columns = range(int(box.left // CELL), int(box.right // CELL) + 1)
+        rows = range(int(box.top // CELL), int(box.bottom // CELL) + 1)
+        middles = [((i + 0.5) * CELL, (j + 0.5) * CELL) for i in columns for j in rows]
+        assert taken.inside(box) == sum(taken.inside(Box(*middle, *middle)) for middle in middles)
+        assert taken.inside(Box(*a, *a)) == 1
+
+
+def test_an_area_is_taken_with_its_inside() -> None:
+    """A square of 10 by 10 cells."""
+    taken = Taken()
+    corners = [(0.5, 0.5), (0.5 + 9 * CELL, 0.5), (0.5 + 9 * CELL, 0.5 + 9 * CELL), (0.5, 0.5 + 9 * CELL)]
+    taken.add([paths.Path(paths.polygon(corners), fill=paths.GREY)])
+    assert taken.inside(Box(-100.0, -100.0, 100.0, 100.0)) == 100
+
+
+# -- uniform bodies in a picture: their forms, and their sizes where the picture knows them ----------
+
+
+TELESCOPE = next(path for path in LIBRARY if path.stem == "box-cylinder-rod-sphere")
+
+ARM = """
+dh: [{{theta: q1*, a: l1}}]
+values: {{l1: 0.5, r: 0.1}}
+masses: [{{mass: m1, link: 1, center: midpoint, shape: {shape}}}]
+"""
+
+
+def bodies(problem: Problem, q: float = 0.0) -> tuple[DrawnBody, ...]:
+    robot, values = problem.robot, numbers(problem)
+    return drawn_bodies(robot, values, with_masses(robot, values, skeleton(robot, values, [q] * robot.n)))
+
+
+@pytest.mark.parametrize(
+    ("shape", "form", "halves"),
+    [
+        ("{box: {x: l1, y: 0.2, z: b}}", Form.BOX, (0.5, 0.2, None)),
+        ("{sphere: {radius: 0.1}}", Form.BALL, (0.2, 0.2, 0.2)),
+        ("{sphere: {radius: c}}", Form.BALL, (None, None, None)),
+        ("{rod: {length: l1, axis: x}}", Form.ROUND, (0.5, None, None)),
+        ("{cylinder: {radius: r, length: l1, axis: x}}", Form.ROUND, (0.5, 0.2, 0.2)),
+    ],
+)
+def test_sides_that_are_known(shape: str, form: Form, halves: tuple[float | None, ...]) -> None:
+    """Half of each side over the longest length of the table; a letter without a number has no length."""
+    (body,) = bodies(read_problem(ARM.format(shape=shape).encode(), "arm.yaml"))
+    assert body.form is form
+    assert body.halves == pytest.approx(halves)
+    assert min(body.on_paper(100.0)) >= 3.0
+
+
+def test_every_body_of_the_telescope_is_drawn() -> None:
+    """A cylinder upright, a box and a rod along the arm, a sphere at its tip."""
+    problem = load(TELESCOPE)
+    found = bodies(problem, 0.6)
+    assert [body.form for body in found] == [Form.ROUND, Form.BOX, Form.ROUND, Form.BALL]
+    assert [body.link for body in found] == [1, 2, 3, 3]
+    upright, box, rod, _ = found
+    assert abs(dot(upright.axes[upright.main], (0.0, 0.0, 1.0))) == pytest.approx(1.0)
+    assert abs(dot(box.axes[2], rod.axes[rod.main])) == pytest.approx(1.0)
+    colours = {path.fill for path in drawn(TELESCOPE).paths}
+    assert {BODY.top, BODY.side} <= colours
+
+
+def test_a_slide_stands_at_the_end_of_the_body_that_it_slides_in() -> None:
+    problem = load(TELESCOPE)
+    (row, reach), *others = sleeves(problem.robot, numbers(problem)).items()
+    box = bodies(problem)[1]
+    assert (row, others) == (3, [])
+    assert reach == pytest.approx(2 * (box.halves[2] or 0.0))
+
+
+def test_a_guide_stands_at_the_mass_centre_of_the_body_that_it_is_part_of() -> None:
+    """Craig, figure 6.7: the first mass is that of the guide, and not on the rod that slides in it."""
+    problem = load(next(path for path in LIBRARY if path.stem == "rp-vertical"))
+    robot, values = problem.robot, numbers(problem)
+    pose = best_pose(robot, values, orientation(robot, values), None)
+    guide = pose.parts.joints[1]
+    assert guide.type is JointType.PRISMATIC
+    assert guide.center == pytest.approx(pose.skeleton.masses[0].center, abs=0.05)
+
+
+def test_point_masses_have_no_body() -> None:
+    assert bodies(read_problem(ARM.format(shape="point").encode(), "arm.yaml")) == ()
+
+
+def test_a_rod_in_a_thicker_body_is_hidden_there() -> None:
+    """Of two bodies about one point along x, what is drawn of the thin one lies beyond the other's ends."""
+    text = """
+dh: [{theta: q1*, a: l1}]
+values: {l1: 1}
+masses:
+  - {mass: m1, link: 1, center: midpoint, shape: {box: {x: 0.4, y: 0.2, z: 0.2}}}
+  - {mass: m2, link: 1, center: midpoint, shape: {rod: {length: 0.8, axis: x}}}
+"""
+    problem = read_problem(text, "arm.yaml")
+    robot, values = problem.robot, numbers(problem)
+    pose = best_pose(robot, values, orientation(robot, values))
+    _, *rods = body_solids(pose.bodies, replace(pose.parts, joints=()), pose.view, (0.0, 0.0, 1.0))
+    assert len(rods) == 2
+    size, center = pose.view.size, pose.view.point(pose.bodies[0].center)
+    for rod in rods:
+        ends = [math.dist(point, center) for piece in flattened(rod.paths[0].commands) for point in piece]
+        assert min(ends) > 0.2 * size - 3.0 and max(ends) == pytest.approx(0.4 * size, abs=3.0)
+
+
+# -- the thickness of uniform bodies in a picture: two arrows that point at each other, with its letter
+
+
+THICK = """
+dh: [{{theta: q1*, a: a1}}]
+values: {{a1: 1}}
+masses: [{{mass: m1, link: 1, center: midpoint, shape: {shape}}}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("shape", "written"),
+    [
+        ("{box: {x: a1, y: w, z: t}}", {"w"}),
+        ("{cylinder: {radius: R, length: a1, axis: x}}", {"2R"}),
+        ("{hollow_cylinder: {outer: R, inner: r, length: a1, axis: x}}", {"2R"}),
+        ("{disk: {radius: r}}", {"2r"}),
+        ("{sphere: {radius: r}}", {"2r"}),
+        ("{rod: {length: a1, axis: x}}", set()),
+    ],
+)
+def test_what_is_written(shape: str, written: set[str]) -> None:
+    """Across a body, what is seen of it: not the side of a box towards the viewer, and of radii the outer."""
+    assert set(names(drawn_text(THICK.format(shape=shape)), "length")) - {"a1", "a₁"} == written
+
+
+def gaps(picture: Scene) -> list[float]:
+    """The distances between the tips of black arrows."""
+    found = (path for path in picture.paths if path.fill == BLACK and path.stroke is None)
+    tips = [next(flattened(path.commands))[0] for path in found]
+    return [math.dist(a, b) for a, b in combinations(tips, 2)]
+
+
+def test_the_arrows_stand_as_far_apart_as_the_body_is_thick() -> None:
+    """A box of a fifth of the longest length, which takes no more than it may on paper."""
+    thick, bare = (
+        gaps(drawn_text(THICK.format(shape=shape)))
+        for shape in ("{box: {x: a1, y: 0.2, z: t}}", "{rod: {length: a1, axis: x}}")
+    )
+    across = pytest.approx(0.2 * LARGEST, rel=0.01)
+    assert across in thick
+    assert across not in bare

@@ -1,8 +1,10 @@
-"""Solutions as Python users hold them: SymPy, NumPy, JSON."""
+"""What a Python user holds: results, remarks, the notebook, the edition."""
 
 from __future__ import annotations
 
 import json
+import re
+from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +12,21 @@ import pytest
 import sympy
 
 import dynsolve
+from dynsolve.document import Document, Fold, Formula, Text
 from dynsolve.errors import ProblemError, UsageError, VerificationError
+from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import SPONG
 from dynsolve.notation.text import read
+from dynsolve.problem import read_problem
 from dynsolve.problem.reader import bundled, find
+from dynsolve.render.files import Format
+from dynsolve.solution.documents import solution_document
 from dynsolve.solution.numeric import to_sympy
+from dynsolve.solution.reports import report
 from tests.support import LIBRARY, numbers, solved
+
+# -- solutions as Python users hold them: SymPy, NumPy, JSON -----------------------------------------
+
 
 q1, q2, q1_dot, q2_dot = sympy.symbols("q1 q2 q1_dot q2_dot", real=True)
 m2, l1, lc2, g = sympy.symbols("m2 l1 lc2 g", real=True)
@@ -199,3 +211,160 @@ def test_numbers_go_into_what_only_this_exercise_asks() -> None:
     assert valued.to_json()["results"]["qd"] == ["0", "3/2"]
     assert valued.to_json()["results"]["det"] == "16*cos(q2)**2"
     assert solution.at(q1=0, q2="60deg").symbolic("det") == sympy.Symbol("a2", real=True) ** 4 / 4
+
+
+# -- `edition`: by which edition of the course's book the sections are counted -----------------------
+
+
+ARM = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}
+  - {mass: m2, link: 2, center: tip, shape: point}
+springs: [{stiffness: k, of: q1}]
+task: [tip.x, tip.y]
+find: [tau, inverse]
+"""
+
+
+def sources(document: Document) -> list[str]:
+    """The references beside formulas and in sentences, in order."""
+    blocks = [
+        inner
+        for block in document.blocks
+        for inner in (block.blocks if isinstance(block, Fold) else (block,))
+    ]
+    told = [block.source for block in blocks if isinstance(block, Formula)]
+    words = (
+        part for block in blocks if isinstance(block, Text) for part in block.parts if isinstance(part, str)
+    )
+    return [*told, *(reference for text in words for reference in re.findall(r"§[0-9.]*[0-9]", text))]
+
+
+@pytest.mark.parametrize("detail", Detail)
+def test_the_second_edition_has_dynamics_in_its_chapter_6(detail: Detail) -> None:
+    first = sources(solution_document(dynsolve.solve(ARM), detail))
+    second = sources(solution_document(dynsolve.solve("edition: 2" + ARM), detail))
+    assert len(first) == len(second)
+    for one, other in zip(first, second, strict=True):
+        if "Siciliano" in one or not re.search(r"§[37]", one) or re.search(r"§3\.[12]", one):
+            assert other == one
+        else:
+            assert other == one.replace("§7.", "§6.").replace("§3.3.", "§5.").replace("§3.3", "§5")
+
+
+@pytest.mark.parametrize(("edition", "year"), [("", "2006"), ("edition: 2", "2020")])
+def test_the_edition_is_named_and_in_full_its_sections_have_titles(edition: str, year: str) -> None:
+    page = dynsolve.solve(edition + ARM).to_markdown("full")
+    assert year in page and ("1st" in page) != ("2nd" in page)
+    chapter = "6" if edition else "7"
+    assert f"§{chapter}.1 {SPONG.sections['7.1']}" in page
+
+
+def test_a_hint_has_the_sections_of_the_edition() -> None:
+    assert sources(dynsolve.solve("edition: 2" + ARM).hint("energy"))
+    assert not any(
+        "§7" in source and "Siciliano" not in source
+        for source in sources(dynsolve.solve("edition: 2" + ARM).hint("energy"))
+    )
+
+
+# -- remarks of a problem's author: at which steps they stand, in which words, in every format -------
+
+
+RP = """
+dh: [{theta: theta1*, d: L1, alpha: 90deg}, {d: L2*}]
+masses: [{mass: m1, link: 1, center: midpoint, inertia: {zz: I1zz}}, {mass: m2, link: 2}]
+"""
+
+STEPS = {
+    "Kv2": "Kv2",
+    "f2": "tau2",  # a force by its own name, the step by that of its rule
+    "M": "D",
+    "d12": "D",
+    "c121": "christoffel",
+    "Jw2": "Jv2",  # both are results of one step
+    "tau": "tau2",  # no step of its own: the last of its parts
+    "DH": "dh",
+}
+"""The step at which a remark on a result stands."""
+
+
+def noted(steps: tuple[Step, ...], text: str) -> list[str]:
+    """The steps with a note of these words."""
+    return [step.id for step in steps if (text,) in step.notes]
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_a_remark_stands_at_the_step_of_its_result(name: str) -> None:
+    solution = dynsolve.solve(read_problem(f"remarks: {{{name}: the squares add up}}{RP}"))
+    assert noted(solution.steps, "the squares add up") == [STEPS[name]]
+
+
+def test_a_remark_is_words_and_may_have_several_lines() -> None:
+    text = "remarks: {K: ['1 + 1 =  2, $x$ <b>', second]}" + RP
+    solution = dynsolve.solve(read_problem(text))
+    (step,) = (step for step in solution.to_json()["steps"] if step["id"] == "K")
+    assert step["notes"][-2:] == ["1 + 1 = 2, $x$ <b>", "second"]
+    assert "$x$ &lt;b&gt;" in report(solution, Format.HTML).decode()
+    assert r"\$x\$ \textless{}b\textgreater{}" in report(solution, Format.LATEX, detail=Detail.FULL).decode()
+
+
+def test_a_remark_on_what_has_no_step_is_an_error_at_its_place() -> None:
+    problem = read_problem("remarks:\n  I_body2: a point has none" + RP)  # body 2 is a point
+    with pytest.raises(ProblemError, match="no step of I_body2") as error:
+        _ = dynsolve.solve(problem).steps
+    assert [(finding.line, finding.column) for finding in error.value.findings] == [(2, 12)]
+
+
+# -- what a notebook shows of a solution, and the pages it gives to Python ---------------------------
+
+
+class _Tags(HTMLParser):
+    """The tags that are open, and whether each was closed in its turn."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.seen: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        if tag not in ("br", "wbr", "input"):
+            self.open.append(tag)
+            self.seen.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+@pytest.fixture(scope="module")
+def solution() -> dynsolve.Solution:
+    return dynsolve.solve("in3140-rp")
+
+
+def test_a_solution_is_named_in_a_line(solution: dynsolve.Solution) -> None:
+    assert repr(solution).startswith("<Solution of RP manipulator, verified")
+    assert len(repr(solution)) < 100
+
+
+def test_a_notebook_shows_the_results_before_the_steps(solution: dynsolve.Solution) -> None:
+    page = _Tags()
+    shown = solution._repr_html_()
+    page.feed(shown)
+    assert not page.open
+    assert not {"html", "style", "script"} & set(page.seen)
+    assert shown.index("Summary") < shown.index("Worked solution") < shown.index("Denavit-Hartenberg table")
+    text = solution._repr_markdown_()
+    assert text.index("## Summary") < text.index("<summary>Worked solution</summary>") < text.index("1.1 ")
+    formulas = solution._repr_latex_().splitlines()
+    assert all(line.startswith("$$") and line.endswith("$$") for line in formulas)
+    assert any("\\boldsymbol{\\tau}" in line for line in formulas)
+
+
+def test_pages_at_a_depth(solution: dynsolve.Solution) -> None:
+    brief, full = solution.to_markdown("brief"), solution.to_markdown("full")
+    assert len(brief) < len(solution.to_markdown()) < len(full)
+    assert solution.to_latex("results").startswith("\\documentclass")
+    assert 'id="brief" checked' in solution.to_html("brief")
+    with pytest.raises(UsageError, match="long is no depth"):
+        solution.to_markdown("long")

@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
+import math
+import random
+from fractions import Fraction
+
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.compact.trig_forms import ConstantForms, TrigForm, TrigPolynomial, trig_forms
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.python import to_python
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Matrix
+from dynsolve.notation.tree import Matrix, Symbol
 from dynsolve.notation.tree_values import compile_trees
+from dynsolve.notation.tree_values import evaluate as value_of_tree
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from tests.robots import robots
+
+# -- the compact form is the same function, and reads as a textbook prints it ------------------------
+
 
 COORDINATES = [("q1", "revolute"), ("q2", "revolute"), ("q3", "revolute"), ("d", "prismatic")]
 
@@ -174,3 +187,125 @@ def test_it_is_the_same_function(text: str) -> None:
             number = evaluate(exact, point)
             (printed,) = compile_trees([tree]).run(point)
             assert printed == pytest.approx(number, rel=1e-9, abs=1e-9), f"{quantity}: {to_python(tree)}"
+
+
+# -- squares of sums of sines and cosines, found in polynomials that are multiplied out --------------
+
+
+def ring() -> Ring:
+    joints = [("q1", "revolute"), ("q2", "revolute"), ("d3", "prismatic")]
+    angles = [Angle.of("q1"), Angle.of("q1") + Angle.of("q2")]
+    return build_ring(joints, [Symbol(name) for name in ("m", "a", "b", "l")], angles)
+
+
+R = ring()
+Q1, Q12 = Angle.of("q1"), Angle.of("q1") + Angle.of("q2")
+M, A, B, L = map(R.symbol, ("m", "a", "b", "l"))
+C1, S1, C12, S12, D3 = R.cos(Q1), R.sin(Q1), R.cos(Q12), R.sin(Q12), R.symbol("d3")
+
+FORMS = [
+    # an arm in a turning plane: Murray, Li, Sastry (1994), example 4.3, has m_3 (l_1 c_2 + r_2 c_23)²
+    (M * (A * C1 + B * C12) ** 2, "m (a cos(q₁) + b cos(q₁ + q₂))²"),
+    (M * (A * S1 + B * S12) ** 2, "m (a sin(q₁) + b sin(q₁ + q₂))²"),
+    (M * (A * C1 - B * C12) ** 2, "m (a cos(q₁) - b cos(q₁ + q₂))²"),
+    (M * (L + A * C1 + B * C12) ** 2, "m (l + a cos(q₁) + b cos(q₁ + q₂))²"),
+    (M * (L + A * S1) ** 2, "m (l + a sin(q₁))²"),
+    # sines and cosines together: a mass centre beside the axis of its link
+    (M * (A * C1 - B * S12) ** 2, "m (a cos(q₁) - b sin(q₁ + q₂))²"),
+    (M * (A * C1 - B * S1) ** 2, "m (b sin(q₁) - a cos(q₁))²"),
+    (M * (A * C1 + B * C12) ** 2 + M * L**2, "m (l² + (a cos(q₁) + b cos(q₁ + q₂))²)"),
+    # no square: the elbow's own coupling, and a difference of squares
+    (M * (A**2 + B**2 + A * B * C1 * 2), "m (a² + b² + 2a b cos(q₁))"),
+    # a rod that slides past its joint: the distance of its middle, and its moment about that
+    (M * (D3**2 - D3 * L + L**2 / 3), "m ((d₃ - l/2)² + l²/12)"),
+    (M * (D3**2 + D3 * L + L**2 / 3), "m ((l/2 + d₃)² + l²/12)"),
+]
+
+
+@pytest.mark.parametrize(("value", "form"), FORMS, ids=[form for _, form in FORMS])
+def test_forms(value: Expr, form: str) -> None:
+    assert to_unicode(Compactor(R, ["m"], [["q1", "q2"]]).form(value)) == form
+
+
+def test_what_is_written_is_what_was_meant() -> None:
+    draw = random.Random(3)
+    for _ in range(40):
+        roots = [draw.choice((-2, -1, 1, 3)) * one for one in (A * C1, B * C12, L, B * S1, A * S12)]
+        value = M * sum(draw.sample(roots, draw.randint(2, 4)), R.zero) ** 2 + M * draw.choice(roots) * D3
+        state = {name: draw.uniform(0.3, 1.5) for name in ("m", "a", "b", "l", "q1", "q2", "d3")}
+        tree = Compactor(R, ["m"], [["q1", "q2"]]).form(value)
+        assert value_of_tree(tree, state) == pytest.approx(evaluate(value, state))
+
+
+# -- every form is the same function; constant angles are written as a person writes them ------------
+
+
+ANGLES = (0.7, -1.3)
+
+
+def value(form: TrigForm, delta: float = 0.0) -> float:
+    total = 0.0
+    for monomial, factor in form.items():
+        term = float(factor)
+        for (name, multiples), exponent in monomial:
+            if name == "sqrt":
+                term *= math.sqrt(multiples[0]) ** exponent
+            else:
+                angle = (
+                    delta * multiples[0]
+                    if delta
+                    else sum(t * a for t, a in zip(multiples, ANGLES, strict=True))
+                )
+                term *= getattr(math, name)(angle) ** exponent
+        total += term
+    return total
+
+
+def plain_value(poly: TrigPolynomial) -> float:
+    functions = [f(a) for a in ANGLES for f in (math.sin, math.cos)]
+    return sum(
+        float(f) * math.prod(w**e for w, e in zip(functions, exponents, strict=True))
+        for exponents, f in poly.items()
+    )
+
+
+powers = st.tuples(st.integers(0, 1), st.integers(0, 3), st.integers(0, 1), st.integers(0, 3))
+polynomials = st.dictionaries(powers, st.integers(-5, 5).filter(bool), min_size=1, max_size=5)
+
+
+@given(polynomials)
+def test_every_form_is_the_same_function(poly: TrigPolynomial) -> None:
+    for form in trig_forms(poly):
+        assert value(form) == pytest.approx(plain_value(poly), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("poly", "function"),
+    [
+        ({(0, 2, 0, 0): 2, (0, 0, 0, 0): -1}, "cos(2,0)"),
+        ({(1, 1, 0, 0): 2}, "sin(2,0)"),
+        ({(1, 0, 1, 0): 1, (0, 1, 0, 1): 1}, "cos(-1,1)"),
+        ({(1, 0, 0, 1): 1, (0, 1, 1, 0): 1}, "sin(1,1)"),
+    ],
+)
+def test_what_is_one_sine_or_cosine_is_found(poly: TrigPolynomial, function: str) -> None:
+    single = [
+        f"{name}({','.join(map(str, multiples))})"
+        for form in trig_forms(poly)
+        if len(form) == 1
+        for monomial in form
+        for (name, multiples), _ in monomial
+    ]
+    assert function in single
+
+
+@given(
+    st.sampled_from([10, 5, 18, 9]),
+    st.dictionaries(st.integers(0, 5), st.integers(-4, 4).filter(bool), min_size=1),
+)
+def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]) -> None:
+    write = ConstantForms(Fraction(degrees))
+    delta = math.radians(degrees)
+    number = sum(f * math.cos(delta) ** k for k, f in powers.items())
+    for form in write({(k,): f for k, f in powers.items()}):
+        assert value(form, delta) == pytest.approx(number, abs=1e-9)

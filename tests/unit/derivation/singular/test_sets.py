@@ -1,4 +1,4 @@
-"""Singular configurations of arms whose Jacobians the literature discusses."""
+"""Singular configurations of arms that the literature discusses, and what is lost there."""
 
 from __future__ import annotations
 
@@ -6,14 +6,18 @@ from typing import Any
 
 import pytest
 
+import dynsolve
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.rules import derive
 from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import singular_set
+from dynsolve.derivation.singular.sets import SingularSet, singular_set
 from dynsolve.notation.python import to_python
 from dynsolve.problem import read_problem
 from tests.support import ROOT
+
+# -- singular configurations of arms whose Jacobians the literature discusses ------------------------
+
 
 # (the table, the task, the rank, the alternatives; official results of INF3480 2010, 2012 (UiO) and
 # Robotics 1, 2022 and 2023 (Sapienza), and of Spong, Hutchinson, Vidyasagar, section 4.9)
@@ -73,3 +77,32 @@ def test_what_is_too_long_is_left_out_by_count() -> None:
     """Seven joints and a point: the cases have too many terms, and no clock decides."""
     table = (ROOT / "problems" / "panda-7r.yaml").read_text("utf-8").split("dh:")[1].split("masses:")[0]
     assert set_of(f"dh:{table}", "task: [tip.x, tip.y, tip.z]") is None
+
+
+# -- what is lost at singular configurations: as many directions as the rank is less, Jᵀ w = 0 for each
+
+
+WRIST = "{theta: q1*, alpha: -90deg}, {theta: q2*, alpha: 90deg}, {theta: q3*}"
+LOSING = {
+    # table, task, rows of J, the rank of each case
+    "two links": ("{theta: q1*, a: l1}, {theta: q2*, a: l2}", "[tip.x, tip.y]", 2, [1]),
+    "a wrist, all six rates": (WRIST, "twist", 6, [2]),
+    "two links and a slide, all six rates": (
+        "{theta: q1*, a: l1}, {theta: q2*, a: l2, alpha: 180deg}, {d: d3*}, {theta: q4*}", "twist", 6, [3]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("table", "task", "rows", "ranks"), LOSING.values(), ids=LOSING)
+def test_every_direction_that_is_lost_is_found(table: str, task: str, rows: int, ranks: list[int]) -> None:
+    """The verification of `solve` holds each of them against the Jacobian in numbers."""
+    solution = dynsolve.solve(f"dh: [{table}]\ntask: {task}\nfind: [singular]\n")
+    found = solution.values["singular"]
+    assert isinstance(found, SingularSet)
+    assert [loss.rank for loss in found.losses] == ranks
+    assert [len(loss.directions) for loss in found.losses] == [rows - rank for rank in ranks]
+
+
+def test_a_wrench_is_a_force_and_a_moment() -> None:
+    solution = dynsolve.solve(f"dh: [{WRIST}]\ntask: twist\nfind: [singular]\n")
+    why = next(step.why for step in solution.steps if step.id == "singular_1")
+    assert "A force and a moment along " in "".join(part for part in why if isinstance(part, str))

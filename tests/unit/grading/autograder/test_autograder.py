@@ -22,7 +22,7 @@ from dynsolve.grading.autograder import write_autograder
 from dynsolve.grading.autograder.__main__ import FAILED, lateness, main
 from dynsolve.problem.reader import find
 from tests.support import with_files
-from tests.unit.grading.platforms.test_exports import RESULTS
+from tests.unit.grading.platforms.test_registry import RESULTS
 
 pytestmark = pytest.mark.slow
 

@@ -1,6 +1,8 @@
-"""Systems of linear equations, solved exactly: the four equations of Penrose, and least norm by hand."""
+"""Systems of linear equations and determinants."""
 
 from __future__ import annotations
+
+from random import Random
 
 import pytest
 
@@ -17,9 +19,13 @@ from dynsolve.algebra.linear_systems import (
     rank_parts,
     same_span,
 )
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.notation.text import read
+from dynsolve.notation.tree import Symbol
+
+# -- systems of linear equations, solved exactly: the four equations of Penrose, and least norm by hand
+
 
 Q1, BOTH = Angle.of("q1"), Angle.of("q1") + Angle.of("q2")
 RING = build_ring(
@@ -145,3 +151,38 @@ def test_the_same_space_by_other_vectors() -> None:
     one = matrix("a 0", "b 0", "0 1")
     assert same_span(one, matrix("a 2*a", "b 2*b", "x 1")) and not same_span(one, matrix("a", "b", "x"))
     assert not same_span(one, matrix("a 1", "b 0", "x 0"))
+
+
+# -- determinants by their properties: products, transposes, rows that depend on each other ----------
+
+
+SYMBOLS = build_ring([], [Symbol(name) for name in "abc"])
+
+
+def random_matrix(size: int, seed: int) -> Matrix:
+    random = Random(seed)
+    symbols = [SYMBOLS.symbol(name) for name in "abc"]
+    return Matrix.of(
+        SYMBOLS,
+        (
+            [
+                symbols[random.randrange(3)] * random.randint(-3, 3) + SYMBOLS.one * random.randint(-2, 2)
+                for _ in range(size)
+            ]
+            for _ in range(size)
+        ),
+    )
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 4])
+def test_the_determinant_of_a_product(size: int) -> None:
+    a, b = random_matrix(size, 1), random_matrix(size, 2)
+    assert determinant(a @ b) == determinant(a) * determinant(b)
+    assert determinant(a.T) == determinant(a)
+
+
+def test_the_minors_of_a_matrix_of_rank_one() -> None:
+    column = Matrix.column(SYMBOLS, [SYMBOLS.symbol(name) for name in "abc"])
+    product = column @ column.T
+    assert list(minors(product, 2)) == []
+    assert len(list(minors(product, 1))) == 9

@@ -1,12 +1,35 @@
-"""What random robots do not reach, each case one feature of the problem file, against Pinocchio."""
+"""Robots against Pinocchio: published, special and random ones, and their rates."""
 
 from __future__ import annotations
 
-import pytest
+import re
+from pathlib import Path
 
-from tests.oracle.comparison import assert_agrees
-from tests.oracle.reading import load
-from tests.support import solve_json
+import numpy as np
+import pytest
+from hypothesis import given, note, settings
+
+from tests.oracle.comparison import assert_agrees, random_state
+from tests.oracle.pinocchio_arm import jacobians
+from tests.oracle.reading import load, read
+from tests.robots import robots
+from tests.support import ACTING, LIBRARY, TEXTBOOKS, assert_close, numbers, problem_file, solve_json
+
+# -- every robot of the library and of the textbooks against Pinocchio -------------------------------
+
+
+PLAIN = [path for path in LIBRARY if path.stem not in ACTING]
+"""What Pinocchio has no joints for, rotors and springs, is held in `test_rotors` and by power."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", PLAIN + TEXTBOOKS, ids=lambda path: path.stem)
+def test_a_published_robot_agrees_with_pinocchio(path: Path) -> None:
+    assert_agrees(load(path), solve_json(path))
+
+
+# -- what random robots do not reach, each case one feature of the problem file, against Pinocchio ---
+
 
 CASES = {
     "axes given from the base, turning with the link": """
@@ -203,6 +226,41 @@ masses:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
-def test_agrees_with_pinocchio(name: str) -> None:
+def test_a_special_robot_agrees_with_pinocchio(name: str) -> None:
     text = f"title: {name}\n{CASES[name].strip()}\n"
     assert_agrees(load(text), solve_json(text))
+
+
+# -- robots that nobody chose, against Pinocchio -----------------------------------------------------
+
+
+@pytest.mark.slow
+@settings(max_examples=150)
+@given(text=robots())
+def test_random_robots_agree_with_pinocchio(text: str) -> None:
+    note(text)
+    assert_agrees(load(text), solve_json(text), states=2)
+
+
+# -- jacobians and their time derivatives against Pinocchio, of every kind of table ------------------
+
+
+ROBOTS = ("planar-2r-remote", "scara-rrpr", "spherical-rrp", "elbow-3r", "craig-6-5-rp")
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_j_and_its_rate(name: str) -> None:
+    text = re.sub(
+        r"^(find|marks):.*$", "", problem_file(name).read_text(encoding="utf-8"), flags=re.MULTILINE
+    )
+    results = solve_json(text + "\nfind: [J_dot, r, Jr, Jr_dot]\n")["results"]
+    problem = load(text)
+    for seed in range(3):
+        values, q, qd, _ = random_state(problem, seed)
+        J, J_dot = jacobians(read(problem, values), q, qd)
+        ours = np.vstack([numbers(results["Jv"], values), numbers(results["Jw"], values)])
+        assert_close(ours, J, "J")
+        assert_close(numbers(results["J_dot"], values), J_dot, "J_dot")
+        rows = [i for i in range(3) if any(entry != "0" for entry in results["Jv"][i])]
+        assert_close(numbers(results["Jr"], values), J[rows], "J_r")
+        assert_close(numbers(results["Jr_dot"], values), J_dot[rows], "J_r dot")
