@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.running import dynsolve, dynsolve_afresh
+from tests.cli.running import dynsolve
 from tests.support import ROOT
 
 pytestmark = pytest.mark.slow
@@ -19,12 +19,12 @@ def test_svg_goes_to_standard_output() -> None:
     ran = dynsolve("draw", "in3140-rp")
     assert ran.code == 0 and not ran.err
     assert ET.fromstring(ran.out).tag.endswith("svg")  # noqa: S314 - our own
-    assert dynsolve_afresh("draw", "in3140-rp").out == ran.out
+    assert "∗" in ran.out and "∗" not in dynsolve("draw", "in3140-rp", "--no-star").out
 
 
 def test_standard_input_is_drawn() -> None:
     text = (ROOT / "problems" / "planar-2r.yaml").read_text()
-    assert dynsolve("draw", "-", stdin=text).out == dynsolve("draw", "planar-2r").out
+    assert dynsolve("draw", "-", "--quiet", stdin=text) == dynsolve("draw", "planar-2r")
 
 
 @pytest.mark.parametrize(("name", "start"), [("a.svg", b"<svg"), ("a.PDF", b"%PDF"), ("a.png", b"\x89PNG")])
@@ -44,11 +44,6 @@ def test_the_form_may_be_said(tmp_path: Path) -> None:
     assert ran.code == 2 and "--format" in ran.err
     ran = dynsolve("draw", "planar-2r", "--format", "png", "-o", str(tmp_path / "a.svg"))
     assert ran.code == 2 and "named as svg" in ran.err and not (tmp_path / "a.svg").exists()
-
-
-def test_no_star() -> None:
-    assert "∗" in dynsolve("draw", "in3140-rp").out
-    assert "∗" not in dynsolve("draw", "in3140-rp", "--no-star").out
 
 
 def test_a_failure_leaves_the_old_file(tmp_path: Path) -> None:
@@ -80,8 +75,3 @@ def test_the_picture_for_latex_compiles_without_packages(tmp_path: Path) -> None
     )  # fmt: skip
     log = (tmp_path / "page.log").read_text()
     assert done.returncode == 0 and "Overfull" not in log and "Warning" not in log, log[-2000:]
-
-
-def test_quiet() -> None:
-    ran = dynsolve("draw", "elbow-3r", "--quiet")
-    assert ran.code == 0 and not ran.err and ran.out.startswith("<svg")

@@ -235,7 +235,7 @@ def test_a_special_robot_agrees_with_pinocchio(name: str) -> None:
 
 
 @pytest.mark.slow
-@settings(max_examples=150)
+@settings(max_examples=80)
 @given(text=robots())
 def test_random_robots_agree_with_pinocchio(text: str) -> None:
     note(text)

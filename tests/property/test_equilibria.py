@@ -151,7 +151,7 @@ def drawn(draw: Random) -> dict[str, float]:
 
 
 @pytest.mark.parametrize(
-    "mechanism", list(mechanisms(40, 1)), ids=lambda one: one.text.split("P: ")[1].split("}")[0]
+    "mechanism", list(mechanisms(20, 1)), ids=lambda one: one.text.split("P: ")[1].split("}")[0]
 )
 def test_against_differences(mechanism: Mechanism) -> None:
     results = solve_json(mechanism.text)["results"]

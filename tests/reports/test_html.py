@@ -48,8 +48,21 @@ def saved(problem: Path | str, folder: Path) -> Path:
     return path
 
 
-ALIKE = {"panda-7r", "puma560-first3", "spherical-rrp"}
-"""Long pages of what those of puma560, stanford-6 and rp-vertical have; pdflatex is asked of these too."""
+ALIKE = {
+    "panda-7r",
+    "puma560-first3",
+    "spherical-rrp",
+    "cartesian-pp",
+    "cylindrical-rpp",
+    "scara-rrpr",
+    "crustcrawler-2r",
+    "planar-2r-remote",
+    "planar-2r-friction",
+}
+"""Pages of what those of puma560, stanford-6, rp-vertical, planar-2r and planar-2r-motors have, or of less.
+
+pdflatex is asked of these too.
+"""
 
 
 @pytest.mark.parametrize(

@@ -121,9 +121,7 @@ def test_right_answers_are_right_by_hand(stem: str, notation: str) -> None:
 
 
 @pytest.mark.parametrize("notation", NOTATIONS)
-@pytest.mark.parametrize(
-    "stem", [stem if stem in STEMS[:2] else pytest.param(stem, marks=pytest.mark.slow) for stem in STEMS]
-)
+@pytest.mark.parametrize("stem", STEMS[:3])
 def test_a_library_writes_the_same(stem: str, notation: str) -> None:
     given = answers(stem, notation)
     wanted = meant(read(stem, by_hand(given)))
@@ -151,17 +149,17 @@ def slipped(value: Any) -> Any:
 BROKEN = [r"[[\frac{a}{b}, 0], [0, 0]]", "[", "{", "'", "@", "%", "`", "a: b", "- m1 +", r'"\frac{1}{2}']
 
 
-@pytest.mark.parametrize("bad", BROKEN)
 @pytest.mark.parametrize("notation", NOTATIONS)
 @pytest.mark.parametrize("style", [None, "'", '"', "|", ">"])
-def test_a_line_that_yaml_refuses_spoils_itself_alone(style: str, notation: str, bad: str) -> None:
+def test_a_line_that_yaml_refuses_spoils_itself_alone(style: str, notation: str) -> None:
     given = answers("planar-2r", notation)
     wanted = meant(read("planar-2r", by_hand(given)))
     text = yaml.safe_dump({"answers": given}, default_style=style, default_flow_style=False, sort_keys=False)
-    found = read("planar-2r", f"{text}  L: {bad}\n")
-    values = {answer.name: (answer.node, answer.fault) for answer in found.answers}
-    assert values.pop("L", (None, ""))[0] is None
-    assert values == wanted
+    for bad in BROKEN:
+        found = read("planar-2r", f"{text}  L: {bad}\n")
+        values = {answer.name: (answer.node, answer.fault) for answer in found.answers}
+        assert values.pop("L", (None, ""))[0] is None, bad
+        assert values == wanted, bad
 
 
 @pytest.mark.parametrize("notation", NOTATIONS)
