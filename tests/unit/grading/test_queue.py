@@ -138,7 +138,7 @@ def test_an_answer_that_only_a_line_names_waits_with_that_line(tmp_path: Path) -
 # -- A human's marks in bulk: what a CSV sets, what it cannot, and what a resubmission overtakes -----
 
 
-INERTIA = "answers:\n  INERTIA: [[I1zz + m2*L2^2, 0], [0, m2]]\n"
+INERTIA = "answers:\n  D: [[I1zz + m2*L2^2, 0], [0, m2]]\n"
 
 
 @pytest.fixture
@@ -189,13 +189,13 @@ def test_the_page_from_the_queue_is_filled_and_taken_back(tmp_path: Path, out: P
 
 
 def test_a_comment_changes_no_marks(tmp_path: Path, out: Path) -> None:
-    assert override_all(out, _csv(tmp_path, "anna,in3140-rp,INERTIA,,well done", "anna,in3140-rp,tau,,")) == 1
+    assert override_all(out, _csv(tmp_path, "anna,in3140-rp,D,,well done", "anna,in3140-rp,tau,,")) == 1
     assert _all_totals(out)["anna"] == "1"
     assert "the teacher: well done" in (out / "feedback" / "anna" / "in3140-rp.md").read_text()
 
 
 def test_a_comment_on_what_nobody_has_judged_is_shown_and_it_still_waits(tmp_path: Path, out: Path) -> None:
-    override_all(out, _csv(tmp_path, "bob,in3140-rp,INERTIA,,hand in a file that can be read"))
+    override_all(out, _csv(tmp_path, "bob,in3140-rp,D,,hand in a file that can be read"))
     page = (out / "feedback" / "bob" / "in3140-rp.md").read_text()
     assert page.count("the teacher: hand in a file that can be read") == 1 and "| tau |" not in page
     assert [row["in3140-rp"] for row in _rows(out / "grades.csv")] == ["1", ""]
@@ -203,7 +203,7 @@ def test_a_comment_on_what_nobody_has_judged_is_shown_and_it_still_waits(tmp_pat
 
 
 def test_a_fault_changes_nothing_and_names_its_line(tmp_path: Path, out: Path) -> None:
-    path = _csv(tmp_path, "anna,in3140-rp,tau,1,fine", "eve,in3140-rp,tau,1,", "anna,in3140-rp,INERTIA,7,")
+    path = _csv(tmp_path, "anna,in3140-rp,tau,1,fine", "eve,in3140-rp,tau,1,", "anna,in3140-rp,D,7,")
     with pytest.raises(InputError) as caught:
         override_all(out, path)
     assert [finding.line for finding in caught.value.findings] == [3, 4]
