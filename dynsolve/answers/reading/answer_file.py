@@ -48,11 +48,12 @@ from dynsolve.answers.reading.name_splitting import keep_symbol
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.set_text import span_text
 from dynsolve.answers.reading.sources import HIDDEN, PlacedText, Source, hidden, placed
-from dynsolve.answers.reading.vocabulary import Meaning
+from dynsolve.answers.reading.vocabulary import SET_KINDS, Meaning
 from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode, documents, value
 from dynsolve.answers.verdict import Answer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import Finding, ReadError
 from dynsolve.notation.tree import Node
+from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
 
 # Answer files that YAML refuses, key by key and line by line
@@ -284,7 +285,7 @@ def own_symbols(reader: EquationReader, display: Display, name: str, is_symbol: 
             reader.coordinates.append(found.value)
         keep_symbol(reader.vocabulary, plain, dots, found.value)
     else:
-        reader.vocabulary.define(plain, Meaning(found.value))
+        reader.vocabulary.defined[plain] = Meaning(found.value)
     return None
 
 
@@ -451,18 +452,15 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
     for entry in entries:
         if entry.value is not None:
             place = source.place(entry.at, len(entry.key))
-            if (verdicts := reader.vocabulary.verdicts_named(entry.key)) is not None:
-                text = source.text if entry.node is not None else entry.value.text
+            text = source.text if entry.node is not None else entry.value.text
+            named = reader.vocabulary.named_of_kind
+            if verdicts := named(entry.key, Kind.VERDICTS):
                 read_verdicts(reader, verdicts, place, text, entry.node)
-                continue
-            if (configurations := reader.vocabulary.set_named(entry.key)) is not None:
-                text = source.text if entry.node is not None else entry.value.text
-                takes_x_first = file.takes_x_first
-                read_configurations(
-                    reader, configurations, place, text, entry.node, takes_x_first=takes_x_first
-                )
-                continue
-            read_value(reader, entry.key, place, _as_rows(reader, entry, entry.value).display(source))
+            elif configurations := named(entry.key, *SET_KINDS):
+                turned = file.takes_x_first
+                read_configurations(reader, configurations, place, text, entry.node, takes_x_first=turned)
+            else:
+                read_value(reader, entry.key, place, _as_rows(reader, entry, entry.value).display(source))
     known = [*entries, *(entry for is_symbol, entry in file.names if is_symbol)]
     read = [(e.at, e.value.origin(len(e.value.text)) if e.value else e.at + len(e.key)) for e in known]
     list_unread_keys(reader, source, hidden(source.text, read, HIDDEN))
@@ -471,7 +469,7 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
 
 def _as_rows(reader: EquationReader, entry: Entry, value: PlacedText) -> PlacedText:
     """The text of a value; of a table that is drawn in a block of text its rows, of a space its vectors."""
-    if reader.vocabulary.is_space(entry.key):
+    if reader.vocabulary.named_of_kind(entry.key, Kind.SPAN):
         return span_text(value, lambda word: reader.vocabulary.symbol(key(word)) is not None)
     if entry.key != dh_tables.NAME or "\n" not in value.text:
         return value

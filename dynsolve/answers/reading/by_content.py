@@ -24,7 +24,7 @@ from collections.abc import Sequence
 from msgspec import Struct
 
 from dynsolve.answers.reading.displays import OPENS
-from dynsolve.answers.reading.grids import Abstract, Grid, Value
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, symbols_in
 from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
@@ -41,7 +41,7 @@ from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.characters import split
-from dynsolve.notation.tree import ZERO, Node, Symbol, walk
+from dynsolve.notation.tree import ZERO, Node, Symbol
 from dynsolve.quantities.letters import key
 from dynsolve.quantities.stages import Stage
 from dynsolve.questions.forward_dynamics import QDD_FORWARD
@@ -61,9 +61,7 @@ def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
     if found is None or isinstance(value, Abstract):
         return ()
     letter, index = found[1] or found[3], found[2] or found[4] or ""
-    symbols = [
-        part for part in walk(value.node if isinstance(value, Grid) else value) if isinstance(part, Symbol)
-    ]
+    symbols = symbols_in(value)
     rates = {symbol.dots for symbol in symbols}
     has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
     if letter == "H":
@@ -82,9 +80,7 @@ def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
 
 def _is_friction(vocabulary: Vocabulary, value: Value) -> bool:
     """Whether a vector holds rates, beside no mass and no acceleration."""
-    symbols = (
-        [part for part in walk(value.node) if isinstance(part, Symbol)] if isinstance(value, Grid) else []
-    )
+    symbols = symbols_in(value) if isinstance(value, Grid) else []
     has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
     return not has_mass and {symbol.dots for symbol in symbols} in ({1}, {0, 1})
 
@@ -96,8 +92,7 @@ def force_meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, .
     """
     if isinstance(value, Abstract) or not name or name in vocabulary.symbols:
         return ()
-    tree = value.node if isinstance(value, Grid) else value
-    symbols = [part for part in walk(tree) if isinstance(part, Symbol)]
+    symbols = symbols_in(value)
     has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
     if not has_mass or all(symbol.dots < 2 for symbol in symbols):
         return ()
@@ -170,7 +165,10 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
     is_turned = values[0] == ZERO if not named else named[0][1].is_negative == (named[0][0] == 1)
     first, second = reversed(values) if is_turned else values
     value = total([first, negated(second)])
-    forces = named[0][1].forces if named else _undriven(vocabulary)
+    without = vocabulary.passive or tuple(
+        q.force for q in vocabulary.coordinates
+    )  # those that are 0, else all
+    forces = named[0][1].forces if named else without
     if not _is_of_motion(vocabulary, value):
         return None
     read = [rest for rest in rests if rest is not None]
@@ -187,14 +185,10 @@ def _called(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> MotionEqu
         if name and name not in vocabulary.others:
             value = read_right_side(vocabulary, members[1 - place])
             forces = force_meant(vocabulary, name, value.value) if isinstance(value, RightSide) else ()
-            if (
-                isinstance(value, RightSide)
-                and forces
-                and (
-                    not isinstance(read_left_side(vocabulary, members[place]), others)
-                    or vocabulary.similar(name) is not None  # L_2 beside l_2
-                )
-            ):
+            if not isinstance(value, RightSide) or not forces:
+                continue
+            is_other = isinstance(read_left_side(vocabulary, members[place]), others)
+            if not is_other or vocabulary.similar(name) is not None:  # L_2 beside l_2
                 return MotionEquation(forces, value, is_zero=False)
     return None
 
@@ -205,8 +199,7 @@ def acceleration_of(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> i
         return 0
     first = read_right_side(vocabulary, members[0])
     value = first.value if isinstance(first, RightSide) else None
-    is_one = isinstance(value, Symbol) and value.dots == 2
-    q = vocabulary.coordinate(value) if is_one and isinstance(value, Symbol) else None
+    q = vocabulary.coordinate(value) if isinstance(value, Symbol) and value.dots == 2 else None
     return q.index if q is not None else 0
 
 
@@ -257,11 +250,9 @@ def _rest(vocabulary: Vocabulary, terms: Sequence[_Term]) -> RightSide | None:
     for term in terms:
         if term.forces or not term.tokens:
             continue
-        first = term.tokens[0]
-        if term.is_negative:
-            tokens.append(first._replace(kind="-", text="-", end=first.start, dots=0))
-        elif tokens:
-            tokens.append(first._replace(kind="+", text="+", end=first.start, dots=0))
+        first, sign = term.tokens[0], "-" if term.is_negative else "+"
+        if term.is_negative or tokens:
+            tokens.append(first._replace(kind=sign, text=sign, end=first.start, dots=0))
         tokens += term.tokens
     if not tokens:
         return RightSide(ZERO, (), (), (), is_definition=False)
@@ -292,14 +283,9 @@ def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
     return indexed or tuple(force for force in known if force not in vocabulary.passive)
 
 
-def _undriven(vocabulary: Vocabulary) -> tuple[str, ...]:
-    """The forces that an equation without one may be about: those that are 0, else all."""
-    return vocabulary.passive or tuple(q.force for q in vocabulary.coordinates)
-
-
 def _is_of_motion(vocabulary: Vocabulary, value: Node) -> bool:
     """Whether a value holds an acceleration, and a parameter beside it."""
-    symbols = [part for part in walk(value) if isinstance(part, Symbol)]
+    symbols = symbols_in(value)
     names = {q.name for q in vocabulary.coordinates}
     return any(symbol.dots == 2 for symbol in symbols) and any(s.name not in names for s in symbols)
 
@@ -315,7 +301,8 @@ def states_constant(
 ) -> bool:
     """Whether `g = 9.81 m/s^2` says what a symbol of the problem is, no value fitting the answer."""
     first = members[0]
-    if names == [("g",)] and _is_gravity(vocabulary, values):
+    n = len(vocabulary.coordinates)
+    if names == [("g",)] and any(is_gravity_vector(found.value, n) for found in values):
         return True
     if names == [("D",)] and [token.text for token in first] == ["B"] and _is_input(vocabulary, values):
         return True
@@ -367,9 +354,7 @@ def _is_zero(found: RightSide | ReadError) -> bool:
     if not isinstance(found, RightSide):
         return False
     value = found.value
-    return (
-        {entry for row in value.rows for entry in row} == {ZERO} if isinstance(value, Grid) else value == ZERO
-    )
+    return set(value.entries) == {ZERO} if isinstance(value, Grid) else value == ZERO
 
 
 def is_inertia_force(vocabulary: Vocabulary, names: Names, tokens: Sequence[Token]) -> bool:
@@ -381,14 +366,5 @@ def is_inertia_force(vocabulary: Vocabulary, names: Names, tokens: Sequence[Toke
 
 def _is_input(vocabulary: Vocabulary, values: Sequence[RightSide]) -> bool:
     """Whether B is the matrix of the inputs, B u: one of constants, or of another shape than D."""
-    shape = vocabulary.shape("D")
-    return any(
-        isinstance(found.value, Grid)
-        and (found.value.shape != shape or not any(isinstance(p, Symbol) for p in walk(found.value.node)))
-        for found in values
-    )
-
-
-def _is_gravity(vocabulary: Vocabulary, values: Sequence[RightSide]) -> bool:
-    """Whether a value is the vector of the acceleration of gravity, [0, 0, -g], and not its torques."""
-    return any(is_gravity_vector(found.value, len(vocabulary.coordinates)) for found in values)
+    matrices = [found.value for found in values if isinstance(found.value, Grid)]
+    return any(matrix.shape != vocabulary.shape("D") or not symbols_in(matrix) for matrix in matrices)

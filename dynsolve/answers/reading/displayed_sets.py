@@ -55,6 +55,7 @@ from dynsolve.answers.reading.set_text import (
 )
 from dynsolve.answers.reading.sources import Source, placed
 from dynsolve.answers.verdict import Place
+from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
 
 # Sets in the lines of a report that a head names, as `Equilibria
@@ -306,7 +307,7 @@ class DisplayedSets(Struct, dict=True):
         r"""`\mathcal{N}(J) = span{...}` as the vectors of an answer; None for any other display."""
         left, sign, right = display.text.partition("=")
         name = space_named(left)
-        if not sign or not name or not self.reader.vocabulary.is_space(name):
+        if not sign or not name or not self.reader.vocabulary.named_of_kind(name, Kind.SPAN):
             return None
 
         def is_name(word: str) -> bool:

@@ -52,15 +52,7 @@ from dynsolve.answers.reading.left_side import (
     without_factor,
 )
 from dynsolve.answers.reading.lexer import Macro, Token
-from dynsolve.answers.reading.matrix_parts import (
-    MatrixPart,
-    entries_of,
-    entry_of,
-    fitted,
-    model_parts,
-    part_of,
-    shown,
-)
+from dynsolve.answers.reading.matrix_parts import entry_of, fitted, model_parts, part_of, shown
 from dynsolve.answers.reading.name_splitting import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import CONDITION, CONSTANT
@@ -147,7 +139,7 @@ class EquationReader:
         if is_number and self.vocabulary.similar(name):  # L_1 = 0.5 gives l_1 a value
             return
         meaning = Meaning(value.value, has_arguments=has_arguments)
-        self.vocabulary.define(name, meaning)
+        self.vocabulary.defined[name] = meaning
         self._first.setdefault(name, meaning)
         self.vocabulary.broken.pop(name, None)
 
@@ -228,8 +220,8 @@ class EquationReader:
             self.found.left_alone.append(origin.of(members, "it says what the indices mean"))
             return
         self.vocabulary.orders |= order_of_pair(members)
-        if (part := part_of(self.vocabulary, members[0])) is not None:
-            self._part(part, members, replace(origin, names=part.entries))
+        if part := part_of(self.vocabulary, members[0]):
+            self._part(members, replace(origin, names=part))
             return
         sides = read_left_sides(self.vocabulary, members)
         called = {
@@ -298,18 +290,19 @@ class EquationReader:
         self.found.answers += [self.found.answer((name,), member, origin) for name, member in linear]
         return found is not None or bool(linear)
 
-    def _part(self, part: MatrixPart, members: list[list[Token]], origin: Origin) -> None:
+    def _part(self, members: list[list[Token]], origin: Origin) -> None:
         """The entries of one row or column of a matrix, each as an answer of its own."""
         found = read_right_side(self.vocabulary, members[-1])
-        named = entries_of(part, found.value) if isinstance(found, RightSide) else []
-        for name, node in named:
-            assert isinstance(found, RightSide)
+        if isinstance(found, ReadError):
+            self.found.not_recognized.append(origin.of(members, found.message))
+            return
+        value = found.value
+        if not isinstance(value, Grid) or sorted(value.shape) != [1, len(origin.names)]:
+            self.found.not_recognized.append(origin.of(members, f"{len(origin.names)} entries are expected"))
+            return
+        for name, node in zip(origin.names, value.entries, strict=True):
             entry = Member(len(members) - 1, members[-1], replace(found, value=node))
             self.found.answers.append(self.found.answer((name,), entry, origin))
-        if not named:
-            wanted = f"{len(part.entries)} entries are expected"
-            why = found.message if isinstance(found, ReadError) else wanted
-            self.found.not_recognized.append(origin.of(members, why))
 
     def _entry_of_vector(self, first: list[Token], read: list[Member], origin: Origin) -> bool:
         """Keep what may be one row of C q̇; whether its arguments say that it is nothing else."""

@@ -8,13 +8,26 @@ How much is read: a hand-in over one of these bounds is `unreadable`, and says w
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 
 from msgspec import Struct
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.size import MAX_DEPTH, Size, TooLargeError, size
-from dynsolve.notation.tree import ONE, ZERO, Matrix, Negative, Node, Product, Quotient, Reference, Sum, walk
+from dynsolve.notation.tree import (
+    ONE,
+    ZERO,
+    Matrix,
+    Negative,
+    Node,
+    Product,
+    Quotient,
+    Reference,
+    Sum,
+    Symbol,
+    walk,
+)
 
 # How much is read: a hand-in over one of these bounds is `unreadable`, and says which
 
@@ -109,6 +122,11 @@ class Grid(Struct, frozen=True, eq=False):
         """The matrix as a tree."""
         return Matrix(self.rows)
 
+    @property
+    def entries(self) -> list[Node]:
+        """Its entries, row by row."""
+        return [entry for row in self.rows for entry in row]
+
 
 class Abstract(Struct, frozen=True):
     """What stands for no value of this robot: a running index, z_0, an operator; `why` names it."""
@@ -119,6 +137,12 @@ class Abstract(Struct, frozen=True):
 Value = Node | Grid | Abstract
 
 _ANY_SIZE = Abstract("a matrix of any size is named here")
+
+
+def symbols_in(value: Value) -> list[Symbol]:
+    """The symbols of a value, each as often as it stands there."""
+    nodes = value.entries if isinstance(value, Grid) else [value] if isinstance(value, Node) else []
+    return [part for node in nodes for part in walk(node) if isinstance(part, Symbol)]
 
 
 def grid(rows: Iterable[Iterable[Node]]) -> Grid:
@@ -145,9 +169,8 @@ def _minus(node: Node) -> Node:
     return node.argument if isinstance(node, Negative) else Negative(node)
 
 
-def mapped(value: Grid, change: object) -> Grid:
+def mapped(value: Grid, change: Callable[[Node], Node]) -> Grid:
     """The matrix with every entry changed."""
-    assert callable(change)
     return Grid(tuple(tuple(change(entry) for entry in row) for row in value.rows))
 
 
@@ -158,9 +181,9 @@ def _of_any_size(value: Value) -> bool:
 
 def total(terms: Sequence[Value]) -> Value:
     """The sum of terms, all scalars or all matrices of one shape."""
-    for term in terms:
-        if isinstance(term, Abstract):
-            return term
+    abstract = next((term for term in terms if isinstance(term, Abstract)), None)
+    if abstract is not None:
+        return abstract
     if len(terms) > 1 and any(map(_of_any_size, terms)):
         return _ANY_SIZE
     grids = [term for term in terms if isinstance(term, Grid)]
@@ -172,11 +195,8 @@ def total(terms: Sequence[Value]) -> Value:
     if len({g.shape for g in grids}) > 1:
         shapes = " and ".join(sorted({f"{r}×{c}" for r, c in (g.shape for g in grids)}))
         raise ReadError(f"matrices of different shapes are added here: {shapes}", help="check the shapes")
-    rows = tuple(
-        tuple(_sum([g.rows[i][j] for g in grids]) for j in range(grids[0].shape[1]))
-        for i in range(grids[0].shape[0])
-    )
-    return Grid(rows, terms=tuple(grids))
+    rows = zip(*(g.rows for g in grids), strict=True)
+    return Grid(tuple(tuple(map(_sum, zip(*row, strict=True))) for row in rows), terms=tuple(grids))
 
 
 def _sum(terms: Sequence[Node]) -> Node:
@@ -197,9 +217,8 @@ def times(left: Value, right: Value, sign: str = "") -> Value:
     if not isinstance(left, Grid) and not isinstance(right, Grid):
         return Product((*left.factors, right)) if type(left) is Product else Product((left, right))
     if not isinstance(left, Grid):
-        scale = left
         assert isinstance(right, Grid)
-        return mapped(right, lambda entry: scaled(scale, entry))
+        return mapped(right, partial(scaled, left))
     if not isinstance(right, Grid):
         factor = right
         return mapped(left, lambda entry: scaled(entry, factor))
@@ -304,26 +323,22 @@ def divided(left: Value, right: Value) -> Value:
         raise ReadError("a division by a matrix", help="a matrix cannot divide")
     if isinstance(left, Grid):
         divisor = right
-        return mapped(left, lambda entry: entry if entry == ZERO else Quotient(entry, divisor))
+        return mapped(left, lambda entry: _over(entry, divisor))
     return Quotient(left, right)
 
 
 def stacked(rows: Sequence[Sequence[Value]]) -> Value:
     """The matrix of these entries, blocks among them."""
-    for row in rows:
-        for entry in row:
-            if isinstance(entry, Abstract):
-                return entry
-    if not any(isinstance(entry, Grid) for row in rows for entry in row):
+    entries = [entry for row in rows for entry in row]
+    abstract = next((entry for entry in entries if isinstance(entry, Abstract)), None)
+    if abstract is not None:
+        return abstract
+    if not any(isinstance(entry, Grid) for entry in entries):
         return grid(rows)  # type: ignore[arg-type]
-    lines: list[tuple[Node, ...]] = []
+    lines: list[list[Node]] = []
     for row in rows:
         height = max(entry.shape[0] if isinstance(entry, Grid) else 1 for entry in row)
-        for i in range(height):
-            line: list[Node] = []
-            for entry in row:
-                line += _line(entry, i, height)
-            lines.append(tuple(line))
+        lines += [[node for entry in row for node in _line(entry, i, height)] for i in range(height)]
     return grid(lines)
 
 

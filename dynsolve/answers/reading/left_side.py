@@ -24,9 +24,10 @@ from dynsolve.answers.reading.grammar.scripts import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, check_size
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.name_splitting import split_names
-from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.answers.reading.vocabulary import SET_KINDS, Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Function, Negative, Reference, Sum, Symbol, walk
+from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
 
 # What the sides of an equation name: answers, nothing known, or nothing at all
@@ -114,8 +115,9 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
         return UnknownSide("", error.family, False, error.message)
     except ReadError:
         return None
+    named = _named(vocabulary, value, reader.candidates)
     candidates = tuple(
-        name for name in _named(vocabulary, value, reader.candidates) if vocabulary.is_formula(name)
+        name for name in named if not vocabulary.named_of_kind(name, *SET_KINDS, Kind.VERDICTS)
     )
     if candidates:
         return NamedAnswers(candidates)

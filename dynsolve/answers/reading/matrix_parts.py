@@ -22,7 +22,7 @@ from msgspec.structs import replace
 from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.references import skip_arguments
-from dynsolve.answers.reading.grids import Grid, Value, transposed
+from dynsolve.answers.reading.grids import Grid, Value, symbols_in, transposed
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.sources import Source
@@ -43,7 +43,6 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     names_in,
-    walk,
 )
 from dynsolve.notation.unicode import UnicodePrinter, printable
 from dynsolve.quantities import families
@@ -56,31 +55,24 @@ _ALL = frozenset({":", "*", "cdot"})
 _CLOSING = {"(": ")", "{": "}"}
 
 
-class MatrixPart(Struct, frozen=True):
-    """The entries of one row or column, by the names of their answers."""
-
-    entries: tuple[str, ...]
-
-
-def part_of(vocabulary: Vocabulary, member: list[Token]) -> MatrixPart | None:
-    """The row or the column that a left side names, None for every other side."""
+def part_of(vocabulary: Vocabulary, member: list[Token]) -> tuple[str, ...]:
+    """The entries of the row or the column that a left side names; none of every other side."""
     if not 6 <= len(member) <= 10 or member[-2].kind not in (*_ALL, "number"):
-        return None
+        return ()
     opening = len(member) - 5
     index = member[opening + 1 : -1]
     if _CLOSING.get(member[opening].kind) != member[-1].kind or index[1].kind != ",":
-        return None
+        return ()
     name = member[:opening]
     name = name[:-1] if name[-1].kind == "_" else name
     side = read_left_side(vocabulary, name)
     if not isinstance(side, NamedAnswers) or len({t.kind in _ALL for t in (index[0], index[2])}) == 1:
-        return None
+        return ()
     axis = 0 if index[2].kind in _ALL else 1
     number = index[2 * axis].text
     parts = vocabulary.quantities.parts(side.candidates[0])
     places = {part: vocabulary.quantities.entry_of(part)[1] for part in parts}
-    found = [part for part, place in places.items() if len(place) == 2 and str(place[axis] + 1) == number]
-    return MatrixPart(tuple(found)) if found else None
+    return tuple(part for part, at in places.items() if len(at) == 2 and str(at[axis] + 1) == number)
 
 
 def written_entries(tokens: list[Token]) -> list[list[list[Token]]]:
@@ -108,14 +100,6 @@ def _cut(tokens: list[Token], kind: str) -> list[list[Token]]:
         else:
             pieces[-1].append(token)
     return [piece for piece in pieces if piece or kind == "&"]
-
-
-def entries_of(part: MatrixPart, value: object) -> list[tuple[str, Node]]:
-    """The entries of a row or a column with their names; none where the value is of another length."""
-    if not isinstance(value, Grid) or 1 not in value.shape:
-        return []
-    nodes = [node for row in value.rows for node in row]
-    return list(zip(part.entries, nodes, strict=True)) if len(nodes) == len(part.entries) else []
 
 
 # V_1, V_2, or n_1(q, \dot q)
@@ -192,11 +176,8 @@ class VectorEntries(Struct):
         if letter in self.refused:
             return True
         beside = {"D", "g", "d11", "g1"} & given and not any(_ENERGIES.fullmatch(name) for name in given)
-        return bool(beside) and any(_has_rate(node) for node in nodes if node is not None)
-
-
-def _has_rate(node: Node) -> bool:
-    return any(isinstance(part, Symbol) and part.dots == 1 for part in walk(node))
+        symbols = [symbol for node in nodes if node is not None for symbol in symbols_in(node)]
+        return bool(beside) and any(symbol.dots == 1 for symbol in symbols)
 
 
 def column(name: str, rows: dict[int, Answer], printer: UnicodePrinter) -> Answer:
@@ -269,31 +250,22 @@ def _regressor_parts(vocabulary: Vocabulary, value: Grid) -> dict[str, Value]:
 
 def _vector_name(term: Grid) -> str:
     """What a vector beside D q̈ is: C q̇ where it vanishes at rest, g where it holds no rates, else both."""
-    entries = [entry for row in term.rows for entry in row]
-    if all(entry == ZERO for entry in entries):
+    if all(entry == ZERO for entry in term.entries):
         return _ZEROS
-    if not any(_has_rates(entry) for entry in entries):
+    if not any(symbol.dots for symbol in symbols_in(term)):
         return "g"
-    return "Cqd" if all(_vanishes_at_rest(entry) for entry in entries) else ""
-
-
-def _has_rates(node: Node) -> bool:
-    return any(isinstance(part, Symbol) and part.dots for part in walk(node))
+    return "Cqd" if all(map(_vanishes_at_rest, term.entries)) else ""
 
 
 def _vanishes_at_rest(node: Node) -> bool:
     """Whether a velocity is a factor of every term, as the formula is written."""
     match node:
         case Sum(terms):
-            return all(_vanishes_at_rest(term) for term in terms)
+            return all(map(_vanishes_at_rest, terms))
         case Product(factors):
-            return any(_vanishes_at_rest(factor) for factor in factors)
-        case Negative(argument):
-            return _vanishes_at_rest(argument)
-        case Quotient(numerator):
-            return _vanishes_at_rest(numerator)
-        case Power(base):
-            return _vanishes_at_rest(base)
+            return any(map(_vanishes_at_rest, factors))
+        case Negative(part) | Quotient(part) | Power(part):
+            return _vanishes_at_rest(part)
         case Symbol(_, dots):
             return dots == 1
     return node == ZERO
@@ -324,10 +296,9 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
         elif isinstance(value, Node) and value != ZERO and vocabulary.quantities[name].family is families.W:
             loose.append((name, Matrix(((value,),)), ""))  # of a planar robot, whose axis is known
         elif value == ZERO and 0 in shape:
-            exact.append((name, Matrix(((value,),)), ""))
+            exact.append((name, Matrix(((ZERO,),)), ""))
         elif value == ZERO:
-            rows, columns = shape
-            zeros = Matrix(((ZERO,) * columns,) * rows)
+            zeros = Matrix(((ZERO,) * shape[1],) * shape[0])
             loose.append((name, zeros, "0 is read as the matrix of zeros"))
     return exact or loose
 
@@ -354,7 +325,7 @@ def is_gravity_vector(value: Value, coordinates: int) -> bool:
     """
     if not isinstance(value, Grid) or 1 not in value.shape or max(value.shape) not in (2, 3):
         return False
-    entries = [entry for row in value.rows for entry in row if entry != ZERO]
+    entries = [entry for entry in value.entries if entry != ZERO]
     if len(entries) != 1:
         return False
     entry = entries[0].argument if isinstance(entries[0], Negative) else entries[0]

@@ -163,22 +163,19 @@ def keep_symbol(vocabulary: Vocabulary, name: str, dots: int, value: Value, in_p
     One that a report defines `in_passing`, in the problem's coordinates, leaves s_2 the sine of theirs.
     """
     if dots:
-        vocabulary.derive(name, dots, value)
+        vocabulary.derived[name, dots] = value
         return
     aliases = {spelling for spelling, _ in spellings(name) if spelling in vocabulary.others}
-    vocabulary.define(name, Meaning(value))
-    rates: dict[int, Value] = {}
-    for order in (1, 2):
-        found = rate(value, vocabulary, order)
-        if found is not None:
-            rates[order] = found
+    vocabulary.defined[name] = Meaning(value)
+    found = {order: rate(value, vocabulary, order) for order in (1, 2)}
+    rates = {order: one for order, one in found.items() if one is not None}
     for spelling, order in spellings(name):
         known = spelling in vocabulary.symbols or spelling in vocabulary.defined
         if order in rates and (not known or spelling in aliases):
-            vocabulary.define(spelling, Meaning(rates[order]))
+            vocabulary.defined[spelling] = Meaning(rates[order])
     index = "".join(split(name)[1])
     if rates and not in_passing and index.isdigit() and isinstance(value, Node):
-        vocabulary.turn(index, value)
+        vocabulary.angles[index] = value
 
 
 def gives_new_meaning(vocabulary: Vocabulary, name: str, value: Value) -> bool:

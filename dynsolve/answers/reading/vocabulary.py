@@ -184,18 +184,6 @@ class Vocabulary(Struct):
             from_zero=self.from_zero, letters=self.letters,
         )  # fmt: skip
 
-    def define(self, name: str, meaning: Meaning) -> None:
-        """Keep what the student says a name is, from here on."""
-        self.defined[name] = meaning
-
-    def derive(self, name: str, dots: int, value: Value) -> None:
-        """Keep what the student says a derivative is."""
-        self.derived[(name, dots)] = value
-
-    def turn(self, index: str, angle: Node) -> None:
-        """Keep the student's own angle with a subscript."""
-        self.angles[index] = angle
-
     def driving_force(self, name: str) -> str:
         """The force that a letter of what drives means: u_2, or the F of the only motor; else empty."""
         if not DRIVING.fullmatch(name) or name in self.symbols or name in self.defined:
@@ -244,12 +232,13 @@ class Vocabulary(Struct):
 
     def short_angle(self, name: str) -> Function | None:
         """ctheta1, sq2: a function written as its first letter before the angle."""
-        if name[:1] in ("c", "s", "C", "S") and len(name) > 2:
-            angle = self.symbols.get(name[1:]) or self.others.get(name[1:])
-            q = self.coordinate(angle) if angle and not angle.dots else None
-            if q is not None and q.type is JointType.REVOLUTE and angle is not None:
-                return Function("sin" if name[0] in "sS" else "cos", angle)
-        return None
+        if len(name) < 3 or name[0] not in "csCS":
+            return None
+        angle = self.symbols.get(name[1:]) or self.others.get(name[1:])
+        q = self.coordinate(angle) if angle is not None and not angle.dots else None
+        if angle is None or q is None or q.type is not JointType.REVOLUTE:
+            return None
+        return Function("sin" if name[0] in "sS" else "cos", angle)
 
     def angle_of(self, digits: str) -> Node | None:
         """The sum of the coordinates with these subscripts: `12` is theta1 + theta2."""
@@ -291,11 +280,9 @@ class Vocabulary(Struct):
     def inertia(self, name: str) -> Meaning | None:
         """The one moment of inertia with the index of a bare I_1."""
         base, groups = split(name)
-        same = [
-            symbol
-            for other, symbol in self.symbols.items()
-            if split(other)[0] == base and groups[:1] == split(other)[1][:1]
-        ]
+        wanted = base, groups[:1]
+        found = [(split(other), symbol) for other, symbol in self.symbols.items()]
+        same = [symbol for (letter, indices), symbol in found if (letter, indices[:1]) == wanted]
         return Meaning(same[0], f"{name} is read as {same[0].name}") if len(same) == 1 else None
 
     def velocities(self, dots: int) -> Grid:
@@ -306,7 +293,7 @@ class Vocabulary(Struct):
         """Whether a bare name is the vector of coordinates: q, theta, or the one letter of them all."""
         return name in _VECTORS or (len(self.coordinates) > 1 and self.letters == {name})
 
-    def coordinate(self, node: Value) -> Coordinate | None:
+    def coordinate(self, node: Value | None) -> Coordinate | None:
         """The coordinate that a symbol is, with any number of dots."""
         if isinstance(node, Symbol):
             return next((q for q in self.coordinates if q.name == node.name), None)
@@ -339,25 +326,10 @@ class Vocabulary(Struct):
         quantity = self.quantities.get(name)
         return quantity is not None and quantity.family.is_answer
 
-    def is_formula(self, name: str) -> bool:
-        """Whether an answer is a formula or a matrix of these, and no set and no verdict."""
-        return self.set_named(name) is None and self.verdicts_named(name) is None
-
-    def set_named(self, name: str) -> str | None:
-        """The answer of that name that is a set of equations, or of branches; None for any other."""
+    def named_of_kind(self, name: str, *kinds: Kind) -> str | None:
+        """The answer of that name that is of one of these kinds; None for any other."""
         found = self.quantities.canonical(name)
-        kinds = (Kind.EQUATIONS, Kind.CONDITIONS, Kind.BRANCHES)
         return found if found and self.quantities[found].family.kind in kinds else None
-
-    def verdicts_named(self, name: str) -> str | None:
-        """The answer of that name that is a verdict on matrices; None for any other."""
-        found = self.quantities.canonical(name)
-        return found if found and self.quantities[found].family.kind is Kind.VERDICTS else None
-
-    def is_space(self, name: str) -> bool:
-        """Whether the answer of that name is a space, which vectors span."""
-        found = self.quantities.canonical(name)
-        return found is not None and self.quantities[found].family.kind is Kind.SPAN
 
     def are_multipliers(self, names: Iterable[str]) -> bool:
         """Whether no name is that of an answer but λ, or an entry of it."""
@@ -368,6 +340,9 @@ class Vocabulary(Struct):
         quantity = self.quantities.get(name)
         return quantity.shape if quantity is not None else None
 
+
+SET_KINDS = (Kind.EQUATIONS, Kind.CONDITIONS, Kind.BRANCHES)
+"""Of which kinds an answer is a set of equations, or of branches."""
 
 _HOLD_ANGLES = frozenset({"inverse", "singular", "equilibria"})
 """Answers that give angles, and so may hold arccos and its like."""
@@ -426,10 +401,12 @@ def vocabulary(problem: Problem) -> Vocabulary:
     symbols |= {key(name): Symbol(name) for name in reached}
     others: dict[str, Symbol] = {"pi": Symbol("pi")}
     spoken = subscripts(coordinates)
-    _add_derivatives(others, symbols, spoken)
-    _add_commands(others, symbols, coordinates)
-    if robot.ring.plan.references:
-        _add_references(others, symbols, coordinates)
+    further = [*_of_coordinates(symbols, spoken), *_of_commands(symbols, coordinates)]
+    further += _of_references(coordinates) if robot.ring.plan.references else ()
+    for name, meant, moves in further:
+        for spelling, dots in spellings(name):
+            if spelling not in symbols and (moves or not dots):
+                others.setdefault(spelling, Symbol(meant, dots))
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
     passive = tuple(coordinates[k].force for k in robot.actions.passive)
     return Vocabulary(
@@ -455,47 +432,37 @@ def _letter(name: str) -> str:
     return GREEK_COMMANDS.get(base, base)
 
 
-def _add_derivatives(
-    others: dict[str, Symbol],
-    symbols: dict[str, Symbol],
-    subscripts: dict[str, Coordinate],
-) -> None:
-    """Every spelling of the coordinates and their derivatives that is no symbol of the problem."""
+def _of_coordinates(
+    symbols: dict[str, Symbol], subscripts: dict[str, Coordinate]
+) -> Iterator[tuple[str, str, bool]]:
+    """The coordinates by their other names: (name, coordinate, that it moves)."""
     for rank in range(4):
         for index, q in subscripts.items():
             letter = "theta" if q.type is JointType.REVOLUTE else "d"
             short = "th" if letter == "theta" else letter
             name = (q.name, f"q{q.index}", f"{letter}{index}", f"{short}{index}")[rank]
-            if rank and name in symbols:
-                continue
-            for spelling, dots in spellings(name):
-                if spelling not in symbols:
-                    others.setdefault(spelling, Symbol(q.name, dots))
+            if not rank or name not in symbols:
+                yield name, q.name, True
 
 
-def _add_commands(
-    others: dict[str, Symbol], symbols: dict[str, Symbol], coordinates: tuple[Coordinate, ...]
-) -> None:
+def _of_commands(
+    symbols: dict[str, Symbol], coordinates: tuple[Coordinate, ...]
+) -> Iterator[tuple[str, str, bool]]:
     r"""What commands make of names that are spelled as these: `\ell_1` of ell1, `\varphi` of varphi."""
     moving = {q.name for q in coordinates}
     for command, letter in GREEK_COMMANDS.items():
-        for symbol in [s for s in symbols.values() if command != letter and s.name.startswith(command)]:
-            for spelling, dots in spellings(letter + symbol.name[len(command) :]):
-                if spelling not in symbols and (not dots or symbol.name in moving):
-                    others.setdefault(spelling, Symbol(symbol.name, dots))
+        for symbol in symbols.values():
+            if command != letter and symbol.name.startswith(command):
+                yield letter + symbol.name[len(command) :], symbol.name, symbol.name in moving
 
 
-def _add_references(
-    others: dict[str, Symbol], symbols: dict[str, Symbol], coordinates: tuple[Coordinate, ...]
-) -> None:
-    """Every spelling of the reference rates: q1r_dot, qr1_dot, and q_1r under dots."""
+def _of_references(coordinates: tuple[Coordinate, ...]) -> Iterator[tuple[str, str, bool]]:
+    """The reference rates: q1r_dot, qr1_dot, and q_1r under dots."""
     for q in coordinates:
         base, _ = split(q.name)
         index = key(q.name)[len(base) :]
         for name in (reference(q.name), f"{base}r{index}", f"q{q.index}r", f"qr{q.index}"):
-            for spelling, dots in spellings(name):
-                if spelling not in symbols:
-                    others.setdefault(spelling, Symbol(reference(q.name), dots))
+            yield name, reference(q.name), True
 
 
 def spellings(name: str) -> list[tuple[str, int]]:

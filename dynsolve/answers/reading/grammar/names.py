@@ -73,11 +73,8 @@ def zero_level(reader: Reader, form: Form, name: str) -> Value | None:
 
 def letter(reader: Reader, form: Form, name: str) -> Value | None:
     """The vector of coordinates, a running index, z_0, o_2, R_1, a zero level: the first that it can be."""
-    for read in _READINGS:
-        value = read(reader, form, name)
-        if value is not None:
-            return value
-    return None
+    values = (read(reader, form, name) for read in _READINGS)
+    return next((value for value in values if value is not None), None)
 
 
 def _held_forces(reader: Reader, form: Form, name: str) -> Value | None:
@@ -97,13 +94,6 @@ def _unit_vector(reader: Reader, form: Form, name: str) -> Value | None:
         return None
     vector = grid([[Number(int(place == _UNIT_VECTORS.index(name)))] for place in range(3)])
     return reader.with_scripts(vector, form.scripts, form.start)
-
-
-def _other_matrix(reader: Reader, form: Form, name: str) -> Value | None:
-    """J⁺ or J̄: made of another matrix, by its name."""
-    if reader.naming or not name.endswith((PSEUDO_INVERSE, *MARKS)):
-        return None
-    return _missed(reader, name, f"{form.text} is a name for another matrix")
 
 
 def _coordinates(reader: Reader, form: Form, name: str) -> Value | None:
@@ -140,61 +130,30 @@ def _spelled_rates(reader: Reader, form: Form, name: str) -> Value | None:
     return reader.with_scripts(reader.vocabulary.velocities(order), form.scripts, form.start)
 
 
-def _running(reader: Reader, form: Form, name: str) -> Value | None:
-    """m_i, of any i."""
-    index = form.index or form.base_index
-    if not index or not is_running(index):
-        return None
-    return _abstract(reader, f"{form.text} has a running index")
-
-
-def _of_derivation(reader: Reader, form: Form, name: str) -> Value | None:
-    """z₀, o₂, R₁"""
-    is_short = form.base[:1].isalpha() and len(form.base.split("_")[0]) <= 2
-    if reader.naming or not is_short or not _LETTERS.fullmatch(name):
-        return None
-    reader.letters.append(form)
-    return _missed(reader, name + "'" * form.dots, f"{form.text} is a letter of the derivation")
-
-
-def _height(reader: Reader, form: Form, name: str) -> Value | None:
-    """h₂ in a potential energy."""
-    if not _HEIGHT.fullmatch(name) or not _POTENTIAL.fullmatch(reader.owner):
-        return None
-    return _abstract(reader, f"{form.text} is a height")
-
-
-def _without_index(reader: Reader, form: Form, name: str) -> Value | None:
-    """J_v of no body in particular."""
-    if reader.naming or name not in _NEED_AN_INDEX:
-        return None
-    return _missed(reader, name, f"{form.text} has no index")
-
-
-def _abstract(reader: Reader, why: str) -> Abstract:
-    reader.names_used += 1
-    return Abstract(why)
-
-
-def _missed(reader: Reader, name: str, why: str) -> Abstract:
-    """What has no value unless the student gives it one."""
-    reader.vocabulary.missed.add(name)
-    return _abstract(reader, why)
+def _without_value(reader: Reader, form: Form, name: str) -> Value | None:
+    """What has no value for this robot: J⁺, m_i of any i, z₀, a height h₂, J_v of no body in particular."""
+    index, missed, why = form.index or form.base_index, "", ""
+    is_value, is_short = not reader.naming, form.base[:1].isalpha() and len(form.base.split("_")[0]) <= 2
+    if is_value and name.endswith((PSEUDO_INVERSE, *MARKS)):
+        missed, why = name, "is a name for another matrix"
+    elif index and is_running(index):
+        why = "has a running index"
+    elif is_value and is_short and _LETTERS.fullmatch(name):
+        reader.letters.append(form)
+        missed, why = name + "'" * form.dots, "is a letter of the derivation"
+    elif _HEIGHT.fullmatch(name) and _POTENTIAL.fullmatch(reader.owner):
+        why = "is a height"
+    elif is_value and name in _NEED_AN_INDEX:
+        missed, why = name, "has no index"
+    if missed:  # the student may give it a value
+        reader.vocabulary.missed.add(missed)
+    reader.names_used += bool(why)
+    return Abstract(f"{form.text} {why}") if why else None
 
 
 _READINGS = (
-    only_coordinate,
-    _held_forces,
-    _unit_vector,
-    _other_matrix,
-    _coordinates,
-    _references,
-    _spelled_rates,
-    _running,
-    _of_derivation,
-    _height,
-    _without_index,
-)
+    only_coordinate, _held_forces, _unit_vector, _coordinates, _references, _spelled_rates, _without_value,
+)  # fmt: skip
 """What a letter may be, in the order in which it is tried."""
 
 _BEFORE_TERM = frozenset({"+", "-", "(", "[", "begin", "&", "\\\\", ",", ";"})
@@ -266,12 +225,9 @@ def _multiplies_rate(reader: Reader, form: Form) -> bool:
     before = next((t for t in reversed(reader.tokens[: reader.position]) if t.end <= form.start), None)
     after = reader.peek() if reader.token.kind in ("*", "cdot") else reader.token
     meaning = reader.vocabulary.symbol(key(after.text)) if after.kind == "name" else None
-    is_rate = after.text == "dot" or after.dots == 1 or _is_rate(meaning)
+    meant = meaning.value if meaning is not None else None
+    is_rate = after.text == "dot" or after.dots == 1 or (isinstance(meant, Symbol) and meant.dots == 1)
     return (before is None or before.kind in _BEFORE_TERM) and (is_rate or after.kind in _BEHIND_ENTRY)
-
-
-def _is_rate(meaning: Meaning | None) -> bool:
-    return meaning is not None and isinstance(meaning.value, Symbol) and meaning.value.dots == 1
 
 
 def _is_function_of_q(reader: Reader, name: str) -> bool:
@@ -291,9 +247,8 @@ def stands_between_rates(reader: Reader, start: int, behind: int) -> bool:
     """Whether the letter at `start`, and before the token `behind`, is the matrix of q̇ᵀ M q̇, and no mass."""
     if reader.tokens[behind].text != "dot":
         return False
-    before = [
-        t.text for t in reader.tokens[max(behind - 9, 0) : behind] if t.end <= start and t.kind not in "{}"
-    ]
+    beside = [t for t in reader.tokens[max(behind - 9, 0) : behind] if t.end <= start]
+    before = [t.text for t in beside if t.kind not in "{}"]
     after = [t.text for t in reader.tokens[behind + 1 : behind + 4] if t.kind not in "{}"]
     is_row = before[-1:] in (["T"], ["top"], ["intercal"]) and reader.vocabulary.is_vector(before[-3:][0])
     return is_row and reader.vocabulary.is_vector(after[0]) and "_" not in after[:2]
@@ -400,15 +355,11 @@ def skip_time(reader: Reader) -> None:
     """Leave out the `(t)` of q1(t)."""
     if reader.token.kind not in ("(", "[", "{"):
         return
-    kinds = []
-    for ahead in range(5):
-        token = reader.peek(ahead)
-        kinds.append(token.text if token.kind == "name" else token.kind)
-    for pattern in (["(", "t", ")"], ["[", "t", "]"], ["{", "(", "t", ")", "}"]):
-        if kinds[: len(pattern)] == pattern:
-            for _ in pattern:
-                reader.take()
-            return
+    ahead = [reader.peek(place) for place in range(5)]
+    signs = [token.text if token.kind == "name" else token.kind for token in ahead]
+    pattern = next((one for one in ("(t)", "[t]", "{(t)}") if signs[: len(one)] == list(one)), "")
+    for _ in pattern:
+        reader.take()
 
 
 @lru_cache(maxsize=4096)
