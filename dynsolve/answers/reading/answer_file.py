@@ -49,7 +49,7 @@ from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.set_text import span_text
 from dynsolve.answers.reading.sources import HIDDEN, PlacedText, Source, hidden, placed
 from dynsolve.answers.reading.vocabulary import SET_KINDS, Meaning
-from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode, documents, value
+from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode, documents, value, without_delimiters
 from dynsolve.answers.verdict import Answer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import Finding, ReadError
 from dynsolve.notation.tree import Node
@@ -67,7 +67,6 @@ _ITEM = re.compile(r"[ \t]*-(?=[ \t]|$)")
 _TIGHT = re.compile(r"""([ \t]*)("[^"\n]{1,200}"|'[^'\n]{1,200}'|[^\s:,]{1,80})[ \t]{0,9}:""")
 _QUOTED_KEY = re.compile(r"""[ \t]*["'][^"'\n]{1,200}["'][ \t]{0,20}:""")
 _FLOW_END = re.compile(r"[,}\s]*\Z")
-_DELIMITERS = (("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]"))
 
 
 class KeyedText(Struct, frozen=True):
@@ -174,9 +173,9 @@ def _flow(text: str, start: int, end: int) -> Iterator[KeyedText]:
     """The entries of {key: value, key: value}."""
     piece = start
     for position in [*_separators(text, start, end), end]:
-        found = _KEY.match(text, _skip_blank(text, piece, position), position) or _TIGHT.match(
-            text, _skip_blank(text, piece, position), position
-        )
+        first = _BLANK.match(text, piece, position)
+        begin = first.end() if first else piece
+        found = _KEY.match(text, begin, position) or _TIGHT.match(text, begin, position)
         if found is not None:
             yield KeyedText(found[2].strip("'\"").strip(), found.start(2), found.end(), position)
         piece = position + 1
@@ -197,10 +196,7 @@ def _separators(text: str, start: int, end: int) -> Iterator[int]:
             yield found.start()
 
 
-def _skip_blank(text: str, start: int, end: int) -> int:
-    while start < end and text[start].isspace():
-        start += 1
-    return start
+_BLANK = re.compile(r"\s*")
 
 
 def _as_it_stands(text: str, start: int, end: int) -> PlacedText:
@@ -211,18 +207,13 @@ def _as_it_stands(text: str, start: int, end: int) -> PlacedText:
     block = _BLOCK.match(value)
     if block is not None:
         start, value = start + block.end(), value[block.end() :]
-    elif len(value) > 1 and value[0] in "'\"" and _unquoted(value) is not None:
-        inner = _unquoted(value)
-        assert inner is not None
+    elif len(value) > 1 and value[0] in "'\"" and (inner := _unquoted(value)) is not None:
         start, value = start + 1, inner
     else:
         value = _without_comments(value)
         if "\n" in text[first:start] and _ITEM.match(value):
             value = _listed(value)
-    for opening, closing in _DELIMITERS:
-        if value.startswith(opening) and value.endswith(closing) and len(value) > len(opening + closing):
-            start, value = start + len(opening), value[len(opening) : -len(closing)]
-    return placed([(value, start)])
+    return without_delimiters(placed([(value, start)]))
 
 
 def _unquoted(value: str) -> str | None:
@@ -304,20 +295,13 @@ def read_verdicts(reader: EquationReader, name: str, place: Place, text: str, no
     """Read yes, no or if of each matrix; what cannot be read makes the answer unreadable, with its reason."""
     written = text.strip() if node is None else text[node.start : node.end].strip()
     try:
-        root = _parsed(text) if node is None else node
+        root = node or yaml_values.root_of(text)
+        if root is None:
+            raise ReadError("this is no verdict", 0, 1, _EXPECTED)
         found = VerdictAnswer(name, place, written, tuple(_words(text, root)))
     except ReadError as error:
         found = VerdictAnswer(name, place, written, fault=error.message, expected=error.help)
     reader.found.verdicts.append(found)
-
-
-def _parsed(text: str) -> YamlNode:
-    """A value that stands in a file that YAML refuses, read by itself."""
-    try:
-        (root,) = yaml_values.documents(text)
-    except (NotYaml, ValueError):
-        raise ReadError("this is no verdict", 0, 1, _EXPECTED) from None
-    return root
 
 
 def _words(text: str, root: YamlNode) -> Iterator[tuple[str, str]]:

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from functools import cache
 from itertools import islice
 
 from msgspec.structs import replace
@@ -304,7 +305,17 @@ def _list(
     why: str,
     is_read: bool = False,
 ) -> None:
-    named: Callable[[str], tuple[str, ...]] = _Names(reader)
+
+    @cache
+    def named(text: str) -> tuple[str, ...]:
+        """What is asked for of the answers that a text speaks of."""
+        try:
+            member = prepared(text)[:-1]
+        except ReadError:
+            return ()
+        names = spoken_of(reader.vocabulary, member, read_left_side(reader.vocabulary, member))
+        return tuple(name for name in names if name in reader.vocabulary.asked)
+
     seen = set[tuple[int, tuple[str, ...]]]()
     matches = list(islice(pattern.finditer(text), _MOST))
     times = Counter(found["name"] for found in matches)
@@ -371,21 +382,3 @@ def _end(text: str, start: int) -> int:
         if level < 0 or (level == 0 and text[at] == "\n"):
             return at
     return last
-
-
-class _Names:
-    """What is asked for of the answers that a text speaks of."""
-
-    def __init__(self, reader: EquationReader) -> None:
-        self.vocabulary = reader.vocabulary
-        self.known: dict[str, tuple[str, ...]] = {}
-
-    def __call__(self, text: str) -> tuple[str, ...]:
-        if text not in self.known:
-            try:
-                member = prepared(text)[:-1]
-                names = spoken_of(self.vocabulary, member, read_left_side(self.vocabulary, member))
-            except ReadError:
-                names = ()
-            self.known[text] = tuple(name for name in names if name in self.vocabulary.asked)
-        return self.known[text]

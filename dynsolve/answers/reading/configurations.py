@@ -35,8 +35,9 @@ from dynsolve.answers.reading.left_side import RightSide, read_right_side
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.set_text import alternatives, joined
+from dynsolve.answers.reading.sources import is_balanced, levels
 from dynsolve.answers.reading.vocabulary import Vocabulary
-from dynsolve.answers.reading.yaml_values import MAX_DEPTH, NotYaml, YamlNode
+from dynsolve.answers.reading.yaml_values import MAX_DEPTH, YamlNode
 from dynsolve.answers.verdict import ConfigurationAnswer, Part, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
@@ -99,24 +100,25 @@ def has_coordinate(vocabulary: Vocabulary, node: Node) -> bool:
     return not names_in(node).isdisjoint(q.name for q in vocabulary.coordinates)
 
 
+def _value_of(vocabulary: Vocabulary, text: str) -> Node | None:
+    """The formula that a text is, None where it is none."""
+    try:
+        return value(vocabulary, prepared(text))
+    except ReadError:
+        return None
+
+
 def coordinate_named(vocabulary: Vocabulary, name: str) -> str:
     """The coordinate that a text is the name of; empty for any other."""
-    try:
-        node = value(vocabulary, prepared(name))
-    except ReadError:
-        return ""
+    node = _value_of(vocabulary, name)
     q = vocabulary.coordinate(node)
     return q.name if q is not None and not (isinstance(node, Symbol) and node.dots) else ""
 
 
 def function_named(vocabulary: Vocabulary, name: str) -> Function | None:
     """The sine or cosine of a coordinate that a text is the name of: c_2."""
-    try:
-        node = value(vocabulary, prepared(name))
-    except ReadError:
-        return None
-    is_one = isinstance(node, Function) and vocabulary.coordinate(node.argument) is not None
-    return node if isinstance(node, Function) and is_one else None
+    node = _value_of(vocabulary, name)
+    return node if isinstance(node, Function) and vocabulary.coordinate(node.argument) is not None else None
 
 
 def names_within(vocabulary: Vocabulary, text: str) -> frozenset[str]:
@@ -133,18 +135,19 @@ def names_within(vocabulary: Vocabulary, text: str) -> frozenset[str]:
 # Lists and mappings in a text that YAML refuses, found by their brackets alone
 
 _KEY = re.compile(r"""\s*("[^"\n]{1,80}"|'[^'\n]{1,80}'|[\w\\{}^]{1,80}?)\s*:""")
-_LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
 
 def loose_node(text: str) -> YamlNode | None:
     """What a text says as a list, a mapping or a scalar; None where a bracket never closes."""
-    if len(text) > MAX_LENGTH or not _is_balanced(text):
+    if len(text) > MAX_LENGTH or not is_balanced(text):
         return None
     return _node(text, 0, len(text), MAX_DEPTH)
 
 
 def _node(text: str, start: int, end: int, depth: int) -> YamlNode:
-    start, end = _stripped(text, start, end)
+    content = text[start:end]
+    start, end = end - len(content.lstrip()), start + len(content.rstrip())
+    start = min(start, end)
     opening, closing = text[start : start + 1], text[end - 1 : end]
     if depth and opening == "[" and closing == "]":
         pieces = _pieces(text, start + 1, end - 1)
@@ -170,30 +173,12 @@ def _mapping(text: str, start: int, end: int, depth: int) -> YamlNode:
 
 def _pieces(text: str, start: int, end: int) -> list[tuple[int, int]]:
     """Where the items stand that commas part, outside of brackets."""
-    found, level, first = [], 0, start
-    for at in range(start, end):
-        level += _LEVELS.get(text[at], 0)
+    found, first = [], start
+    for at, level in enumerate(levels(text[start:end]), start):
         if text[at] == "," and level == 0:
             found.append((first, at))
             first = at + 1
     return [*found, (first, end)] if text[first:end].strip() else found
-
-
-def _stripped(text: str, start: int, end: int) -> tuple[int, int]:
-    while start < end and text[start].isspace():
-        start += 1
-    while start < end and text[end - 1].isspace():
-        end -= 1
-    return start, end
-
-
-def _is_balanced(text: str) -> bool:
-    level = 0
-    for character in text:
-        level += _LEVELS.get(character, 0)
-        if level < 0:
-            return False
-    return level == 0
 
 
 # Answers that are sets: singular configurations, and the branches of the inverse kinematics
@@ -221,15 +206,18 @@ def read_configurations(
     `takes_x_first` says that the student's atan2 takes x first.
     """
     kind = reader.vocabulary.quantities[name].family.kind
-    try:
-        source, root = (text, _parsed(text)) if node is None else (text, node)
-    except ReadError as error:
+    root = node or yaml_values.root_of(text) or loose_node(text)
+    if root is None:
+        error = ReadError("a bracket never closes", 0, 1, "write a list: [sin(q2) = 0, cos(q3) = 0]")
         reader.found.configurations.append(_answer(name, place, text.strip(), (), error))
         return
-    alternatives, fault = _read(reader.vocabulary, kind, _alternatives(reader.vocabulary, source, root, kind))
+    alternatives, fault = _read(reader.vocabulary, kind, _alternatives(reader.vocabulary, text, root, kind))
     if takes_x_first:
-        alternatives = tuple(tuple(_turned_round(part) for part in one) for one in alternatives)
-    written = source[root.start : root.end].strip()
+        alternatives = tuple(
+            tuple(Part(part.coordinate, with_atan2_exchanged(part.node)) for part in one)
+            for one in alternatives
+        )
+    written = text[root.start : root.end].strip()
     reader.found.configurations.append(_answer(name, place, written, alternatives, fault))
 
 
@@ -247,15 +235,10 @@ def is_set(vocabulary: Vocabulary, text: str) -> bool:
         found, fault = _read(vocabulary, Kind.EQUATIONS, _of_texts(vocabulary, [[text]]))
     except ReadError:
         return False
-    names = [names_in(part.node) for one in found for part in one]
-    coordinates = {q.name for q in vocabulary.coordinates}
-    return (
-        fault is None
-        and bool(names)
-        and all(
-            not within.isdisjoint(coordinates) and within.isdisjoint(vocabulary.reached) for within in names
-        )
-    )
+    nodes = [part.node for one in found for part in one]
+    if fault is not None or not nodes or not names_in(*nodes).isdisjoint(vocabulary.reached):
+        return False
+    return all(has_coordinate(vocabulary, node) for node in nodes)
 
 
 def _read(
@@ -290,20 +273,6 @@ def _check_values(vocabulary: Vocabulary, items: Iterable[_Item], read: Iterable
                 raise ReadError(f"`{text.strip()[:60]}` is no equation", 0, 1, "write [q2 = 0, q2 = pi]")
 
 
-def _parsed(text: str) -> YamlNode:
-    """A value that stands in a file that YAML refuses, read by itself."""
-    try:
-        (root,) = yaml_values.documents(text)
-    except (NotYaml, ValueError):
-        found = loose_node(text)
-        if found is None:
-            raise ReadError(
-                "a bracket never closes", 0, 1, "write a list: [sin(q2) = 0, cos(q3) = 0]"
-            ) from None
-        return found
-    return root
-
-
 _Item = tuple[tuple[str, str], ...]
 """An alternative: (coordinate or nothing, text) for each of its formulas."""
 
@@ -319,7 +288,11 @@ def _alternatives(vocabulary: Vocabulary, text: str, root: YamlNode, kind: Kind)
 
 def _of_texts(vocabulary: Vocabulary, texts: Iterable[Sequence[str]]) -> Iterator[_Item]:
     """Every choice of one alternative of each of several texts, which hold together."""
-    each = [alternatives(one, partial(_is_name, vocabulary), partial(_is_value, vocabulary)) for one in texts]
+
+    def is_name(letter: str) -> bool:
+        return vocabulary.symbol(key(letter)) is not None
+
+    each = [alternatives(one, is_name, partial(_is_value, vocabulary)) for one in texts]
     for chosen in product(*each):
         yield from _signed(tuple(("", equation) for one in chosen for equation in one))
 
@@ -398,17 +371,10 @@ def _signed(parts: _Item) -> Iterator[_Item]:
         yield parts
 
 
-def _is_name(vocabulary: Vocabulary, letter: str) -> bool:
-    """Whether a letter means something in the problem or to the student."""
-    return vocabulary.symbol(key(letter)) is not None
-
-
 def _is_value(vocabulary: Vocabulary, text: str) -> bool:
     """Whether no coordinate stands in a text, which may begin with ±."""
-    try:
-        return not has_coordinate(vocabulary, value(vocabulary, prepared(EITHER.sub("+", text))))
-    except ReadError:
-        return False
+    node = _value_of(vocabulary, EITHER.sub("+", text))
+    return node is not None and not has_coordinate(vocabulary, node)
 
 
 def _parts(vocabulary: Vocabulary, item: _Item) -> Iterator[Part]:
@@ -436,17 +402,10 @@ def _part(vocabulary: Vocabulary, name: str, text: str) -> Part:
         if len(members) == 1:
             return Part("", members[0])
         if len(members) == 2:
-            return Part("", members[0] if _is_zero(members[1]) else total([members[0], negated(members[1])]))
+            first, second = members
+            return Part("", first if second == ZERO else total([first, negated(second)]))
         raise ReadError(f"`{text.strip()[:60]}` is no equation", 0, 1, "write sin(q2) = 0")
     coordinate = coordinate_named(vocabulary, name)
     if not coordinate:
         raise ReadError(f"{name} is no coordinate", 0, 1, "a branch gives a formula for each coordinate")
     return Part(coordinate, value(vocabulary, tokens[-1]))
-
-
-def _turned_round(part: Part) -> Part:
-    return Part(part.coordinate, with_atan2_exchanged(part.node))
-
-
-def _is_zero(node: Node) -> bool:
-    return node == ZERO

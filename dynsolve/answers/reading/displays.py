@@ -41,17 +41,14 @@ _IS_OPEN = re.compile(r"(?:[-+=*/(\[]|\\(?:cdot|times|left[(\[]))[\s&]*(?:\\\\)?
 def continued(displays: Sequence[tuple[int, Display]]) -> list[tuple[int, Display]]:
     """The displays, those that are one equation put together: `P = a` and, below it, `+ b`."""
     found: list[tuple[int, Display]] = []
+    last = -1
     for offset, display in displays:
-        last = next((at for at in range(len(found) - 1, -1, -1) if not found[at][1].aside), -1)
         before = found[last][1] if last >= 0 and not display.aside else None
-        if (
-            before is not None
-            and not before.plain
-            and not display.plain
-            and _is_one(before.text, display.text)
-        ):
+        is_typed = before is None or before.plain or display.plain
+        if before is not None and not is_typed and _is_one(before.text, display.text):
             found[last] = (found[last][0], _joined(before, display))
         else:
+            last = last if display.aside else len(found)
             found.append((offset, display))
     return found
 
@@ -102,9 +99,9 @@ def _unwrapped(tokens: list[Token]) -> list[Token]:
     r"""The rows of a system in `\left\{ \begin{array} ... \end{array} \right.`; others as they are."""
     inside = [t for t in tokens if t.kind not in ("end", "tag")]
     one_sided = _is_one_sided(inside)
-    if inside and inside[0].text in ("\\{", "\\lbrace"):
+    if inside and inside[0].text in _LEFT_BRACES:
         inside = inside[1:]
-    if inside and inside[-1].text in ("\\}", "\\rbrace"):
+    if inside and inside[-1].text in _RIGHT_BRACES:
         inside = inside[:-1]
     if one_sided:
         tokens = [*inside, *(t for t in tokens if t.kind in ("tag", "end"))]
@@ -124,9 +121,10 @@ def _is_one_sided(tokens: list[Token]) -> bool:
     level = sum(OPENS.get(t.kind, 0) for t in tokens if t.kind in ("(", ")"))
     if not tokens or abs(level) != 1:
         return False
-    return tokens[0 if level == 1 else -1].text in (
-        ("\\{", "\\lbrace") if level == 1 else ("\\}", "\\rbrace")
-    )
+    return tokens[0].text in _LEFT_BRACES if level == 1 else tokens[-1].text in _RIGHT_BRACES
+
+
+_LEFT_BRACES, _RIGHT_BRACES = ("\\{", "\\lbrace"), ("\\}", "\\rbrace")
 
 
 def is_label(tokens: list[Token]) -> str:
@@ -136,9 +134,7 @@ def is_label(tokens: list[Token]) -> str:
         return f"({shown[0].text.strip('()')})"
     if 3 <= len(shown) <= 6 and shown[0].kind == "(" and shown[-1].kind == ")":
         inside = shown[1:-1]
-        if all(t.kind in ("number", "name", ".", "'") for t in inside) and any(
-            t.kind == "number" for t in inside
-        ):
+        if "number" in {t.kind for t in inside} <= {"number", "name", ".", "'"}:
             return "(" + "".join(t.text for t in inside) + ")"
     return ""
 
@@ -183,24 +179,22 @@ def _without_tabs(row: list[Token]) -> list[Token]:
 
 
 def _goes_on(before: list[Token], row: list[Token]) -> bool:
-    content = [t for t in row if t.text not in SEPARATORS and t.kind != "tag"]
-    if not content or content[0].kind in ("=", "+", "-", "*", "cdot", "times", "/"):
-        return True
-    previous = [t for t in before if t.text not in SEPARATORS and t.kind != "tag"]
-    if previous and previous[-1].kind in ("=", "+", "-", "*", "cdot", "times", "/"):
+    previous, content = (
+        [t for t in tokens if t.text not in SEPARATORS and t.kind != "tag"] for tokens in (before, row)
+    )
+    if not content or any(t.kind in _OPERATORS for t in (content[0], *previous[-1:])):
         return True
     return not any(t.kind == "=" for t in content) and not is_label(content)
 
 
+_OPERATORS = frozenset({"=", "+", "-", "*", "cdot", "times", "/"})
+
+
 def _label(row: list[Token]) -> tuple[str, list[Token]]:
     """The number inside a row, and the row without it."""
-    label = ""
-    kept: list[Token] = []
-    for token in row:
-        if token.kind == "tag":
-            label = f"({token.text.strip('()')})"
-        else:
-            kept.append(token)
+    tags = [token.text.strip("()") for token in row if token.kind == "tag"]
+    label = f"({tags[-1]})" if tags else ""
+    kept = [token for token in row if token.kind != "tag"]
     if not label and len(kept) > 4 and [t.kind for t in kept[-3:]] == ["(", "number", ")"]:
         before = kept[-4]
         if before.text in SEPARATORS or (
@@ -228,15 +222,17 @@ def _leading_number(row: list[Token]) -> int:
     return end + 1 if begins and (has_digit or not is_open) and any(t.kind == "=" for t in row) else 0
 
 
-_PENDING = frozenset({"+", "-", "*", "/", "=", "cdot", "times", "command"})
+_PENDING = _OPERATORS | {"command"}
 
 
 def _pieces(row: list[Token]) -> list[list[Token]]:
     r"""The equations that stand beside one another in a row: `P_1 = 0, \quad P_2 = 0`."""
     merged: list[list[Token]] = []
     for boundary, piece in _cut(_without_parentheses(row)):
-        if _is_words(piece) or (merged and _is_remark(piece)):
+        if all(t.kind in _ENDINGS or t.kind == "text" for t in piece):
             continue
+        if merged and not _is_equation(piece) and any(map(_is_relation, piece)):
+            continue  # it says something else of the equation: `c \\in \\mathbb{R}^2`, `m > 0`
         if not merged:
             merged.append(piece)
         elif _is_equation(piece) and piece[0].kind != "=":
@@ -288,15 +284,6 @@ def _cut(row: list[Token]) -> list[tuple[Token | None, list[Token]]]:
         else:
             pieces[-1][1].append(token)
     return pieces
-
-
-def _is_words(piece: list[Token]) -> bool:
-    return not piece or all(t.kind in _ENDINGS or t.kind == "text" for t in piece)
-
-
-def _is_remark(piece: list[Token]) -> bool:
-    r"""Whether what stands beside an equation says something else of it: `c \in \mathbb{R}^2`, `m > 0`."""
-    return not _is_equation(piece) and any(_is_relation(t) for t in piece)
 
 
 _MEMBERSHIPS = frozenset("in ni notin subset forall exists to mapsto".split())
@@ -362,13 +349,17 @@ def _without_remark(member: list[Token]) -> list[Token]:
 
 def chain(tokens: list[Token]) -> list[list[Token]]:
     """The members of a value as an answer file gives it, which is no display: a = b, or one value alone."""
-    kept = _trimmed([token for token in tokens if token.kind not in ("end", "tag")])
-    members: list[list[Token]] = [[]]
+    return pieces(_trimmed([token for token in tokens if token.kind not in ("end", "tag")]), "=")
+
+
+def pieces(tokens: Sequence[Token], *kinds: str) -> list[list[Token]]:
+    """What stands between signs of these kinds that are in no bracket."""
+    found: list[list[Token]] = [[]]
     level = 0
-    for token in kept:
+    for token in tokens:
         level = max(level + OPENS.get(token.kind, 0), 0)
-        if token.kind == "=" and level == 0:
-            members.append([])
+        if token.kind in kinds and level == 0:
+            found.append([])
         else:
-            members[-1].append(token)
-    return members
+            found[-1].append(token)
+    return found

@@ -97,17 +97,10 @@ _SIGNS = {
     **dict.fromkeys("’′ʹ＇", "'"),
     **dict.fromkeys('"”″ʺ', "''"),
     **dict.fromkeys("º˚", "°"),
-    "==": "=",
+    **dict.fromkeys(("==", ":=", "=:", *"≡≜≔≕≝"), "="),
     "@": "\\\\",  # Word's rows
     "〖": "{",
     "〗": "}",
-    ":=": "=",
-    "=:": "=",
-    "≡": "=",
-    "≜": "=",
-    "≔": "=",
-    "≕": "=",
-    "≝": "=",
 }
 _COMMANDS = {
     "∂": "partial", "∇": "nabla", "∑": "sum", "≠": "neq", "∈": "in", "∀": "forall", "⇒": "Rightarrow",
@@ -139,74 +132,39 @@ _VANISHING = dict.fromkeys(
     "label vspace color ref eqref cite class cssId textcolor notag phantom hphantom vphantom footnote index "
     "marginpar colorbox pagecolor raisebox hskip vskip mskip mkern kern cline".split(),
     1,
-) | {
-    "fontsize": 2,
-    "fcolorbox": 2,
-    "rule": 2,
-    "setlength": 2,
-    "IEEEeqnarraymulticol": 2,
-    "multicolumn": 2,
-    "addtolength": 2,
-    "definecolor": 3,
-}
+)
+_VANISHING |= dict.fromkeys(
+    "fontsize fcolorbox rule setlength IEEEeqnarraymulticol multicolumn addtolength".split(), 2
+)
+_VANISHING["definecolor"] = 3
 _TEXTS = dict.fromkeys(
     "text textrm textit textbf textnormal textsf texttt textup mbox hbox emph".split(), "text"
-) | {
-    "tag": "tag",
-    "begin": "begin",
-    "end": "close",
-    "intertext": "separator",
-    "shortintertext": "separator",
-}
+)
+_TEXTS |= {"tag": "tag", "begin": "begin", "end": "close"}
+_TEXTS |= {"intertext": "separator", "shortintertext": "separator"}
 _WIDE = frozenset({"hspace"})
 """Wide blanks by their length, which part equations as `\\quad` does."""
-_SIGN_COMMANDS = {
-    "cdot": "cdot",
+_COMMANDS_OF_SIGNS = {
+    "cdot": "cdot bullet",
     "times": "times",
-    "ast": "*",
-    "star": "*",
-    "bullet": "cdot",
-    "div": "/",
     "over": "over",
-    "lbrack": "[",
-    "rbrack": "]",
-    "lparen": "(",
-    "rparen": ")",
-    "{": "(",
-    "}": ")",
-    "lbrace": "(",
-    "rbrace": ")",
-    "prime": "'",
-    "\\": "\\\\",
-    "cr": "\\\\",
-    "tabularnewline": "\\\\",
+    "*": "ast star",
+    "/": "div",
+    "[": "lbrack",
+    "]": "rbrack",
+    "(": "lparen { lbrace",
+    ")": "rparen } rbrace",
+    "'": "prime",
+    "\\\\": "\\ cr tabularnewline",
     "&": "&",
-    "equiv": "=",
-    "triangleq": "=",
-    "coloneqq": "=",
-    "coloneq": "=",
-    "eqqcolon": "=",
-    "doteq": "=",
-    "approx": "=",
-    "lvert": "|",
-    "rvert": "|",
-    "colon": ":",
-    "|": "|",
-    "Vert": "|",
-    "lVert": "|",
-    "rVert": "|",
-    "vert": "|",
+    "=": "equiv triangleq coloneqq coloneq eqqcolon doteq approx",
+    "|": "lvert rvert | Vert lVert rVert vert",
+    ":": "colon",
 }
-GREEK_COMMANDS = {
-    "ell": "l",
-    "vartheta": "theta",
-    "varphi": "phi",
-    "varepsilon": "epsilon",
-    "varrho": "rho",
-    "varpi": "pi",
-    "varkappa": "kappa",
-    "varsigma": "sigma",
-} | {name: name for name in SPELLED.values()}
+_SIGN_COMMANDS = {name: sign for sign, names in _COMMANDS_OF_SIGNS.items() for name in names.split()}
+_VARIANTS = "theta phi epsilon rho pi kappa sigma".split()
+GREEK_COMMANDS = {f"var{name}": name for name in _VARIANTS} | {name: name for name in SPELLED.values()}
+GREEK_COMMANDS["ell"] = "l"
 _LENGTH = re.compile(r"\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu)(?![A-Za-z])")
 _OPTION = re.compile(r"\*?\s*\[[^\[\]{}]{0,60}\](?=\s*\{)")
 _LINE_BREAK_END = re.compile(

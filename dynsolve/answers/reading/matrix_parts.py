@@ -19,7 +19,7 @@ from itertools import islice
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from dynsolve.answers.reading.displays import OPENS
+from dynsolve.answers.reading.displays import pieces
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.references import skip_arguments
 from dynsolve.answers.reading.grids import Grid, Value, symbols_in, transposed
@@ -83,23 +83,10 @@ def written_entries(tokens: list[Token]) -> list[list[list[Token]]]:
         return []
     inside = tokens[1:-1]
     if tokens[0].kind == "begin":
-        return [_cut(row, "&") for row in _cut(inside, "\\\\")]
-    if inside[0].kind == "[":
-        return [_cut(row[1:-1], ",") for row in _cut(inside, ",")]
-    return [_cut(row, ",") for row in _cut(inside, ";")]
-
-
-def _cut(tokens: list[Token], kind: str) -> list[list[Token]]:
-    """The pieces between signs of a kind that stand in no bracket; an empty one only in a row of cells."""
-    pieces: list[list[Token]] = [[]]
-    level = 0
-    for token in tokens:
-        level += OPENS.get(token.kind, 0)
-        if token.kind == kind and level == 0:
-            pieces.append([])
-        else:
-            pieces[-1].append(token)
-    return [piece for piece in pieces if piece or kind == "&"]
+        return [pieces(row, "&") for row in filter(None, pieces(inside, "\\\\"))]
+    is_nested = inside[0].kind == "["
+    rows = filter(None, pieces(inside, "," if is_nested else ";"))
+    return [list(filter(None, pieces(row[1:-1] if is_nested else row, ","))) for row in rows]
 
 
 # V_1, V_2, or n_1(q, \dot q)

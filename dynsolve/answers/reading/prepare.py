@@ -117,14 +117,11 @@ def _is_fraction_alone(out: list[Token], start: int) -> bool:
 
 def _is_argument(out: list[Token], start: int) -> bool:
     """Whether the group that opens there belongs to a script or a command."""
-    before = start - 1
-    if before < 0:
+    if start == 0:
         return False
-    if out[before].kind in ("_", "^") or (
-        out[before].kind == "command" and out[before].text not in SEPARATORS
-    ):
-        return True
-    return _is_divided(out, start)
+    before = out[start - 1]
+    is_command = before.kind == "command" and before.text not in SEPARATORS
+    return is_command or before.kind in ("_", "^") or _is_divided(out, start)
 
 
 def _is_divided(out: list[Token], start: int) -> bool:
@@ -163,12 +160,8 @@ def _bare(tokens: list[Token]) -> list[Token]:
     """The tokens without the braces around all of them."""
     if len(tokens) < 3 or tokens[0].kind != "{" or tokens[-1].kind != "}":
         return tokens
-    level = 0
-    for position, token in enumerate(tokens):
-        level += level_of(token)
-        if level == 0:
-            return tokens[1:-1] if position == len(tokens) - 1 else tokens
-    return tokens
+    inside, end = taken_group([*tokens, tokens[-1]._replace(kind="end")], 0)
+    return inside if end == len(tokens) else tokens
 
 
 def taken_group(tokens: list[Token], position: int) -> tuple[list[Token], int]:
@@ -467,12 +460,8 @@ def _script_inside(tokens: list[Token], position: int, out: list[Token]) -> int:
     r"""A script letter in bold, `\boldsymbol{\mathcal{I}}`, is one without: its outer braces are left out."""
     inner = tokens[position : position + 6]
     kinds = [token.kind for token in inner]
-    bare = (
-        kinds[:3] == ["{", "command", "{"]
-        and kinds[3:4] in (["name"], ["letter"])
-        and kinds[4:] == ["}", "}"]
-    )
-    if not (bare and inner[1].text in _SCRIPT):
+    is_bare = kinds in (["{", "command", "{", kind, "}", "}"] for kind in ("name", "letter"))
+    if not is_bare or inner[1].text not in _SCRIPT:
         return position
     out += [inner[1]._replace(text="script"), *inner[2:5]]
     return position + len(inner)

@@ -209,7 +209,7 @@ def _displays(
     while (opening := _OPENING.search(text, position)) is not None:
         kind = str(opening.lastgroup)
         start = opening.end()
-        closing = _closing(opening)
+        closing = _closing(kind, opening[kind])
         end = -1 if closing in exhausted else text.find(closing, start)
         if end < 0:
             exhausted.add(closing)
@@ -305,18 +305,12 @@ def _locate_behind(display: Display, start: int, offset: int, length: int) -> Pl
     return display.locate(start + offset, length)
 
 
-def _closing(opening: re.Match[str]) -> str:
-    if opening["environment"]:
-        return f"\\end{{{opening['environment']}}}"
-    if opening["dollars"]:
-        return "$$"
-    if opening["bracket"]:
-        return "\\]"
-    if opening["double"]:
-        return "\\\\]"
-    if opening["fence"]:
-        return "\n" + opening["fence"].strip()[:3]
-    return "\\)" if opening["inline"] == "\\(" else "$"
+def _closing(kind: str, opened: str) -> str:
+    if kind == "environment":
+        return f"\\end{{{opened}}}"
+    if kind == "fence":
+        return "\n" + opened.strip()[:3]
+    return {"$$": "$$", "\\[": "\\]", "\\\\[": "\\\\]", "\\(": "\\)", "$": "$"}[opened]
 
 
 def _display(text: str, source: Source, start: int, end: int, label: str, plain: bool = False) -> Display:

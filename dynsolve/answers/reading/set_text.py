@@ -20,10 +20,10 @@ vector is 0, and a whole space the unit vectors.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise, product
 
-from dynsolve.answers.reading.sources import PlacedText, placed
+from dynsolve.answers.reading.sources import PlacedText, levels, placed
 from dynsolve.errors import ReadError
 from dynsolve.quantities.letters import key
 
@@ -181,7 +181,6 @@ _JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|{FOLLOWS.pattern}|,")
 _COMMA = re.compile(",")
 _COMMA_AND = re.compile(rf",\s{{1,9}}(?:{AND})\s")
 _LEADING_AND = re.compile(rf"\A\s*(?:{AND})\s(?=[^=]*=)")
-_LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
 
 def alternatives(
@@ -205,8 +204,8 @@ def alternatives(
             if (letter in "kn" and not is_name(letter)) or found.count(letter) == turns.count(letter)
         )
         for numbers in product(WHOLE_NUMBERS, repeat=len(letters)):
-            values = dict(zip(letters, numbers, strict=True))
-            yield tuple(_with_numbers(one, values) for one in equations)
+            values = {letter: f"({number})" for letter, number in zip(letters, numbers, strict=True)}
+            yield tuple(_WHOLE.sub(lambda k, to=values: to.get(k[1], k[0]), one) for one in equations)
 
 
 def joined(text: str) -> list[str]:
@@ -221,11 +220,6 @@ def joined(text: str) -> list[str]:
 def in_signs(text: str) -> str:
     """The text with its words as words, and blanks for what only sets it."""
     return _EQUALS.sub("=", _SPACE.sub(" ", _WORD.sub(r" \1 ", text)))
-
-
-def _with_numbers(text: str, values: Mapping[str, int]) -> str:
-    """A text with numbers for letters."""
-    return _WHOLE.sub(lambda letter: f"({values[letter[1]]})" if letter[1] in values else letter[0], text)
 
 
 def _spelled_out(text: str, is_value: Callable[[str], bool]) -> str:
@@ -386,16 +380,9 @@ def _without_parentheses(text: str) -> str:
     text = text.strip()
     if text[:1] == "(" and text[-1:] == ")" and "=" in text:
         inside = text[1:-1]
-        if all(level >= 0 for level in _running(inside)):
+        if min(levels(inside), default=0) >= 0:
             return inside
     return text
-
-
-def _running(text: str) -> Iterator[int]:
-    level = 0
-    for character in text:
-        level += _LEVELS.get(character, 0)
-        yield level
 
 
 def _parts(text: str, separator: re.Pattern[str]) -> list[str]:
@@ -405,10 +392,11 @@ def _parts(text: str, separator: re.Pattern[str]) -> list[str]:
 
 def _split(text: str, separator: re.Pattern[str]) -> list[str]:
     """The same with the separators."""
-    levels = list(_running(text))
     found, start = list[str](), 0
+    open_at: list[int] = []
     for sign in separator.finditer(text):
-        if levels[sign.start()] == 0:
+        open_at = open_at or levels(text)
+        if open_at[sign.start()] == 0:
             found += [text[start : sign.start()], sign[0]]
             start = sign.end()
     return [*found, text[start:]]

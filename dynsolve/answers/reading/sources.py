@@ -9,6 +9,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from functools import cached_property
+from itertools import accumulate
 
 from msgspec import Struct, field
 
@@ -143,6 +144,22 @@ def placed(pieces: Iterable[Piece]) -> PlacedText:
         starts.append(length)
         length += len(text)
     return PlacedText("".join(text for text, _ in kept), tuple(starts), tuple(at for _, at in kept))
+
+
+# Brackets in a text
+
+_LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
+
+
+def levels(text: str) -> list[int]:
+    """How many brackets are open behind each character of a text."""
+    return list(accumulate(_LEVELS.get(character, 0) for character in text))
+
+
+def is_balanced(text: str) -> bool:
+    """Whether every bracket closes one that is open, and none is left open."""
+    found = levels(text)
+    return not found or (found[-1] == 0 and min(found) >= 0)
 
 
 # What is left out of a text, which keeps its length

@@ -23,14 +23,14 @@ have them write `"\\theta_1"`, as every library does.  Both are read, each value
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any
 
 from msgspec import Struct, field
 
 from dynsolve.answers.reading.dh_tables import column_of, order_of
-from dynsolve.answers.reading.sources import Piece, PlacedText, placed
+from dynsolve.answers.reading.sources import Piece, PlacedText, levels, placed
 
 # The scalars of an answer file
 
@@ -166,17 +166,11 @@ MAX_EVENTS = 30_000
 MAX_DEPTH = 12
 
 _NULLS = frozenset({"", "~", "null", "Null", "NULL"})
-_SCALARS = {
-    "'": single_quoted,
-    '"': double_quoted,
-    "|": literal,
-    ">": block_folded,
-}
+_SCALARS = {"'": single_quoted, '"': double_quoted, "|": literal, ">": block_folded}
 _BACKSLASHES = re.compile(r'\\(\\|(?!"))')
 _DELIMITERS = (("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]"))
 _DECIMAL = re.compile(r"(?<=[0-9]),(?=[0-9])")
 _COMMENT = re.compile(r":?[ \t]+(#[^\n]*)")
-_OPENS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
 
 class NotYaml(Exception):
@@ -224,6 +218,15 @@ def documents(text: str) -> list[YamlNode]:
     return roots
 
 
+def root_of(text: str) -> YamlNode | None:
+    """The one document of a text that is YAML by itself, None where it is not."""
+    try:
+        (root,) = documents(text)
+    except (NotYaml, ValueError):
+        return None
+    return root
+
+
 def _take(event: Any, roots: list[YamlNode], opened: list[YamlNode]) -> None:
     kind = type(event).__name__
     start, end = event.start_mark.index, event.end_mark.index
@@ -253,7 +256,7 @@ def value(text: str, node: YamlNode) -> PlacedText | None:
         return placed([(comment[1], comment.start(1))])
     if node.style == "" and not node.as_it_stands and text[node.start : node.end].strip() in _NULLS:
         return None
-    found = _without_delimiters(placed(_pieces(text, node)))
+    found = without_delimiters(placed(_pieces(text, node)))
     return found if found.text.strip() else None
 
 
@@ -312,11 +315,15 @@ def _row_of_table(text: str, node: YamlNode) -> list[Piece] | None:
     columns = {column_of(head): cell for head, cell in cells.items()}
     if None in columns or len(columns) < len(cells) or not cells:
         return None
-    pieces: list[Piece] = [("[", node.start)]
-    for column in range(4):
-        pieces += [(", ", node.start)] * bool(column)
-        pieces += _item(text, columns[column]) if column in columns else [("0", node.start)]
-    return [*pieces, ("]", max(node.end - 1, node.start))]
+    row = _cells(text, [columns.get(column) for column in range(4)], node.start)
+    return [("[", node.start), *row, ("]", max(node.end - 1, node.start))]
+
+
+def _cells(text: str, cells: Iterable[YamlNode | None], at: int) -> Iterator[Piece]:
+    """The cells of a row with commas between them, 0 for one that is not there."""
+    for number, cell in enumerate(cells):
+        yield (", " if number else ""), at
+        yield from _item(text, cell) if cell is not None else [("0", at)]
 
 
 def _table_by_columns(text: str, node: YamlNode) -> list[Piece]:
@@ -326,13 +333,10 @@ def _table_by_columns(text: str, node: YamlNode) -> list[Piece]:
     if None in columns or len(columns) != 4 or len(node.inside) != 8 or len(heights) != 1:
         return []
     pieces: list[Piece] = [("[", node.start)]
+    order = [columns[column] for column in range(4)]
     for row in range(heights.pop()):
-        pieces.append((", [" if row else "[", node.start))
-        for column in range(4):
-            cells = columns[column]
-            pieces += [(", ", node.start)] * bool(column)
-            pieces += _item(text, cells.inside[row] if cells.style == "list" else cells)
-        pieces.append(("]", node.start))
+        cells = [column.inside[row] if column.style == "list" else column for column in order]
+        pieces += [(", [" if row else "[", node.start), *_cells(text, cells, node.start), ("]", node.start)]
     return [*pieces, ("]", max(node.end - 1, node.start))]
 
 
@@ -347,14 +351,15 @@ def pairs_of(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
     while pairs:
         name, found = pairs.pop(0)
         start, end = found.start, found.end
-        while pairs and _is_open(text[start:end]):
+        while pairs and _open_in(text[start:end]) > 0:
             more = pairs.pop(0)
             end = max(more[0].end, more[1].end)
         yield word(text, name), word(text, found) if end == found.end else text[start:end]
 
 
-def _is_open(text: str) -> bool:
-    return sum(_OPENS.get(character, 0) for character in text) > 0
+def _open_in(text: str) -> int:
+    """How many brackets a text leaves open."""
+    return levels(text)[-1] if text else 0
 
 
 def _rejoined(text: str, items: list[YamlNode]) -> Iterator[YamlNode]:
@@ -368,7 +373,7 @@ def _rejoined(text: str, items: list[YamlNode]) -> Iterator[YamlNode]:
             continue
         whole = item if whole is None else YamlNode("", whole.start, item.end)
         if is_plain:
-            level += sum(_OPENS.get(character, 0) for character in text[item.start : item.end])
+            level += _open_in(text[item.start : item.end])
         if level <= 0:
             yield whole
             whole, level = None, 0
@@ -384,7 +389,7 @@ def _item(text: str, node: YamlNode) -> Iterator[Piece]:
     if node.style == "mapping" and not node.as_it_stands and (row := _row_of_table(text, node)):
         yield from row
         return
-    found = _without_delimiters(placed(_pieces(text, node)))
+    found = without_delimiters(placed(_pieces(text, node)))
     commas = _commas(found.text)
     decimal = [at for at in commas if _DECIMAL.match(found.text, at)]
     if not commas:
@@ -409,18 +414,13 @@ def _placed(found: PlacedText) -> Iterator[Piece]:
 
 def _commas(text: str) -> list[int]:
     """The commas and semicolons of a text that stand in no bracket."""
-    found: list[int] = []
-    level = 0
     if "," not in text and ";" not in text:
-        return found
-    for at, character in enumerate(text):
-        level += _OPENS.get(character, 0)
-        if level <= 0 and character in ",;" and text[at - 1 : at] != "\\":
-            found.append(at)
-    return found
+        return []
+    outside = [at for at, level in enumerate(levels(text)) if level <= 0 and text[at] in ",;"]
+    return [at for at in outside if text[at - 1 : at] != "\\"]
 
 
-def _without_delimiters(found: PlacedText) -> PlacedText:
+def without_delimiters(found: PlacedText) -> PlacedText:
     """The formula without the signs that LaTeX writes around it."""
     start, end = len(found.text) - len(found.text.lstrip()), len(found.text.rstrip())
     for opening, closing in _DELIMITERS:
