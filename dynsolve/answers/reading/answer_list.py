@@ -51,22 +51,19 @@ def readable(answers: Sequence[Answer], quantities: Quantities) -> tuple[list[An
     kept: list[Answer] = []
     lost: list[NotRecognized] = []
     for answer in answers:
-        if answer.node is None and _is_given(answer.name, given, quantities):
-            refused = NotRecognized(answer.text, answer.label, answer.place, answer.fault, (answer.name,))
-            lost.append(refused)
+        quantity = quantities.get(answer.name)
+        parts = quantities.parts(answer.name) if quantity is not None and quantity.shape else ()
+        is_given = answer.name in given or (bool(parts) and given.issuperset(parts))
+        if answer.node is None and is_given:
+            lost.append(_refused(answer, answer.fault, answer.name))
         else:
             kept.append(answer)
     return kept, lost
 
 
-def _is_given(name: str, given: set[str], quantities: Quantities) -> bool:
-    if name in given:
-        return True
-    quantity = quantities.get(name)
-    if quantity is None or quantity.shape is None:
-        return False
-    parts = set(quantities.parts(name))
-    return bool(parts) and parts <= given
+def _refused(answer: Answer, why: str, name: str) -> NotRecognized:
+    """The record of an answer that does not count."""
+    return NotRecognized(answer.text, answer.label, answer.place, why, (name,))
 
 
 class Origin(Struct, frozen=True):
@@ -98,26 +95,14 @@ class Member(Struct, frozen=True):
     found: RightSide | ReadError
 
 
-class _Undecided(Struct, frozen=True):
-    """An equation whose left side has an index that does not exist, and the answers it gives if it counts.
-
-    It is taken for the one answer of its `family` that is absent; `position` is its place
-    among the answers.
-    """
-
-    family: tuple[str, ...]
-    answers: list[Answer]
-    refused: NotRecognized
-    position: int
-
-
 class AnswerList(Struct, dict=True):
     """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
 
     `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`; `own_scalars`
     are definitions where what they are kept under is used, else answers of another shape; `in_case` has the
     numbers of the equations that count where no other answers the same, with the reason, `others_zero` where
-    it is said that the entries which are not written are zero.
+    it is said that the entries which are not written are zero; `_undecided` are equations whose left side has
+    an index that does not exist: (its family, the answers that it gives if it counts, their place).
     """
 
     vocabulary: Vocabulary
@@ -131,7 +116,7 @@ class AnswerList(Struct, dict=True):
     own_scalars: list[tuple[str, list[Answer], NotRecognized]] = field(default_factory=list)
     in_case: dict[int, str] = field(default_factory=dict)
     others_zero: list[tuple[Place, str]] = field(default_factory=list)
-    _undecided: list[_Undecided] = field(default_factory=list)
+    _undecided: list[tuple[tuple[str, ...], list[Answer], NotRecognized, int]] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[NotRecognized, Sequence[Answer]]] = field(default_factory=list)
     _motions: list[tuple[MotionEquation, list[Token], Origin, NotRecognized]] = field(default_factory=list)
@@ -311,7 +296,7 @@ class AnswerList(Struct, dict=True):
 
     def put_off(self, family: tuple[str, ...], answers: list[Answer], refused: NotRecognized) -> None:
         """Keep an equation until it is known which answers of its family are absent."""
-        self._undecided.append(_Undecided(family, answers, refused, len(self.answers)))
+        self._undecided.append((family, answers, refused, len(self.answers)))
 
     def settle(self) -> None:
         """Decide what needs the whole file: indices that do not exist, and a model without torques."""
@@ -324,17 +309,17 @@ class AnswerList(Struct, dict=True):
                 self.answers += answers
         given = {answer.name for answer in self.answers}
         shift = 0
-        for undecided in self._undecided:
-            absent = [name for name in undecided.family if name not in given]
-            if len(absent) == 1 and undecided.answers:
+        for family, answers, refused, position in self._undecided:
+            absent = [name for name in family if name not in given]
+            if len(absent) == 1 and answers:
                 name = absent[0]
                 note = f"taken for {name}, the only one of its kind that is absent"
-                taken = [replace(a, name=name, notes=(*a.notes, note)) for a in undecided.answers]
-                self.answers[undecided.position + shift : undecided.position + shift] = taken
+                taken = [replace(a, name=name, notes=(*a.notes, note)) for a in answers]
+                self.answers[position + shift : position + shift] = taken
                 shift += len(taken)
                 given.add(name)
             else:
-                self.not_recognized.append(undecided.refused)
+                self.not_recognized.append(refused)
         forces = {q.force for q in self.vocabulary.coordinates}
         if self._models and "tau" not in given and not forces <= given:
             # the torques are put together from D, C and g: these come first, and do not follow from them
@@ -344,9 +329,8 @@ class AnswerList(Struct, dict=True):
             self.answers.append(column(QDD_FORWARD.name, self._accelerations, self.printer))
         else:
             why = "not the accelerations of all coordinates are given"
-            for one in self._accelerations.values():
-                names = (QDD_FORWARD.name,)
-                self.not_recognized.append(NotRecognized(one.text, one.label, one.place, why, names))
+            given_ones = self._accelerations.values()
+            self.not_recognized += [_refused(one, why, QDD_FORWARD.name) for one in given_ones]
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
         self._settle_asides()
@@ -378,20 +362,15 @@ class AnswerList(Struct, dict=True):
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
         said = [answer for _, answers in self._asides for answer in answers]
         within = self.vocabulary.quantities.within
-        general = {
-            part for a in (*self.answers, *said) if self._holds_generally(a) for part in within(a.name)
-        }
-        general -= named
+        held = filter(self.holds_generally, (*self.answers, *said))
+        general = {part for answer in held for part in within(answer.name)} - named
         for of_case in (False, True):
             given = self._given(with_parts=of_case) - (named if of_case else set())
             for refused, answers in self._asides:
                 if is_of_case(refused.why) is not of_case:
                     continue
-                if (
-                    answers
-                    and general.issuperset(refused.answers)
-                    and not any(map(self._holds_generally, answers))
-                ):
+                is_general = not answers or any(map(self.holds_generally, answers))
+                if not is_general and general.issuperset(refused.answers):
                     self.left_alone.append(refused)
                     continue
                 can_be_read = all(answer.node is not None for answer in answers)
@@ -405,7 +384,7 @@ class AnswerList(Struct, dict=True):
                 else:
                     (self.left_alone if given & set(refused.answers) else self.not_recognized).append(refused)
 
-    def _holds_generally(self, answer: Answer) -> bool:
+    def holds_generally(self, answer: Answer) -> bool:
         """Whether coordinates stand in a value; one without may be that of a single case."""
         names = names_in(answer.node) if answer.node is not None else frozenset()
         return not names.isdisjoint(q.name for q in self.vocabulary.coordinates)
@@ -429,16 +408,11 @@ class AnswerList(Struct, dict=True):
         for answer in [a for a in self.answers if a.occurrence[0] in self.in_case]:
             if answer.name in given:
                 self.answers.remove(answer)
-                why = self.in_case[answer.occurrence[0]]
-                case = NotRecognized(answer.text, answer.label, answer.place, why, (answer.name,))
-                self.left_alone.append(case)
+                self.left_alone.append(_refused(answer, self.in_case[answer.occurrence[0]], answer.name))
 
     def _given(self, with_parts: bool) -> set[str]:
         """What is answered so that it can be read, and not for one case alone."""
         read = [answer for answer in self.answers if answer.node is not None]
         given = {answer.name for answer in read if answer.occurrence[0] not in self.in_case}
-        return (
-            {part for name in given for part in self.vocabulary.quantities.within(name)}
-            if with_parts
-            else given
-        )
+        within = self.vocabulary.quantities.within
+        return {part for name in given for part in within(name)} if with_parts else given

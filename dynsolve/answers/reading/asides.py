@@ -50,7 +50,6 @@ from dynsolve.answers.reading.sources import Source, blanked
 from dynsolve.answers.reading.vocabulary import defined_order
 from dynsolve.answers.verdict import PICTURE, Answer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import names_in
 from dynsolve.quantities.letters import key
 
 # What a formula in the midst of a sentence says
@@ -73,13 +72,13 @@ def read_aside(reader: EquationReader, display: Display) -> None:
 
 
 def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -> None:
-    members = equation.members
+    members, vocabulary = equation.members, reader.vocabulary
     if (order := defined_order(members)) is not None:
-        reader.vocabulary.orders |= [order]
+        vocabulary.orders |= [order]
         reader.found.left_alone.append(origin.of(members, origin.display.aside))
         return
-    side = read_left_side(reader.vocabulary, members[0])
-    motion = None if isinstance(side, NamedAnswers) else motion_equation(reader.vocabulary, members)
+    side = read_left_side(vocabulary, members[0])
+    motion = None if isinstance(side, NamedAnswers) else motion_equation(vocabulary, members)
     if motion is not None:
         tokens = [token for member in members for token in member]
         origin = replace(origin, names=motion.forces)
@@ -89,30 +88,28 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         else:
             reader.found.said_aside(refused)
         return
-    origin = replace(origin, names=spoken_of(reader.vocabulary, members[0], side))
-    value = (
-        read_right_side(reader.vocabulary, members[-1])
-        if len(members) <= MAX_MEMBERS
-        else ReadError(f"more than {MAX_MEMBERS} members")
-    )
+    origin = replace(origin, names=spoken_of(vocabulary, members[0], side))
+    value: RightSide | ReadError = ReadError(f"more than {MAX_MEMBERS} members")
+    if len(members) <= MAX_MEMBERS:
+        value = read_right_side(vocabulary, members[-1])
     if isinstance(side, UnknownSide) and isinstance(value, RightSide):
-        forces = force_meant(reader.vocabulary, side.key, value.value)
-        by_content = meant(reader.vocabulary, side.key, value.value) or forces
+        forces = force_meant(vocabulary, side.key, value.value)
+        by_content = meant(vocabulary, side.key, value.value) or forces
         if len(by_content) == 1:
             reader.define(side.key, value)
             side = NamedAnswers(by_content)
         origin = replace(origin, names=by_content or origin.names)
     if isinstance(side, NamedAnswers) and isinstance(value, RightSide):
-        name = name_alone(reader.vocabulary, members[0])
-        called = called_force(reader.vocabulary, name, side.candidates, [value.value])
+        name = name_alone(vocabulary, members[0])
+        called = called_force(vocabulary, name, side.candidates, [value.value])
         side = NamedAnswers(called or side.candidates)
         origin = replace(origin, names=side.candidates)
     names = [side.candidates] if isinstance(side, NamedAnswers) else []
-    before = read_right_side(reader.vocabulary, members[-2]) if len(members) > 2 else None
+    before = read_right_side(vocabulary, members[-2]) if len(members) > 2 else None
     if (
         isinstance(before, RightSide)
         and is_value(before)
-        and is_condition(reader.vocabulary, names, value, [before])
+        and is_condition(vocabulary, names, value, [before])
     ):
         members, value = members[:-1], before
     own = members[0][0].text if len(members[0]) == 1 else ""
@@ -123,7 +120,7 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
     if isinstance(side, NamedAnswers) and (
         isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
     ):
-        sides = [side, *read_left_sides(reader.vocabulary, members)[1:]]
+        sides = [side, *read_left_sides(vocabulary, members)[1:]]
         names = [one.candidates for one in sides if isinstance(one, NamedAnswers)]
         member = Member(len(members) - 1, members[-1], value)
         answers = [reader.found.answer(candidates, member, origin) for candidates in names]
@@ -133,14 +130,14 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
             reader.found.general += answers
         else:
             holds = may_hold(origin.display.aside)
-            if holds and states_zero(reader.vocabulary, members[0], names, value):
+            if holds and states_zero(vocabulary, members[0], names, value):
                 refused, holds = replace(refused, why=CONDITION), False
             reader.found.said_aside(refused, answers if holds else ())
         return
     reader.found.left_alone.append(origin.of(members, origin.display.aside))
     if isinstance(value, ReadError):
         if isinstance(side, UnknownSide):
-            reader.vocabulary.broken[side.key] = value.message
+            vocabulary.broken[side.key] = value.message
     elif gives:
         _define(reader, side, own, value, equation)
         _define_by_the_end(reader, members)
@@ -352,11 +349,7 @@ def _answers(
     if given.intersection(names) or (parts and parts <= given):
         return []
     value = _REMARK.sub(lambda remark: " " * len(remark[0]), text[start : _end(text, start)])
-
-    def locate(offset: int, length: int) -> Place:
-        return source.place(start + offset, length)
-
-    origin = reader.origin(Display(value, "", locate, plain=True), "")
+    origin = reader.origin(Display(value, "", source.behind(start), plain=True), "")
     try:
         tokens = prepared(value.replace("\n", " "))[:-1]
     except ReadError:
@@ -365,11 +358,8 @@ def _answers(
     if not isinstance(found, RightSide) or not is_value(found):
         return []
     answer = reader.found.answer(names, Member(1, tokens, found), origin)
-    holds = answer.node is not None and not names_in(answer.node).isdisjoint(
-        q.name for q in reader.vocabulary.coordinates
-    )
     is_entry = bool(quantities.entry_of(answer.name)[0])  # an energy that begins with 0 is none yet
-    return [answer] if answer.node is not None and (holds or is_entry) else []
+    return [answer] if reader.found.holds_generally(answer) or (answer.node and is_entry) else []
 
 
 def _end(text: str, start: int) -> int:

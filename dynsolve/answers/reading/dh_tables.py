@@ -23,14 +23,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
 from itertools import count, groupby, islice, pairwise
 
 from msgspec import Struct
 
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.sources import Piece, PlacedText, Source, blanked, hidden, placed
-from dynsolve.answers.verdict import Place
 
 # The cells of a table of Denavit-Hartenberg parameters as a report has them, and as they are read
 
@@ -80,8 +78,8 @@ def without_rules(text: str, cell: Cell) -> str:
 def bare(text: str, cell: Cell, variable: Variables) -> Piece:
     """A cell as it is read, and where it begins."""
     plain = without_rules(text, cell)
-    plain = _DEGREES.sub(lambda found: _filled(found, f"({found[1]}°)"), plain)
-    plain = _DEGREE.sub(lambda found: _filled(found, "°"), plain)
+    plain = _DEGREES.sub(lambda found: f"({found[1]}°)".ljust(len(found[0])), plain)
+    plain = _DEGREE.sub(lambda found: "°".ljust(len(found[0])), plain)
     plain = _RAISED.sub(lambda found: "^{".rjust(len(found[0])), plain)
     plain = _SIGNS.sub(_blank, plain)
     says_variable = _VARIABLE.search(plain)
@@ -95,11 +93,6 @@ def bare(text: str, cell: Cell, variable: Variables) -> Piece:
 
 def _blank(found: re.Match[str]) -> str:
     return blanked(found[0])
-
-
-def _filled(found: re.Match[str], text: str) -> str:
-    """A text in place of a longer one, of its length."""
-    return text.ljust(len(found[0]))
 
 
 # The heads of tables of Denavit-Hartenberg parameters: which column is θ, which d, a, α
@@ -281,11 +274,8 @@ def _plain(text: str, variables: Sequence[str]) -> Iterator[FoundTable]:
 
 def _in_columns(text: str, line: Cell, columns: re.Pattern[str], wanted: int) -> Row | None:
     """A line cut into as many cells as the head has; None where it does not fall into them."""
-    for pattern in (columns, _COLUMNS[-1]):
-        row = _cells(text, *line, pattern)
-        if len(row) == wanted:
-            return row
-    return None
+    rows = (_cells(text, *line, pattern) for pattern in (columns, _COLUMNS[-1]))
+    return next((row for row in rows if len(row) == wanted), None)
 
 
 def _inner(text: str, line: Cell) -> Cell:
@@ -297,9 +287,8 @@ def _inner(text: str, line: Cell) -> Cell:
 
 def _cells(text: str, start: int, end: int, separator: re.Pattern[str]) -> Row:
     """The stretches between separators."""
-    ends = [(match.start(), match.end()) for match in separator.finditer(text, start, end)]
-    starts = [start, *(after for _, after in ends)]
-    return list(zip(starts, [*(before for before, _ in ends), end], strict=True))
+    borders = [start, *(at for sign in separator.finditer(text, start, end) for at in sign.span()), end]
+    return list(zip(borders[::2], borders[1::2], strict=True))
 
 
 # -- what they say ---------------------------------------------------------------------------------
@@ -315,18 +304,13 @@ def _table(text: str, span: Cell, rows: list[Row], variables: Sequence[str]) -> 
 
 
 def _below_head(text: str, rows: list[Row]) -> list[Row]:
-    for place, head in enumerate(rows[:2]):
+    """The cells θ, d, a, α of the rows below a head; one that is not there is empty."""
+    for number, head in enumerate(rows[:2], 1):
         order = order_of([without_rules(text, cell) for cell in head])
         if order is not None:
-            least = 3
-            return [_ordered(row, order) for row in rows[place + 1 :] if len(row) >= least]
+            wide = [(row, (row[-1][1], row[-1][1])) for row in rows[number:] if len(row) > 2]
+            return [[row[at] if at < len(row) else blank for at in order] for row, blank in wide]
     return []
-
-
-def _ordered(row: Row, order: Sequence[int]) -> Row:
-    """The cells θ, d, a, α of a row; one that is not there is empty."""
-    end = row[-1][1]
-    return [row[place] if place < len(row) else (end, end) for place in order]
 
 
 def _beside_head(text: str, rows: list[Row]) -> list[Row]:
@@ -369,11 +353,7 @@ def with_equations(text: str, names_answer: Callable[[str], bool]) -> str:
     """The text with a line for each cell of its tables, and an equation for a name beside a value."""
     if "|" not in text:
         return text
-    return _ROW.sub(lambda row: _lines(_INLINE.sub(_in_dollars, row[0]), names_answer), text)
-
-
-def _in_dollars(formula: re.Match[str]) -> str:
-    return f" ${formula[1]}$ "
+    return _ROW.sub(lambda row: _lines(_INLINE.sub(r" $\1$ ", row[0]), names_answer), text)
 
 
 def _lines(row: str, names_answer: Callable[[str], bool]) -> str:
@@ -418,16 +398,11 @@ def headed_columns(
         if len(heads) != len(values) or not all(_are_names(head, names_answer) for head in heads):
             continue
         for head, (at, value) in zip(heads, values, strict=True):
-            place = partial(_place, source, table.start("values") + at - len(head) - 1)
-            found.append(
-                (table.start("values") + at, Display(f"{head}={value.replace('$', ' ')}", "", place))
-            )
+            at += table.start("values")
+            equation = f"{head}={value.replace('$', ' ')}"
+            found.append((at, Display(equation, "", source.behind(at - len(head) - 1))))
         text = text[: table.start()] + " " * len(table[0]) + text[table.end() :]
     return text, found
-
-
-def _place(source: Source, start: int, offset: int, length: int) -> Place:
-    return source.place(start + offset, length)
 
 
 def _tables_cells(row: str) -> list[tuple[int, str]]:

@@ -257,20 +257,14 @@ class DisplayedSets(Struct, dict=True):
         if len(display.text) > _LONGEST:
             self.reader.read_display(display)
             return
-        if (space := self._space(display)) is not None:
-            display = space
+        display = self._space(display) or display
         rows = [self._without_own(display, row) for row in _rows(display.text)]
         words = self.text[max(offset - _BEFORE, 0) : offset] + _plain(display.text.partition("=")[0])
         spoken, end = self._spoken_of(words), offset + len(display.text)
-        if (
-            spoken in SAID
-            and self._is_case(spoken, offset)
-            and not self._is_said_of_case(spoken, offset, end)
-        ):
-            self.reader.read_display(display)
-            return
+        is_case = spoken in SAID and self._is_case(spoken, offset)
         texts = [self._text(words, row) for row in rows]
-        if not any(self._may_be_one(words, text) for text in texts):
+        is_other = is_case and not self._is_said_of_case(spoken, offset, end)
+        if is_other or not any(self._may_be_one(words, text) for text in texts):
             self.reader.read_display(display)
             return
         for row, text in zip(rows, texts, strict=True):  # what one defines may stand in the next
@@ -293,15 +287,14 @@ class DisplayedSets(Struct, dict=True):
         if not 3 <= len(members) <= _MOST_MEMBERS or len(joined(_plain(row))) > 1:
             return row
         unknown = [member for member in members if self._is_unknown(member)]
-        own = [m for m in members if _OWN.fullmatch(m) and m not in unknown and not self._is_symbol(m)]
+        known = self.reader.vocabulary.symbols
+        own = [m for m in members if _OWN.fullmatch(m) and m not in unknown]
+        own = [m for m in own if key(m.strip().lstrip("\\")) not in known]
         if not unknown or len(own) != 1 or len(own) + len(unknown) == len(members):
             return row
         value = next(member for member in reversed(members) if member not in (*own, *unknown))
         self.reader.read_display(replace(display, text=f"{own[0]} = {value}"))
         return "=".join(member for member in members if member not in own)
-
-    def _is_symbol(self, text: str) -> bool:
-        return key(text.strip().lstrip("\\")) in self.reader.vocabulary.symbols
 
     def _space(self, display: Display) -> Display | None:
         r"""`\mathcal{N}(J) = span{...}` as the vectors of an answer; None for any other display."""
@@ -326,9 +319,8 @@ class DisplayedSets(Struct, dict=True):
             read_equations(self.reader, name, texts, place)
             sets = self.reader.found.configurations
             if (unread := self._unread(name, place, texts)) and not sets[-1].fault:
-                sets[-1] = replace(
-                    sets[-1], alternatives=(), fault=f"a part of it could not be read: {unread}"
-                )
+                fault = f"a part of it could not be read: {unread}"
+                sets[-1] = replace(sets[-1], alternatives=(), fault=fault)
 
     def _unread(self, name: str, place: Place, texts: Sequence[str]) -> str:
         """An equation that belongs to a set and was not read with it: the set is not judged by a part."""
@@ -338,21 +330,15 @@ class DisplayedSets(Struct, dict=True):
             if name not in one.answers or any(text in other for other in texts):
                 continue
             if name == "inverse":
-                is_part = bool(given) and not self._coordinates([text]) <= given
+                is_part = bool(given) and not self._coordinates([text]) <= given  # it gives one more
             else:
                 words = one.place.excerpt[: one.place.column - 1].rpartition(".")[2]
-                is_denied = (
-                    one.why in (SUPPOSED, REJECTED, QUOTED) or DENIED.search(words) or CASE.search(words)
-                )
-                is_part = one.place.line == place.line and not is_denied
-            if is_part and self._may_belong(name, text):
+                is_said = one.place.line == place.line and one.why not in (SUPPOSED, REJECTED, QUOTED)
+                is_denied = DENIED.search(words) or CASE.search(words)
+                is_part = is_said and not is_denied and is_set(self.reader.vocabulary, text)
+            if is_part:
                 return one.text
         return ""
-
-    def _may_belong(self, name: str, text: str) -> bool:
-        """Whether an equation is one of a branch, or of coordinates alone."""
-        vocabulary = self.reader.vocabulary
-        return bool(self._coordinates([text])) if name == "inverse" else is_set(vocabulary, text)
 
     def _read_branches(self) -> None:
         r"""`Then $q_1 = \arctan\frac{y}{x}$.`: of the coordinates those that no display gives."""
@@ -360,11 +346,8 @@ class DisplayedSets(Struct, dict=True):
         for found in islice(_FORMULAS.finditer(self.text), _MOST_FORMULAS):
             formulas = _in_words(found[0])
             named = self._coordinates([formulas])
-            if (
-                not named
-                or not given.isdisjoint(named)
-                or not self._are_branches(formulas, is_announced=False)
-            ):
+            is_new = bool(named) and given.isdisjoint(named)
+            if not is_new or not self._are_branches(formulas, is_announced=False):
                 continue
             given |= named
             where = self.source.place(found.start(), len(found[0]))
@@ -411,9 +394,8 @@ class DisplayedSets(Struct, dict=True):
 
     def _may_be_one(self, words: str, text: str) -> bool:
         """Whether a row is part of a set, or may be when those before it are read."""
-        is_formula = "inverse" in self.reader.vocabulary.quantities and self._is_unknown(
-            text.partition("=")[0]
-        )
+        has_branches = "inverse" in self.reader.vocabulary.quantities
+        is_formula = has_branches and self._is_unknown(text.partition("=")[0])
         return is_formula or self._set_of(words, text) is not None
 
     def _set_of(self, words: str, text: str) -> str | None:

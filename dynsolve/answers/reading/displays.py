@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.grids import MAX_LENGTH
 from dynsolve.answers.reading.lexer import SEPARATORS, Token
@@ -31,6 +32,12 @@ class Display(Struct, frozen=True):
     aside: str = ""
     among_prose: bool = False
     in_case: str = ""
+
+    def behind(self, start: int) -> Display:
+        """The part that begins at an offset."""
+        return replace(
+            self, text=self.text[start:], locate=lambda offset, length: self.locate(start + offset, length)
+        )
 
 
 _GOES_ON = re.compile(r"[\s&]*(?:\\(?:quad|qquad|,|;|!|\s))*\s*(?:[-+=*/]|\\(?:cdot|times)(?![A-Za-z]))")

@@ -26,7 +26,7 @@ from dynsolve.answers.reading.plain_text import plain_lines
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import IN_SENTENCE, is_of_case, said_of, taken_from, visible
 from dynsolve.answers.reading.sources import HIDDEN, Source, hidden
-from dynsolve.answers.verdict import NotRecognized, Place, VerdictAnswer
+from dynsolve.answers.verdict import NotRecognized, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.questions.equilibria import LINEAR_A
 
@@ -98,7 +98,8 @@ class MacroDefinition(Struct, frozen=True):
 def read_report(reader: EquationReader, source: Source, latex: bool = False) -> None:
     """Read the displayed equations of a report, in order, with the macros that hold for each."""
     text, macros = _macros(visible(source.text, latex))
-    tables = tables_of(text, _names(reader)) if NAME in reader.vocabulary.quantities else []
+    names = [q.name for q in reader.vocabulary.coordinates]
+    tables = tables_of(text, names) if NAME in reader.vocabulary.quantities else []
     text = without(text, tables)
     verdicts = list[VerdictAnswer]()
     if "definite" in reader.vocabulary.quantities:
@@ -162,10 +163,6 @@ def _is_coordinate(reader: EquationReader, text: str) -> bool:
     )
 
 
-def _names(reader: EquationReader) -> list[str]:
-    return [q.name for q in reader.vocabulary.coordinates]
-
-
 def _macros(text: str) -> tuple[str, list[MacroDefinition]]:
     """The student's commands, and the text with blanks in their place."""
     found: list[MacroDefinition] = []
@@ -216,12 +213,15 @@ def _displays(
             position = start
             if kind in ("fence", "inline"):
                 continue
-            end = _end_of_paragraph(text, start)
-            closing = ""
+            blank = _BLANK_LINE.search(text, start)
+            end, closing = blank.start() if blank else len(text), ""
         position = end + len(closing)
         if kind == "fence":
-            for at, display in _fenced(opening.group(), text, source, start, end, names_answer):
-                yield at, at + len(display.text), display
+            if any(word in opening.group() for word in ("math", "latex", "tex")):
+                yield start, end, _display(text, source, start, end, "")
+            else:
+                for at, display in _plain(text, source, start, end, names_answer, False):
+                    yield at, at + len(display.text), display
             yield opening.start(), position, None
             continue
         if kind == "inline":
@@ -251,12 +251,6 @@ def _displays(
         yield start, end, replace(display, aside="" if in_case else why, in_case=in_case)
 
 
-def _end_of_paragraph(text: str, start: int) -> int:
-    """Where a display ends that nothing closes."""
-    blank = _BLANK_LINE.search(text, start)
-    return blank.start() if blank else len(text)
-
-
 def _said_to_be(
     text: str, source: Source, opening: int, start: int, end: int, names_answer: NamesAnswer
 ) -> Display | None:
@@ -280,12 +274,10 @@ def _said_to_be(
 
 def _stands_alone(text: str, start: int, end: int) -> bool:
     """Whether a list's mark, other equations and a number are all that stands beside an equation."""
-    before = text[max(start - _MARGIN, 0) : start].rpartition("\n")
-    after = _BESIDE.sub("", text[end : end + _MARGIN].partition("\n")[0])
-    at_start = before[1] or start <= _MARGIN
-    return bool(
-        at_start and _ALONE.fullmatch(_BESIDE.sub("", before[2])) and not after.strip(" \t.,;()0123456789")
-    )
+    _, line_end, before = text[max(start - _MARGIN, 0) : start].rpartition("\n")
+    after = _BESIDE.sub("", text[end : end + _MARGIN].partition("\n")[0]).strip(" \t.,;()0123456789")
+    is_line = bool(line_end) or start <= _MARGIN
+    return is_line and not after and _ALONE.fullmatch(_BESIDE.sub("", before)) is not None
 
 
 def _under_braces(display: Display) -> Iterator[Display]:
@@ -297,12 +289,7 @@ def _under_braces(display: Display) -> Iterator[Display]:
             return
         if named := _UNDER.match(display.text, end):
             text = f"{named[1]}={display.text[found.end() : end - 1]}"
-            locate = partial(_locate_behind, display, found.end() - 2)
-            yield replace(display, text=text, locate=locate, aside=IN_SENTENCE)
-
-
-def _locate_behind(display: Display, start: int, offset: int, length: int) -> Place:
-    return display.locate(start + offset, length)
+            yield replace(display.behind(found.end() - 2), text=text, aside=IN_SENTENCE)
 
 
 def _closing(kind: str, opened: str) -> str:
@@ -314,19 +301,7 @@ def _closing(kind: str, opened: str) -> str:
 
 
 def _display(text: str, source: Source, start: int, end: int, label: str, plain: bool = False) -> Display:
-    def locate(offset: int, length: int) -> Place:
-        return source.place(start + min(offset, max(end - start - 1, 0)), length)
-
-    return Display(text[start:end], label, locate, plain)
-
-
-def _fenced(
-    opening: str, text: str, source: Source, start: int, end: int, names_answer: NamesAnswer
-) -> Iterator[tuple[int, Display]]:
-    if "math" in opening or "latex" in opening or "tex" in opening:
-        yield start, _display(text, source, start, end, "")
-    else:
-        yield from _plain(text, source, start, end, names_answer, False)
+    return Display(text[start:end], label, source.behind(start, max(end - start - 1, 0)), plain)
 
 
 def _plain(

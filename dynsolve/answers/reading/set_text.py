@@ -20,7 +20,7 @@ vector is 0, and a whole space the unit vectors.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
 
 from dynsolve.answers.reading.sources import PlacedText, levels, placed
@@ -28,10 +28,6 @@ from dynsolve.errors import ReadError
 from dynsolve.quantities.letters import key
 
 # The words around sets in English, German and Norwegian: a table each, one row per language
-
-
-def _any(*rows: str) -> str:
-    return "|".join(rows)
 
 
 def _compiled(rows: Iterable[str]) -> re.Pattern[str]:
@@ -103,29 +99,21 @@ SAID = {
     "equilibria": _compiled((ANNOUNCED["equilibria"].pattern, _IS_ZERO)),
 }  # fmt: skip
 
-OR = _any("or", "oder", "eller", "ou")
-AND = _any("and", "und", "og", "et", "y")
+OR = "or|oder|eller|ou"
+AND = "and|und|og|et|y"
 _IT = r"(?:(?:which|it|this|that|was|das|dies|woraus|daraus|es|det|dette|som) )?"
-SO = rf"(?:(?:{AND}) )?" + _any(
-    r"(?:i\.\s?e\.", "that is", "hence", "thus", "therefore", "so(?: that)?",
-    rf"{_IT}(?:gives?|yields?|implies|means|(?:follows?|results?)(?! from)(?: that)?)",
-    r"d\.\s?h\.", "das heißt", "also", "somit", "folglich", "damit", "woraus", "daraus",
-    rf"{_IT}(?:(?:folgt|ergibt)(?! aus)(?: sich)?(?:,? dass)?|liefert|bedeutet)",
-    r"dvs\.?", "det vil si", "altså", "dermed", rf"{_IT}(?:gir|betyr|(?:følger|medfører)(?! av)(?: at)?)",
-) + ")"  # fmt: skip
-SINCE = _any(
-    "since", "because", "follows? from", "results? from", "weil", "denn", "(?:folgt|ergibt sich) aus",
-    "fordi", "siden", "følger av",
-)  # fmt: skip
-ALL = _any("any", "all", "every", r"(?:alle|jede|beliebige|freie)[rsmn]?", "arbitrary", "hver", "vilkårlige?")
-ARBITRARY = _any("arbitrary", r"any(?:thing|where)?", "free", "beliebig", "frei", "vilkårlig", "fri")
-REGARDLESS = _any(
-    r"(?:independent(?:ly)?|regardless|irrespective) of", "whatever",
-    "unabhängig von", "uavhengig av", "uansett",
-)  # fmt: skip
-INTEGER = _any(
-    r"(?:(?:is|are) )?(?:an )?integers?", "whole numbers?", r"(?:sind |ist )?ganzzahlig", "heltall"
+SO = (
+    rf"(?:(?:{AND}) )?(?:i\.\s?e\.|that is|hence|thus|therefore|so(?: that)?"
+    rf"|{_IT}(?:gives?|yields?|implies|means|(?:follows?|results?)(?! from)(?: that)?)"
+    r"|d\.\s?h\.|das heißt|also|somit|folglich|damit|woraus|daraus"
+    rf"|{_IT}(?:(?:folgt|ergibt)(?! aus)(?: sich)?(?:,? dass)?|liefert|bedeutet)"
+    rf"|dvs\.?|det vil si|altså|dermed|{_IT}(?:gir|betyr|(?:følger|medfører)(?! av)(?: at)?))"
 )
+SINCE = "since|because|follows? from|results? from|weil|denn|(?:folgt|ergibt sich) aus|fordi|siden|følger av"
+ALL = "any|all|every|(?:alle|jede|beliebige|freie)[rsmn]?|arbitrary|hver|vilkårlige?"
+ARBITRARY = "arbitrary|any(?:thing|where)?|free|beliebig|frei|vilkårlig|fri"
+REGARDLESS = "(?:independent(?:ly)?|regardless|irrespective) of|whatever|unabhängig von|uavhengig av|uansett"
+INTEGER = "(?:(?:is|are) )?(?:an )?integers?|whole numbers?|(?:sind |ist )?ganzzahlig|heltall"
 STABLE = r"(?:un)?stable|(?:in)?stabil\w*|ustabil\w*"
 
 Together = tuple[str, ...]
@@ -204,8 +192,11 @@ def alternatives(
             if (letter in "kn" and not is_name(letter)) or found.count(letter) == turns.count(letter)
         )
         for numbers in product(WHOLE_NUMBERS, repeat=len(letters)):
-            values = {letter: f"({number})" for letter, number in zip(letters, numbers, strict=True)}
-            yield tuple(_WHOLE.sub(lambda k, to=values: to.get(k[1], k[0]), one) for one in equations)
+            yield tuple(_with_numbers(one, dict(zip(letters, numbers, strict=True))) for one in equations)
+
+
+def _with_numbers(text: str, values: Mapping[str, int]) -> str:
+    return _WHOLE.sub(lambda letter: f"({values[letter[1]]})" if letter[1] in values else letter[0], text)
 
 
 def joined(text: str) -> list[str]:
@@ -263,10 +254,8 @@ def _memberships(text: str, is_value: Callable[[str], bool]) -> str:
         found = _MEMBERS.search(parts[at]) if at < len(parts) else None
         if found is None:
             continue
-        first = at
-        while (
-            first > max(at - _MOST_BEFORE, 0) and parts[first - 1] == "," and is_name_alone(parts[first - 2])
-        ):
+        first, least = at, max(at - _MOST_BEFORE, 0)
+        while first > least and parts[first - 1] == "," and is_name_alone(parts[first - 2]):
             first -= 2
         names = [*parts[first:at:2], *_listing(parts[at][: found.start()])]
         parts[first : at + 1] = [_equations(names, [_listing(one) for one in _TIMES.split(found[1])])]
@@ -283,9 +272,8 @@ def _equations(names: Sequence[str], sets: Sequence[Sequence[str]]) -> str:
         choices = [[f"{n} = {v}" for n, v in point if _key(n) != _key(v)] for point in points]
         return "(" + " or ".join("(" + " and ".join(one) + ")" for one in choices) + ")"
     pairs = zip(names, sets if len(sets) > 1 else [sets[0]] * len(names), strict=False)
-    return (
-        "(" + " and ".join("(" + " or ".join(f"{n} = {v}" for v in values) + ")" for n, values in pairs) + ")"
-    )
+    each = ["(" + " or ".join(f"{name} = {value}" for value in values) + ")" for name, values in pairs]
+    return "(" + " and ".join(each) + ")"
 
 
 def _listing(text: str) -> list[str]:
@@ -452,7 +440,8 @@ def span_text(value: PlacedText, is_name: Callable[[str], bool]) -> PlacedText:
     text = value.text.strip().strip("$").strip()
     if _NOTHING.fullmatch(text):
         return placed([("0", value.origin(0))])
-    if (whole := _SPAN_TEXT_WHOLE.fullmatch(text)) is not None:
+    whole = _SPAN_TEXT_WHOLE.fullmatch(text)
+    if whole is not None:
         size = int(whole[1] or whole[3] or _RAISED.index(whole[2]) + 1)
         rows = ", ".join(str([int(i == j) for j in range(size)]) for i in range(size))
         return placed([(f"[{rows}]", value.origin(0))])
@@ -461,13 +450,9 @@ def span_text(value: PlacedText, is_name: Callable[[str], bool]) -> PlacedText:
     if (span := _SPAN.match(value.text)) is not None:
         return _between(value, span.end())
     factor = _FACTOR.match(value.text)
-    if (
-        factor is not None
-        and factor[1].lower() not in ("\\begin", "\\left")
-        and not is_name(factor[1].strip("\\"))
-    ):
-        return value.part(factor.end(), len(value.text))
-    return value
+    if factor is None or factor[1].lower() in ("\\begin", "\\left") or is_name(factor[1].strip("\\")):
+        return value
+    return value.part(factor.end(), len(value.text))
 
 
 def _between(value: PlacedText, start: int) -> PlacedText:
@@ -476,11 +461,5 @@ def _between(value: PlacedText, start: int) -> PlacedText:
     opening, closing = _OPENING.match(rest.text), _CLOSING.search(rest.text)
     if opening is None or closing is None or closing.start() < opening.end():
         return rest
-    inner = rest.part(opening.end(), closing.start())
-    pieces = [(inner.text[a:b], inner.origin(a)) for a, b in _stretches(inner)]
-    return placed([("[", rest.origin(opening.start(1))), *pieces, ("]", rest.origin(closing.start(1)))])
-
-
-def _stretches(value: PlacedText) -> list[tuple[int, int]]:
-    ends = [*value.starts[1:], len(value.text)]
-    return [(a, b) for a, b in zip(value.starts, ends, strict=True) if a < b]
+    inner = rest.part(opening.end(), closing.start()).pieces()
+    return placed([("[", rest.origin(opening.start(1))), *inner, ("]", rest.origin(closing.start(1)))])

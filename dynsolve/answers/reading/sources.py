@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from itertools import accumulate
 
 from msgspec import Struct, field
 
-from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.displays import Display, Locate
+from dynsolve.answers.reading.grids import MAX_BYTES
 from dynsolve.answers.verdict import Place
 from dynsolve.notation.unicode import printable
 
@@ -72,6 +73,14 @@ class Source(Struct, frozen=True, dict=True):
             excerpt = excerpt if len(excerpt) >= column else ""
         return Place(line, column, length, excerpt)
 
+    def behind(self, start: int, last: int = MAX_BYTES) -> Locate:
+        """Where the characters of a display are that begins at an offset; none is behind its `last`."""
+
+        def locate(offset: int, length: int) -> Place:
+            return self.place(start + min(offset, last), length)
+
+        return locate
+
 
 def shown(text: str) -> str:
     """A text without the characters that could steer a terminal."""
@@ -114,6 +123,13 @@ class PlacedText(Struct, frozen=True):
         """The offset in the file of a character of this text."""
         at = max(bisect_right(self.starts, offset) - 1, 0)
         return self.origins[at] + offset - self.starts[at]
+
+    def pieces(self) -> Iterator[Piece]:
+        """The pieces that it was put together from."""
+        ends = (*self.starts[1:], len(self.text))
+        for start, end in zip(self.starts, ends, strict=True):
+            if start < end:
+                yield self.text[start:end], self.origin(start)
 
     def part(self, start: int, end: int) -> PlacedText:
         """The text between two offsets."""

@@ -393,23 +393,14 @@ def _item(text: str, node: YamlNode) -> Iterator[Piece]:
     commas = _commas(found.text)
     decimal = [at for at in commas if _DECIMAL.match(found.text, at)]
     if not commas:
-        yield from _placed(found)
+        yield from found.pieces()
     elif len(commas) == len(decimal) == 1 and re.search(r"[^0-9,\s+-]", found.text):
         (at,) = commas
-        yield from _placed(found.part(0, at))
+        yield from found.part(0, at).pieces()
         yield ".", found.origin(at)
-        yield from _placed(found.part(at + 1, len(found.text)))
+        yield from found.part(at + 1, len(found.text)).pieces()
     else:
-        yield "[", node.start
-        yield from _placed(found)
-        yield "]", max(node.end - 1, node.start)
-
-
-def _placed(found: PlacedText) -> Iterator[Piece]:
-    ends = (*found.starts[1:], len(found.text))
-    for start, end, origin in zip(found.starts, ends, found.origins, strict=True):
-        if end > start:
-            yield found.text[start:end], origin
+        yield from (("[", node.start), *found.pieces(), ("]", max(node.end - 1, node.start)))
 
 
 def _commas(text: str) -> list[int]:
