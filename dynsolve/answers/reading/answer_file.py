@@ -261,11 +261,11 @@ def own_symbols(reader: EquationReader, display: Display, name: str, is_symbol: 
         dots = sum(t.dots + (t.text == "dot") + 2 * (t.text == "ddot") for t in shown)
         tokens = prepared(display.text, reader.macros)[:-1]
     except ReadError as error:
-        reader.vocabulary.broken[key(name)] = error.message
+        reader.vocabulary.cannot_be_read(key(name), error.message)
         return error
     found = read_right_side(reader.vocabulary, tokens)
     if isinstance(found, ReadError):
-        reader.vocabulary.broken[plain] = found.message
+        reader.vocabulary.cannot_be_read(plain, found.message)
         return found
     if isinstance(found.value, Abstract):
         return ReadError(found.value.why, 0, 1, "write it in the symbols of the problem")
@@ -276,7 +276,7 @@ def own_symbols(reader: EquationReader, display: Display, name: str, is_symbol: 
             reader.coordinates.append(found.value)
         keep_symbol(reader.vocabulary, plain, dots, found.value)
     else:
-        reader.vocabulary.defined[plain] = Meaning(found.value)
+        reader.vocabulary.define(plain, Meaning(found.value))
     return None
 
 

@@ -74,7 +74,7 @@ def read_aside(reader: EquationReader, display: Display) -> None:
 def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -> None:
     members, vocabulary = equation.members, reader.vocabulary
     if (order := defined_order(members)) is not None:
-        vocabulary.orders |= [order]
+        vocabulary.count(dict([order]))
         reader.found.left_alone.append(origin.of(members, origin.display.aside))
         return
     side = read_left_side(vocabulary, members[0])
@@ -137,7 +137,7 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
     reader.found.left_alone.append(origin.of(members, origin.display.aside))
     if isinstance(value, ReadError):
         if isinstance(side, UnknownSide):
-            vocabulary.broken[side.key] = value.message
+            vocabulary.cannot_be_read(side.key, value.message)
     elif gives:
         _define(reader, side, own, value, equation)
         _define_by_the_end(reader, members)

@@ -68,7 +68,7 @@ def value(vocabulary: Vocabulary, tokens: list[Token]) -> Node:
     """The formula that tokens are; raises ReadError where they are none, or an answer stands in it."""
     found = read_right_side(vocabulary, tokens)
     if not isinstance(found, RightSide):
-        raise found
+        raise found.with_traceback(None)
     if found.free:
         raise ReadError(f"{found.free[0]} is no name of this problem", 0, 1, "write it in its symbols")
     if not isinstance(found.value, Node):

@@ -139,9 +139,9 @@ class EquationReader:
         if is_number and self.vocabulary.similar(name):  # L_1 = 0.5 gives l_1 a value
             return
         meaning = Meaning(value.value, has_arguments=has_arguments)
-        self.vocabulary.defined[name] = meaning
-        self._first.setdefault(name, meaning)
         self.vocabulary.broken.pop(name, None)
+        self.vocabulary.define(name, meaning)
+        self._first.setdefault(name, meaning)
 
     def begins_anew(self) -> bool:
         """Forget all but what was used before it was defined (`C = h ..., where h = ...`).
@@ -216,10 +216,10 @@ class EquationReader:
             self.found.not_recognized.append(origin.of(members, f"more than {MAX_MEMBERS} members"))
             return
         if (order := defined_order(members)) is not None:
-            self.vocabulary.orders |= [order]
+            self.vocabulary.count(dict([order]))
             self.found.left_alone.append(origin.of(members, "it says what the indices mean"))
             return
-        self.vocabulary.orders |= order_of_pair(members)
+        self.vocabulary.count(order_of_pair(members))
         if part := part_of(self.vocabulary, members[0]):
             self._part(members, replace(origin, names=part))
             return
@@ -521,7 +521,7 @@ class EquationReader:
             self.found.left_alone.append(origin.of(members, "it holds names of the derivation alone"))
         else:
             if side.is_name_alone and faults:
-                self.vocabulary.broken[side.key] = faults[-1].message
+                self.vocabulary.cannot_be_read(side.key, faults[-1].message)
             why = faults[-1].message if faults else side.message or "it names nothing known"
             self._refused(members, read, origin, why)
 

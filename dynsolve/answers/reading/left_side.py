@@ -311,6 +311,10 @@ _LONGEST_UNIT = 30
 _PENDING = frozenset("+ - * / ^ _ cdot times command".split())
 
 
+_MOST_REMEMBERED = 500
+"""So many values are remembered before they are forgotten."""
+
+
 class RightSide(Struct, frozen=True):
     """A member that was read, with what its value is made of.
 
@@ -332,8 +336,18 @@ def read_right_side(
 ) -> RightSide | ReadError:
     """A member's value, or why it has none; readings that take a bolder guess come last.
 
-    `owners` are the answers it may be a value of.
+    `owners` are the answers it may be a value of.  It is read once, until the student defines something.
     """
+    written = (owners, *member)
+    found = vocabulary.remembered.get(written)
+    if found is None:
+        if len(vocabulary.remembered) > _MOST_REMEMBERED:
+            vocabulary.remembered.clear()
+        found = vocabulary.remembered[written] = _read_anew(vocabulary, member, owners)
+    return found
+
+
+def _read_anew(vocabulary: Vocabulary, member: list[Token], owners: tuple[str, ...]) -> RightSide | ReadError:
     if not member:
         return ReadError("there is nothing here", 0, 1, EXPECTED)
     tokens = split_names(_without_unit(member, vocabulary), vocabulary)

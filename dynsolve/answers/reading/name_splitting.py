@@ -162,6 +162,7 @@ def keep_symbol(vocabulary: Vocabulary, name: str, dots: int, value: Value, in_p
 
     One that a report defines `in_passing`, in the problem's coordinates, leaves s_2 the sine of theirs.
     """
+    vocabulary.remembered.clear()
     if dots:
         vocabulary.derived[name, dots] = value
         return

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import lru_cache
 from types import MappingProxyType
 
 from msgspec import Struct
@@ -270,7 +271,18 @@ def prepared(text: str, macros: Mapping[str, Macro] = MappingProxyType({})) -> l
     >>> [token.text for token in prepared(r"\mathbf{D}_{1} \tfrac12")]
     ['D', '_', '1', 'frac', '1', '2', '']
     """
-    return simplified(expand(tokenize(text), macros))
+    if macros or len(text) > _SHORT:
+        return simplified(expand(tokenize(text), macros))
+    return list(_short(text))
+
+
+_SHORT = 100
+"""Characters of what is read time and again: names, the sides of small equations."""
+
+
+@lru_cache(maxsize=2_048)
+def _short(text: str) -> tuple[Token, ...]:
+    return tuple(simplified(tokenize(text)))
 
 
 def simplified(tokens: list[Token]) -> list[Token]:

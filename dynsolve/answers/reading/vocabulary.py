@@ -18,6 +18,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
+from typing import Any
 
 from msgspec import Struct, field
 
@@ -147,8 +148,9 @@ class Vocabulary(Struct):
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
     `candidates` are the matrices that are to be judged; `asked` is what has to be answered, with its parts;
-    `defined` is what the student defined; `from_zero` are the names whose indices count from 0;
-    `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that have an index.
+    `defined` is what the student defined, `remembered` what was read since; `from_zero` are the names whose
+    indices count from 0; `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that
+    have an index.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -171,6 +173,7 @@ class Vocabulary(Struct):
     used: set[str] = field(default_factory=set)
     own_entries: set[str] = field(default_factory=set)
     missed_entries: set[str] = field(default_factory=set)
+    remembered: dict[Any, Any] = field(default_factory=dict)
     orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
     from_zero: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
@@ -183,6 +186,22 @@ class Vocabulary(Struct):
             self.asked, subscripts=self.subscripts, base_is_world=self.base_is_world,
             from_zero=self.from_zero, letters=self.letters,
         )  # fmt: skip
+
+    def define(self, name: str, meaning: Meaning) -> None:
+        """Keep what the student says a name is, from here on."""
+        self.defined[name] = meaning
+        self.remembered.clear()
+
+    def cannot_be_read(self, name: str, why: str) -> None:
+        """Keep why a definition gives no value."""
+        self.broken[name] = why
+        self.remembered.clear()
+
+    def count(self, orders: Mapping[str, int]) -> None:
+        """Keep which index of these letters counts the row."""
+        if orders:
+            self.orders |= orders
+            self.remembered.clear()
 
     def driving_force(self, name: str) -> str:
         """The force that a letter of what drives means: u_2, or the F of the only motor; else empty."""
@@ -305,8 +324,9 @@ class Vocabulary(Struct):
 
     def gives(self, name: str) -> None:
         """Keep that an equation gives this answer, where it is an entry of a matrix."""
-        if self.quantities.entry_of(name)[0]:
+        if self.quantities.entry_of(name)[0] and name not in self.own_entries:
             self.own_entries.add(name)
+            self.remembered.clear()
 
     def is_own_entry(self, name: str, whole: str) -> bool:
         """Whether a name in a value of `whole` is an entry of it with an equation of its own: c_12 in C."""
