@@ -81,11 +81,8 @@ def linear_parts(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> Iter
         return
     made = [Member(1, block, read_right_side(vocabulary, block)) for block in blocks]
     n = 2 * len(vocabulary.coordinates)
-    shapes = [
-        member.found.value.shape
-        for member in made
-        if isinstance(member.found, RightSide) and isinstance(member.found.value, Grid)
-    ]
+    values = [member.found.value for member in made if isinstance(member.found, RightSide)]
+    shapes = [value.shape for value in values if isinstance(value, Grid)]
     if shapes[:1] == [(n, n)] and len(shapes) == len(made) and all(rows == n for rows, _ in shapes):
         yield from zip(_NAMES, made, strict=False)
 
@@ -389,12 +386,11 @@ class EquationReader:
         values = _values(read)
         if not values or self.any_fits(names[0], values):
             return ""
-        return own if not self.vocabulary.is_answer(own) or self._are_of_target(values) else ""
-
-    def _are_of_target(self, values: list[RightSide]) -> bool:
-        """Whether the values of the task stand in one, as in D = (x² + y² - l₁² - l₂²)/(2 l₁ l₂)."""
         nodes = [found.value for found in values if isinstance(found.value, Node)]
-        return not names_in(*nodes).isdisjoint(self.vocabulary.reached)
+        is_of_target = not names_in(*nodes).isdisjoint(
+            self.vocabulary.reached
+        )  # D = (x² + y² - l₁² - l₂²)/(2 l₁ l₂)
+        return own if is_of_target or not self.vocabulary.is_answer(own) else ""
 
     def any_fits(self, candidates: tuple[str, ...], values: list[RightSide]) -> bool:
         """Whether one of the values has the shape of one of the answers."""
@@ -418,10 +414,8 @@ class EquationReader:
                 given += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):
                 said = said or why_no_value(found)
-                if is_abstract(found):
-                    given += [
-                        a for candidates in names for a in self.found.by_entries(candidates, member, origin)
-                    ]
+                for candidates in names if is_abstract(found) else ():
+                    given += self.found.by_entries(candidates, member, origin)
             elif _CONTROL.match(found.message) or origin.display.among_prose:
                 refused = refused or found.message
             elif not values or member.index > values[-1]:
@@ -481,11 +475,8 @@ class EquationReader:
             why = _MORE_THAN_NAME if is_multiple else why_no_value(leading)
             self.found.left_alone.append(origin.of(members, why))
         else:
-            why = (
-                leading.message
-                if isinstance(leading, ReadError)
-                else "no side of it is the name of an answer"
-            )
+            unnamed = "no side of it is the name of an answer"
+            why = leading.message if isinstance(leading, ReadError) else unnamed
             self._refused(members, read, origin, why)
 
     def _unknown_side(

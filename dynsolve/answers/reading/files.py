@@ -162,30 +162,24 @@ class _Walker:
         kind, content = inline["t"], inline.get("c")
         if kind == "Str":
             return str(content)
-        if kind == "Space":
-            return " "
-        if kind in ("SoftBreak", "LineBreak"):
-            return "\n"
+        if kind in _BETWEEN:
+            return _BETWEEN[kind]
         if kind == "Math":
             sign = "$$" if content[0]["t"] == "DisplayMath" else "$"
-            return f"{sign}{_ACCENT.sub(_accented, content[1]).strip()}{sign}"
+            latex = _ACCENT.sub(lambda dots: "\\dot" if dots[1] in _ONE_DOT else "\\ddot", content[1])
+            return f"{sign}{latex.strip()}{sign}"
         if kind in ("Code", "RawInline"):
             return str(content[1])
         if kind in ("Subscript", "Superscript"):
             return ("_" if kind == "Subscript" else "^") + "{" + self.inlines(content, depth) + "}"
         if kind == "Image":
             self.pictures += 1
-        if kind in ("Strikeout", "Image", "Note"):
             return ""
         if kind == "Quoted":
             sign = "'" if content[0]["t"] == "SingleQuote" else '"'
             return sign + self.inlines(content[1], depth) + sign
         inside = content[1] if kind in ("Cite", "Link", "Span") else content
         return self.inlines(inside, depth) if isinstance(inside, list) else ""
-
-
-def _accented(found: re.Match[str]) -> str:
-    return "\\dot" if found[1] in _ONE_DOT else "\\ddot"
 
 
 def _blocks_inside(content: Any, depth: int) -> Iterator[list[Any]]:
@@ -212,6 +206,7 @@ def _rows_of(table: list[Any]) -> Iterator[list[list[Any]]]:
         yield [cell[4] for cell in row[1]]
 
 
+_BETWEEN = {"Space": " ", "SoftBreak": "\n", "LineBreak": "\n", "Strikeout": "", "Note": ""}
 _BLOCKS = frozenset(
     "Para Plain Header LineBlock CodeBlock RawBlock BulletList OrderedList DefinitionList Table Div "
     "BlockQuote Figure HorizontalRule".split()

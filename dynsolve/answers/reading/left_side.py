@@ -6,6 +6,7 @@ The members of an equation that are no names: each read as a value, or why it ha
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from msgspec import Struct
 
@@ -290,14 +291,7 @@ def _force(vocabulary: Vocabulary, value: Value) -> str:
 EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
 """What is said where a formula was expected and no better remedy is known."""
 
-_WAYS: tuple[frozenset[str], ...] = (
-    frozenset(),
-    frozenset({"inertia"}),
-    frozenset({"spaces"}),
-    frozenset({"decimals"}),
-    frozenset({"vectors"}),
-    frozenset({"driving"}),
-)
+_WAYS = ("", "inertia", "spaces", "decimals", "vectors", "driving")
 """How a value may be read.
 
 As it stands; a bare I_1 as the moment of inertia; blanks between entries; 0,5 as a decimal; c and h as the
@@ -353,16 +347,16 @@ def _read_anew(vocabulary: Vocabulary, member: list[Token], owners: tuple[str, .
     tokens = split_names(_without_unit(member, vocabulary), vocabulary)
     first: RightSide | ReadError | None = None
     fits: RightSide | None = None
-    for options in _WAYS:
-        if options and not _may_help(options, tokens):
+    for way in _WAYS:
+        if way and not _may_help(way, tokens):
             continue
-        piece = _with_decimals(tokens) if "decimals" in options else tokens
-        found = _read(vocabulary, piece, owners, options)
+        piece = _with_decimals(tokens) if way == "decimals" else tokens
+        found = _read(vocabulary, piece, owners, frozenset({way} - {""}))
         if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners[:1]):
             return found
         if isinstance(found, RightSide) and fits is None and _has_shape(vocabulary, found, owners):
             fits = found  # [a b; c d] is one column of products, too, where the name may be that of a vector
-        is_better = isinstance(first, ReadError) and isinstance(found, RightSide) and "vectors" not in options
+        is_better = isinstance(first, ReadError) and isinstance(found, RightSide) and way != "vectors"
         if first is None or is_better:
             first = found
     if fits is not None:
@@ -376,7 +370,9 @@ def _read_anew(vocabulary: Vocabulary, member: list[Token], owners: tuple[str, .
 def _without_unit(tokens: list[Token], vocabulary: Vocabulary) -> list[Token]:
     """The tokens without the unit behind them: `... * cos(q1) Nm`, `... [N m]`, `... (kg m^2/s^2)`."""
     start = len(tokens)
-    while start > max(1, len(tokens) - _LONGEST_UNIT) and _is_of_unit(tokens[start - 1]):
+    while start > max(1, len(tokens) - _LONGEST_UNIT) and (
+        tokens[start - 1].kind in _OF_UNITS or tokens[start - 1].text in (*_UNITS, "frac")
+    ):
         start -= 1
     for position in range(start, len(tokens)):
         first, before = tokens[position], tokens[position - 1].kind
@@ -388,10 +384,6 @@ def _without_unit(tokens: list[Token], vocabulary: Vocabulary) -> list[Token]:
         if begins and unknown and not level and before not in _PENDING:
             return tokens[:position]
     return tokens
-
-
-def _is_of_unit(token: Token) -> bool:
-    return token.text in _UNITS or token.kind in _OF_UNITS or token.text == "frac"
 
 
 def _read(
@@ -487,12 +479,12 @@ def _is_by_entries(vocabulary: Vocabulary, value: Value, owners: tuple[str, ...]
     }
     if not wholes or not wholes <= set(owners):
         return False
-    for i, row in enumerate(value.rows):
-        for j, entry in enumerate(row):
-            name = entry.quantity if isinstance(entry, Reference) else ""
-            places = {quantities.entry_of(one)[1] for one in (name, quantities.mirrored(name))}
-            if places.isdisjoint({(i, j), (j, i)} if 1 in value.shape else {(i, j)}):
-                return True
+    for place, entry in enumerate(value.entries):
+        i, j = divmod(place, value.shape[1])
+        name = entry.quantity if isinstance(entry, Reference) else ""
+        places = {quantities.entry_of(one)[1] for one in (name, quantities.mirrored(name))}
+        if places.isdisjoint({(i, j), (j, i)} if 1 in value.shape else {(i, j)}):
+            return True
     return False
 
 
@@ -528,14 +520,17 @@ def _with_decimals(tokens: list[Token]) -> list[Token]:
     return out
 
 
-def _may_help(options: frozenset[str], tokens: list[Token]) -> bool:
+def _may_help(way: str, tokens: list[Token]) -> bool:
     """Whether another way of reading could make sense of these tokens."""
-    if "inertia" in options:
-        return any(t.kind == "name" and t.text[0] in "IJ" for t in tokens)
-    if "decimals" in options:
+    if way == "decimals":
         return bool(_decimal_commas(tokens))
-    if "driving" in options:
-        return any(t.text == "tau" for t in tokens)
-    if "vectors" in options:
-        return any(t.text in OWN_LETTERS for t in tokens)
-    return any(t.kind == "[" for t in tokens)
+    return any(map(_HELPED[way], tokens))
+
+
+_HELPED: dict[str, Callable[[Token], bool]] = {
+    "inertia": lambda token: token.kind == "name" and token.text[0] in "IJ",
+    "spaces": lambda token: token.kind == "[",
+    "vectors": lambda token: token.text in OWN_LETTERS,
+    "driving": lambda token: token.text == "tau",
+}
+"""The tokens that another way of reading could make sense of."""

@@ -24,9 +24,10 @@ from dynsolve.answers.reading.grids import MAX_NESTING
 from dynsolve.answers.reading.matrix_parts import rest_is_zero
 from dynsolve.answers.reading.sources import HIDDEN
 
-_OPENING = frozenset("⎛⎜⎝⎡⎢⎣")
-_CLOSING = frozenset("⎞⎟⎠⎤⎥⎦")
-_ASCII = frozenset("/\\|[(")
+_BRACKETS = {"[": ("[", "]"), "(": ("(", ")"), **dict.fromkeys("/\\|", ("/\\|", "/\\|"))}
+_BRACKETS |= dict.fromkeys("⎛⎜⎝⎡⎢⎣", ("⎛⎜⎝⎡⎢⎣", "⎞⎟⎠⎤⎥⎦"))
+"""What a bracket over several lines may go on with, and what closes it."""
+
 _OF_MATRIX = frozenset("⎡[(|")
 _BARS = frozenset("─-")
 _CELL = re.compile("[^\u0307\u0308][\u0307\u0308]*")
@@ -208,11 +209,9 @@ class _Picture(Struct):
     def _exponent(self, box: _Box, base: int, column: int, out: list[str]) -> int:
         """What stands higher, where the base line is blank."""
         end = column
-        while (
-            end < box.right
-            and self._at(base, end) == " "
-            and not self._is_blank(_Box(box.top, base, end, end + 1))
-        ):
+        while end < box.right and self._at(base, end) == " ":
+            if self._is_blank(_Box(box.top, base, end, end + 1)):
+                break
             end += 1
         power = self._formula(_Box(box.top, base, column, end))
         if out[-1] == " ":
@@ -223,11 +222,8 @@ class _Picture(Struct):
     def _bracket(self, box: _Box, row: int, column: int) -> _Box | None:
         """The rows and columns between a bracket over several lines and the one that closes it."""
         sign = self._at(row, column)
-        if sign in _OPENING:
-            signs: frozenset[str] = _OPENING
-        elif sign in _ASCII:
-            signs = frozenset(sign) if sign in "[(" else frozenset("/\\|")
-        else:
+        signs, closing = _BRACKETS.get(sign, ("", ""))
+        if not signs:
             return None
         top, bottom = row, row + 1
         while top > box.top and self._at(top - 1, column) in signs:
@@ -236,9 +232,6 @@ class _Picture(Struct):
             bottom += 1
         if bottom - top < 2:
             return None
-        closing = {"[": frozenset("]"), "(": frozenset(")")}.get(
-            sign, _CLOSING if sign in _OPENING else frozenset("/\\|")
-        )
         is_matrix = self._at(top, column) in _OF_MATRIX
         level = 0
         for end in range(column, box.right):

@@ -89,12 +89,9 @@ class _WebPage(HTMLParser):
         kind = ""
         if tag in _SILENT or "katex-html" in classes or tag.startswith("mjx-") or "MathJax" in classes:
             kind = "silent"
-        elif tag == "script":
-            kind = (
-                "display" if "math/tex" in given.get("type", "") and "display" in given["type"] else "silent"
-            )
-        elif tag == "math":
-            kind = "silent"
+        elif tag in ("script", "math"):
+            is_tex = tag == "script" and "math/tex" in given.get("type", "")
+            kind = "display" if is_tex and "display" in given["type"] else "silent"
         elif tag == "annotation" and given.get("encoding") == "application/x-tex":
             kind = "display" if self.display else "inline"
         if "katex-display" in classes:
