@@ -158,13 +158,12 @@ def _define(reader: EquationReader, side: LeftSide, own: str, value: RightSide, 
         if is_new:
             reader.define(side.key, value)
         return
-    if isinstance(side, NamedAnswers):
-        if own in OWN_LETTERS:
-            reader.define(own, value)
-        else:
-            reader.define_scalar(equation.members[0], side, value)
-        return
-    reader.defines_in_passing(equation.members[0], value)
+    if not isinstance(side, NamedAnswers):
+        reader.defines_in_passing(equation.members[0], value)
+    elif own in OWN_LETTERS:
+        reader.define(own, value)
+    else:
+        reader.define_scalar(equation.members[0], side, value)
 
 
 # Verdicts on matrices in the lines of a report

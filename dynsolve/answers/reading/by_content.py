@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import groupby
 
 from msgspec import Struct
 
@@ -209,13 +210,8 @@ def says_what_drives(vocabulary: Vocabulary, names: Sequence[str], member: list[
         return True
     if [token.text for token in member[-2:]] in (["^", "T"], ["^", "top"]):
         member = member[:-2]
-    entries: list[list[Token]] = [[]]
-    for token in member:
-        if token.kind in _BETWEEN:
-            entries.append([])
-        else:
-            entries[-1].append(token)
-    given = [entry for entry in entries if entry]
+    cut = groupby(member, lambda token: token.kind in _BETWEEN)
+    given = [list(entry) for is_between, entry in cut if not is_between]
     zeros = [entry for entry in given if [token.text for token in entry] == ["0"]]
     passive = [name for name in vocabulary.passive if name in names or "tau" in names]
     return 0 < len(given) >= len(zeros) <= len(passive) and all(

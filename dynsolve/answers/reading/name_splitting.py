@@ -184,11 +184,9 @@ def gives_new_meaning(vocabulary: Vocabulary, name: str, value: Value) -> bool:
     if vocabulary.is_vector(name) and name not in vocabulary.symbols:  # θ is q₂ alone, and no column
         return isinstance(value, Node) and rate(value, vocabulary, 1) is not None
     usual = vocabulary.others.get(name)
-    if usual is None or usual.dots or vocabulary.coordinate(usual) is None or value == usual:
+    if usual is None or usual.dots or vocabulary.coordinate(usual) is None or isinstance(value, Symbol):
         return False
-    return (
-        isinstance(value, Node) and not isinstance(value, Symbol) and rate(value, vocabulary, 1) is not None
-    )
+    return isinstance(value, Node) and rate(value, vocabulary, 1) is not None
 
 
 # Coordinates that a student counts the other way, or from elsewhere

@@ -219,16 +219,15 @@ def simplify_environment(
 def _skip_arguments(tokens: list[Token], position: int, environment: str) -> int:
     r"""Behind the `[t]` of `\begin{aligned}[t]`, the `[1.3]` of a matrix, the `{cc}` of an array."""
     option = tokens[position : position + 3]
-    if [t.kind for t in option] == ["[", "name", "]"] and option[1].text in ("t", "b", "c"):
+    kinds = [t.kind for t in option]
+    is_aligned = kinds == ["[", "name", "]"] and option[1].text in ("t", "b", "c")
+    is_stretched = kinds == ["[", "number", "]"] and "matrix" in environment and not option[0].spaced
+    if is_aligned or is_stretched:
         position += 3
     elif option[0].kind == "[" and environment == "empheq":
         while tokens[position].kind not in ("]", "end"):
             position += 1
         position += tokens[position].kind == "]"
-    elif (
-        [t.kind for t in option] == ["[", "number", "]"] and "matrix" in environment and not option[0].spaced
-    ):
-        position += 3
     if environment.startswith(_WITH_COLUMNS) and tokens[position].kind == "{":
         _, position = taken_group(tokens, position)
     return position
@@ -433,9 +432,8 @@ def _simplify_command(
         return _write_derivative(tokens, position, token, out)
     if token.text in _STACKED:
         over, position = taken_group(tokens, position)
-        dots = sum(len(t.text) if t.kind == "." else t.kind == "cdot" for t in over)
-        if dots and dots == len(over) and dots < 3:
-            out.append(token._replace(text="dot" if dots == 1 else "ddot"))
+        if 0 < len(over) < 3 and all(t.kind in (".", "cdot") for t in over):
+            out.append(token._replace(text="dot" if len(over) == 1 else "ddot"))
         return position
     empty = [t.kind for t in tokens[position : position + 2]] == ["{", "}"]
     if token.text in ("dot", "ddot") and empty and out and out[-1].kind == ")":  # (m r²)\dot{}
