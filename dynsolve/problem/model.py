@@ -226,14 +226,13 @@ class ParsedFile(Struct, frozen=True):
             points=frozenset(body["name"] for body in bodies if is_point(body)),
             named=self.questions.names,
             stages=frozenset(ASKED_FOR),
-            constraints=len(self.questions.constraints),
-            given=self.questions.rates
+            constraints=self.questions.constraints,
+            given=self.questions.needed
             | frozenset(
                 name
                 for name, there in (
                     ("mass", self.bodies or self.model),
                     ("function", self.questions.task is None or not self.questions.task.is_twist),
-                    ("linearize", self.questions.model.linearize),
                     ("references", True),
                 )
                 if there

@@ -1,7 +1,5 @@
 """What a problem file asks around the model, as it is written: named points, the task, forces, the state.
 
-What a problem file asks of the equations of motion: which parameters are known, the entries of a.
-
 `reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints.
 """
 
@@ -13,8 +11,6 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.errors import ReadError
-from dynsolve.notation.characters import normalize
 from dynsolve.notation.tree import Symbol
 from dynsolve.problem.actions import ParsedLoad, ParsedWeights, read_loads, read_weights
 from dynsolve.problem.base import ParsedRotation
@@ -27,22 +23,17 @@ from dynsolve.problem.cells import (
     read_expressions,
     read_point_expression,
 )
-from dynsolve.problem.constraints import ParsedConstraint, read_constraints
-from dynsolve.problem.kinds import Fields, describe, did_you_mean, items, mapping, whole_number, word
+from dynsolve.problem.kinds import Fields, describe, items, whole_number, word
 from dynsolve.problem.kinematic_keys import (
     ALL,
-    BALANCE,
     IN_LINK,
-    INPUTS,
-    KNOWN,
-    MAX_PARAMETERS,
     MAX_POINTS,
     MAX_TASK,
     POINT,
     WHOLE,
 )
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.state import ParsedState, is_reached, read_equilibrium, read_state, read_steady
+from dynsolve.problem.state import Given, ParsedState, is_reached, read_state
 from dynsolve.problem.table import by_coordinate
 from dynsolve.problem.yaml_nodes import (
     Faults,
@@ -54,124 +45,7 @@ from dynsolve.problem.yaml_nodes import (
     YamlNode,
     too_many,
 )
-
-# What a problem file asks of the equations of motion
-
-_HELP = PROBLEM["parameters"].help
-
-
-class ParsedModelQuestions(Struct, frozen=True):
-    """The names that are known, each with its place, and the entries of a by their names."""
-
-    known: tuple[tuple[str, Span], ...] = ()
-    parameters: tuple[tuple[str, Cell], ...] = ()
-    linearize: ParsedState | None = None
-    steady: ParsedState | None = None
-    inputs_given: bool = False
-    balanced: tuple[Cell, ...] = ()
-
-    @property
-    def constant(self) -> Iterator[Cell]:
-        """The values that are constant."""
-        yield from (cell for _, cell in self.parameters)
-        for state in (self.linearize, self.steady):
-            yield from state.cells.values() if state else ()
-
-
-NO_MODEL_QUESTIONS = ParsedModelQuestions()
-"""What a file asks that asks nothing of its model."""
-
-
-def read_model_questions(
-    faults: Faults, fields: Fields, coordinates: Mapping[str, str]
-) -> ParsedModelQuestions:
-    """The keys of a file that ask something of the equations of motion; what is wrong is reported."""
-    parameters = _read_parameters(faults, fields.get("parameters"), coordinates)
-    given = word(faults, fields.get("inputs"), INPUTS.choices, "inputs", PROBLEM["inputs"].help)
-    equilibrium = read_equilibrium(faults, fields.get("linearize"), coordinates)
-    return replace(
-        parameters,
-        linearize=equilibrium,
-        steady=read_steady(faults, fields.get("steady"), coordinates),
-        inputs_given=given is not None,
-        balanced=_read_balanced(faults, fields.get("balance"), len(coordinates)),
-    )
-
-
-def _read_balanced(faults: Faults, node: YamlNode | None, n: int) -> tuple[Cell, ...]:
-    help = PROBLEM["balance"].help
-    fields = mapping(faults, node, BALANCE.names, "balance", help)
-    cells = read_expressions(faults, fields.get("g"), "g", help) if fields else None
-    if fields is None or cells is None:
-        return ()
-    if len(cells) != n:
-        faults.error(fields.span, f"g has {len(cells)} entries, for {n} coordinates", help)
-    return cells if len(cells) == n else ()
-
-
-def _read_parameters(
-    faults: Faults, node: YamlNode | None, coordinates: Collection[str]
-) -> ParsedModelQuestions:
-    if node is None or isinstance(node, FaultyNode):
-        return NO_MODEL_QUESTIONS
-    if not isinstance(node, MappingNode):
-        faults.error(node.span, f"parameters is a mapping, not {describe(node)}", _HELP)
-        return NO_MODEL_QUESTIONS
-    known: tuple[tuple[str, Span], ...] = ()
-    cells: dict[str, Cell] = {}
-    for key, value in node.entries:
-        if key.decoded == KNOWN:
-            known = tuple(_names(faults, value))
-            continue
-        name, cell = _name(faults, key), read_cell(faults, value, f"the parameter {key.decoded}")
-        if name in cells:
-            faults.error(key.span, f"{name} is given twice", "keep one of them")
-        elif name and cell:
-            forbid(faults, [cell], coordinates, "a parameter is free of coordinates: they stand in Y")
-            cells[name] = cell
-    if len(cells) > MAX_PARAMETERS:
-        faults.error(
-            node.span, f"{len(cells)} parameters; at most {MAX_PARAMETERS} are read", "leave some out"
-        )
-        return NO_MODEL_QUESTIONS
-    return ParsedModelQuestions(known, tuple(cells.items()))
-
-
-def _names(faults: Faults, node: YamlNode) -> Iterator[tuple[str, Span]]:
-    for item in items(faults, node, KNOWN, _HELP):
-        name = _name(faults, item)
-        if name:
-            yield name, item.span
-
-
-def _name(faults: Faults, node: YamlNode) -> str | None:
-    if not isinstance(node, ScalarNode):
-        if not isinstance(node, FaultyNode):
-            faults.error(node.span, "the name of a parameter is expected", _HELP)
-        return None
-    try:
-        return normalize(node.decoded)
-    except ReadError as error:
-        at = node.start + error.offset
-        faults.error((at, at + error.length), error.message, error.help)
-        return None
-
-
-def check_model_questions(faults: Faults, asked: ParsedModelQuestions, parameters: Collection[str]) -> None:
-    """What is known, and what parameters are made of, occurs in the problem, whose `parameters` these are."""
-    for name, span in asked.known:
-        if name not in parameters:
-            _unknown(faults, name, span, parameters)
-    for _, cell in asked.parameters:
-        for found in cell.names:
-            if found.name not in parameters and found.name != "pi":
-                _unknown(faults, found.name, cell.span_of(found), parameters)
-
-
-def _unknown(faults: Faults, name: str, span: Span, parameters: Collection[str]) -> None:
-    help = did_you_mean(name, parameters) or f"its parameters are {', '.join(sorted(parameters))}"
-    faults.error(span, f"{name} is no parameter of this problem", help)
-
+from dynsolve.quantities.stages import ASKED_FOR, Stage
 
 # `reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints
 
@@ -327,15 +201,26 @@ class ParsedQuestions(Struct, frozen=True):
     all_branches: bool = False
     limits: tuple[ParsedLimits, ...] = ()
     weights: ParsedWeights | None = None
-    constraints: tuple[ParsedConstraint, ...] = ()
     reached_state: Span | None = None
     """Where the file says that the state is the configuration that reaches the target."""
-    model: ParsedModelQuestions = NO_MODEL_QUESTIONS
+    of: Mapping[Stage, Given] = {}
+    """What is given for questions that read their keys themselves."""
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the points."""
         return tuple(point.name for point in self.points)
+
+    @property
+    def constraints(self) -> int:
+        """How many constraints there are."""
+        given = self.of.get(Stage.CONSTRAINTS)
+        return len(given.moving) if given else 0
+
+    @property
+    def needed(self) -> frozenset[str]:
+        """What families need that is given (`Family.needs`)."""
+        return self.rates.union(*(given.needed for given in self.of.values()))
 
     @property
     def rates(self) -> frozenset[str]:
@@ -352,16 +237,17 @@ class ParsedQuestions(Struct, frozen=True):
         yield from self.state.cells.values() if self.state else ()
         for row in self.weights.rows if self.weights else ():
             yield from row
-        yield from self.model.constant
+        for given in self.of.values():
+            yield from given.constant
 
     @property
     def moving(self) -> Iterator[Cell]:
         """The values that may hold coordinates."""
         yield from self.task.cells if self.task else ()
-        yield from self.model.balanced
+        for given in self.of.values():
+            yield from given.moving
         for load in self.loads:
             yield from (*load.force, *load.moment)
-        yield from (constraint.cell for constraint in self.constraints)
         for rates in (self.velocity, self.acceleration):
             yield from rates.cells if rates else ()
 
@@ -409,10 +295,17 @@ def read_questions(
         word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
         read_limits(faults, fields.get("limits"), coordinates),
         read_weights(faults, fields.get("weights"), coordinates, bool(bodies)),
-        read_constraints(faults, fields, names, coordinates),
         fields.span_of("state") if is_reached(fields.get("state")) else None,
-        read_model_questions(faults, fields, coordinates),
+        {stage: stage.part("file").read(faults, fields, coordinates, names) for stage in _asking(fields)},
     )
+
+
+def _asking(fields: Fields) -> Iterator[Stage]:
+    """The questions that read keys of their own, of which the file has one."""
+    for stage in ASKED_FOR:
+        keys = stage.part("keys")
+        if keys is not None and any(key.name in fields for key in keys.KEYS):
+            yield stage
 
 
 def _read_rates(faults: Faults, fields: Fields, key: str) -> ParsedRates | None:

@@ -21,16 +21,13 @@ from dynsolve.notation.tree import Function, Node, names_in, walk
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem.actions import ParsedLoad, ParsedWeights
 from dynsolve.problem.cells import Cell, read_angle
-from dynsolve.problem.constraints import ParsedConstraint
 from dynsolve.problem.questions import (
     ParsedLimits,
-    ParsedModelQuestions,
     ParsedPoint,
     ParsedQuestions,
     ParsedRates,
     ParsedReach,
     ParsedTask,
-    check_model_questions,
     check_reach,
 )
 from dynsolve.problem.values import CellValues, PlaceBuilder
@@ -38,14 +35,12 @@ from dynsolve.problem.yaml_nodes import Faults
 from dynsolve.quantities.letters import has_base
 from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.actions import Constraint
 from dynsolve.robot.geometry import last_origin
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.questions import (
     TIP,
     Limits,
     Load,
-    ModelQuestions,
     NamedPoint,
     Questions,
     State,
@@ -226,12 +221,10 @@ def with_questions(
 ) -> Robot:
     """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
     state = parsed.state.values if parsed.state else {}
-    constraints = tuple(_constraint(values, robot, one) for one in parsed.constraints)
     questions = Questions(
         points=tuple(_axes_named(robot, point) for point in points),
         task=_task(parsed.task),
-        asked=asked | _brought(loads, constraints),
-        constraints=constraints,
+        asked=asked | {*(["Q"] if loads else [])},
         loads=tuple(loads),
         state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
         is_drawn=is_drawn,
@@ -239,8 +232,11 @@ def with_questions(
         weights=_weights(values, parsed.weights),
         weighs_by_inertia=parsed.weights is not None and parsed.weights.is_inertia,
         state_is_reached=parsed.reached_state is not None,
-        model=_model(values, robot, parsed.model),
     )
+    robot = replace(robot, questions=questions)
+    for stage, given in parsed.of.items():
+        robot = stage.part("file").build(values, robot, given)
+    questions = robot.questions
     if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
         questions = replace(questions, task=default_task(robot))
     if questions.task is not None and questions.task.reached:
@@ -326,26 +322,6 @@ def _weights(values: CellValues, parsed: ParsedWeights | None) -> Matrix | None:
     return W
 
 
-def _brought(loads: Sequence[Load], constraints: Sequence[Constraint]) -> frozenset[str]:
-    """What forces and constraints bring without being asked for: it stands in the equations of motion."""
-    return frozenset({*(["Q"] if loads else []), *(["Ac"] if constraints else [])})
-
-
-def _constraint(values: CellValues, robot: Robot, parsed: ParsedConstraint) -> Constraint:
-    """A constraint; one on the rates that is not linear in them is reported."""
-    constraint = Constraint(parsed.cell.tree, parsed.in_rates)
-    value = values.expr(parsed.cell) if parsed.in_rates else None
-    if value is not None:
-        ring = robot.ring
-        factors = [ring.coefficient(value, name, 1) for name in ring.names]
-        terms = (factor * ring.symbol(name, 1) for factor, name in zip(factors, ring.names, strict=True))
-        moving = any(ring.coefficient(f, name, 1) != ring.zero for f in factors for name in ring.names)
-        if moving or sum(terms, start=ring.zero) != value:
-            help = "a constraint on rates is a sum of rates, each times a function of the coordinates"
-            values.faults.error(parsed.cell.span, f"{parsed.cell.what} is not linear in the rates", help)
-    return constraint
-
-
 def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix | None:
     """The velocity or acceleration of the task, m×1; one of another length is reported."""
     if parsed is None:
@@ -357,21 +333,6 @@ def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix 
         )
         return None
     return values.column(parsed.cells)
-
-
-def _model(values: CellValues, robot: Robot, parsed: ParsedModelQuestions) -> ModelQuestions:
-    check_model_questions(values.faults, parsed, robot.parameters)
-    at = parsed.linearize.values if parsed.linearize else {}
-    steady = parsed.steady.values if parsed.steady else {}
-    return ModelQuestions(
-        known=frozenset(name for name, _ in parsed.known),
-        inputs_given=parsed.inputs_given,
-        balanced=values.column(parsed.balanced) if parsed.balanced else None,
-        linearize=tuple((name, dots, value) for (name, dots), value in at.items()),
-        steady=tuple((name, value) for (name, _), value in steady.items()),
-        named=tuple(name for name, _ in parsed.parameters),
-        parameters=values.column(cell for _, cell in parsed.parameters) if parsed.parameters else None,
-    )
 
 
 def _task(parsed: ParsedTask | None) -> Task | None:

@@ -10,14 +10,14 @@ default.  From these records come
 - the tables of keys in `problems/README.md` (`documentation.py`).
 
 To add a key, write its record here (or in a file of keys, as `kinematic_keys`), read it with `Fields.get` in
-the module it belongs to, and give what was read a place in `Problem` or `Robot`.
+the module it belongs to, and give what was read a place in `Problem` or `Robot`.  The keys of a question are
+in its own folder, in `keys`.
 """
 
 from __future__ import annotations
 
 from dynsolve.problem.action_keys import (
     ACTION_KEYS,
-    CONSTRAINT_KEYS,
     COORDINATES,
     DEFINITE_KEYS,
     model,
@@ -45,7 +45,8 @@ from dynsolve.problem.kinds import (
     Shared,
     Word,
 )
-from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS, MODEL_KEYS
+from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
+from dynsolve.quantities.stages import ASKED_FOR
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
 
@@ -391,8 +392,7 @@ PROBLEM = Keyed(
         *DEFINITE_KEYS,
         *ACTION_KEYS,
         *KINEMATIC_KEYS,
-        *MODEL_KEYS,
-        *CONSTRAINT_KEYS,
+        *(key for stage in ASKED_FOR for key in getattr(stage.part("keys"), "KEYS", ())),
         Key(
             "values",
             MapOf(NUMBER, "numbers by symbol"),

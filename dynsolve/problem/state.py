@@ -39,6 +39,19 @@ class ParsedState(Struct, frozen=True):
         ]
 
 
+class Given(Struct, frozen=True):
+    """What a file gives for a question: its values, those that are `constant` and those that may be `moving`.
+
+    `states` are values of coordinates, of which the ring must hold the sines and cosines; `needed` are names
+    of what families need (`Family.needs`).
+    """
+
+    constant: tuple[Cell, ...] = ()
+    moving: tuple[Cell, ...] = ()
+    states: tuple[ParsedState, ...] = ()
+    needed: frozenset[str] = frozenset()
+
+
 def is_reached(node: YamlNode | None) -> bool:
     """Whether the state is the configuration that reaches the target."""
     return isinstance(node, ScalarNode) and node.text in REACHED.choices
@@ -51,43 +64,11 @@ def read_state(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) 
     if not isinstance(node, MappingNode):
         faults.error(node.span, "state is a mapping from coordinates to values, or reach", _HELP)
         return None
-    return _read_values(faults, node, kinds)
+    return read_values(faults, node, kinds)
 
 
-def read_equilibrium(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> ParsedState | None:
-    """The values of `linearize`, which are of coordinates alone; None where there are none."""
-    if node is None or isinstance(node, FaultyNode):
-        return None
-    help = PROBLEM["linearize"].help
-    if not isinstance(node, MappingNode):
-        faults.error(node.span, "linearize is a mapping from coordinates to values", help)
-        return None
-    found = _read_values(faults, node, kinds)
-    for name, dots in found.cells:
-        if dots:
-            faults.error(node.span, f"the rate of {name} is 0 in an equilibrium", help)
-    return found
-
-
-def read_steady(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> ParsedState | None:
-    """The rates of `steady`, each under its coordinate's name or its own; None where there are none."""
-    if node is None or isinstance(node, FaultyNode):
-        return None
-    help = PROBLEM["steady"].help
-    if not isinstance(node, MappingNode):
-        faults.error(node.span, "steady is a mapping from coordinates to their constant rates", help)
-        return None
-    rates = dict.fromkeys(kinds, "prismatic")  # a rate is a number also where the coordinate is an angle
-    found = _read_values(faults, node, rates)
-    if any(dots > 1 for _, dots in found.cells):
-        faults.error(node.span, "an acceleration is 0 where the rate is constant", help)
-    cells = {(name, 1): cell for (name, _), cell in found.cells.items()}
-    if len(cells) == len(kinds):
-        faults.error(node.span, "no coordinate is left that could be in balance", help)
-    return ParsedState(cells, kinds)
-
-
-def _read_values(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> ParsedState:
+def read_values(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> ParsedState:
+    """The values by coordinate, or rate of one; what is wrong with one is reported."""
     cells: dict[tuple[str, int], Cell] = {}
     for key, value in node.entries:
         symbol = _symbol(faults, key, kinds)

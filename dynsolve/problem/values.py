@@ -285,7 +285,8 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
         trees += (*parsed.model.rates, *parsed.model.slopes)
     trees += [Function("sgn", Symbol(name, 1)) for name in parsed.acting.signs] if parsed.acting else []
     angles = [angle for _, angle in parsed.angles]
-    states = [state for state in (parsed.questions.state, parsed.questions.model.linearize) if state]
+    asked = parsed.questions
+    states = [*([asked.state] if asked.state else []), *(s for one in asked.of.values() for s in one.states)]
     for state in states:
         trees += state.turned
     ring = build_ring(parsed.table.coordinates, trees, angles, preferred)

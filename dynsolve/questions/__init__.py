@@ -17,6 +17,9 @@
 A folder has the name of its stage (`quantities.stages`), and these files, of which it may lack some:
 
     __init__    `FAMILIES`, the records of its quantities: data alone, loaded with every robot
+    keys        `KEYS`, those of the problem file: data alone, loaded with every file
+    file        `read(...)` what the file gives by them, as a `problem.state.Given`, and `build(...)` the robot
+                with it; imported where a file has one of the keys
     derive      `rules(robot)`: the rules of its quantities, and their formulas
     check       `verify(held)`: the results as they are printed, held by a computation that shares no formula
                 (`held`)
@@ -27,5 +30,6 @@ A folder has the name of its stage (`quantities.stages`), and these files, of wh
 
 `Stage.part` imports a file by its path when it is asked for: rooms below and beside these name no question,
 and one that nobody asks costs nothing.  A new question is a line in `Stage` and such a folder; if it needs
-something from the file, a key (`problem.kinematic_keys`) and a field of `robot.questions`.
+something from the file, a field of `robot.questions` for it.  Keys that several questions share (points, the
+task, `state`) are in `problem.kinematic_keys`, and read in `problem.questions`.
 """
