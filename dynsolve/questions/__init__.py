@@ -18,7 +18,7 @@ A folder has the name of its stage (`quantities.stages`), and these files, of wh
 
     __init__    `FAMILIES`, the records of its quantities: data alone, loaded with every robot
     keys        `KEYS`, those of the problem file: data alone, loaded with every file
-    file        `read(...)` what the file gives by them, as a `problem.state.Given`, and `build(...)` the robot
+    file        `read(...)`: what the file gives by them, as a `problem.state.Given`; `build(...)`: the robot
                 with it; imported where a file has one of the keys
     derive      `rules(robot)`: the rules of its quantities, and their formulas
     check       `verify(held)`: the results as they are printed, held by a computation that shares no formula

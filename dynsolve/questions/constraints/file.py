@@ -78,7 +78,7 @@ def _is_linear(faults: Faults, cell: Cell, coordinates: Collection[str]) -> bool
 
 
 def build(values: CellValues, robot: Robot, given: GivenConstraints) -> Robot:
-    """The robot with its constraints; A_c, which stands in the equations of motion, is asked for with them."""
+    """The robot with its constraints; A_c stands in the equations of motion, and is asked for with them."""
     pairs = zip(given.moving, given.in_rates, strict=True)
     constraints = tuple(_constraint(values, robot, cell, in_rates) for cell, in_rates in pairs)
     asked = robot.questions.asked | {*(["Ac"] if constraints else [])}
