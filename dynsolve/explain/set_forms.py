@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.factors import is_positive, ratio, trig_factors
+from dynsolve.algebra.factors import is_positive, ratio, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Ring
@@ -57,6 +57,9 @@ class SetForms:
     def comparison(self, value: Expr, sign: str) -> Relation:
         """A value compared with 0: what is positive of it on one side, what is negative on the other."""
         ring = value.ring
+        for shared, exponent in trig_factors(value):
+            if is_positive(shared):
+                value = trig_quotient(value, shared**exponent) or value
         sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
         for exponents, factor in value.poly.to_dict().items():
             sides[factor < 0][exponents] = abs(factor)

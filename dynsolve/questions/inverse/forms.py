@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
+from math import gcd, lcm
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
@@ -169,8 +169,8 @@ class InverseFormulas:
             return self._of_vector(x, y, a)
         if a.is_zero:
             return self._of_vector(-y, x, b)
-        sign, sine = split_sign(self.form(b))
-        own = atan2(sine, self.form(a))
+        sign, _ = split_sign(self.form(b))
+        own = self.direction(b if sign > 0 else -b, a)
         return total([self.direction(y, x), own if sign > 0 else negated(own)])
 
     def _of_vector(self, x: Expr, y: Expr, length: Expr) -> Node:
@@ -183,13 +183,9 @@ class InverseFormulas:
 
     def direction(self, y: Expr, x: Expr) -> Node:
         """atan2(y, x) without a positive factor that both share."""
-        if not (y.is_zero or x.is_zero):
-            factor = Expr(y.ring, y.poly.gcd(x.poly))
-            if is_nonnegative(-factor):
-                factor = -factor
-            if is_nonnegative(factor):
-                y, x = (Expr(y.ring, divmod(e.poly, factor.poly)[0]) for e in (y, x))
-        return atan2(self.form(y), self.form(x))
+        ways = _without_shared(y, x)
+        forms = ([self.form(e) for e in both] for both in (ways, _in_whole_numbers(*ways)))
+        return atan2(*min(forms, key=lambda both: sum(map(cost, both))))
 
     def _of_line(self, step: OneLine, value: Node) -> tuple[Node, Node]:
         """Both angles of A cos ψ + B sin ψ = X, with X written as `value`."""
@@ -244,6 +240,26 @@ class InverseFormulas:
         if is_nonnegative(-value.divisor):
             whole = -whole
         return Quotient(self.form(value.numerator * whole), self.form(value.divisor * whole))
+
+
+def _without_shared(a: Expr, b: Expr) -> tuple[Expr, Expr]:
+    """Two expressions without a positive factor that both have."""
+    if a.is_zero or b.is_zero:
+        return a, b
+    factor = Expr(a.ring, a.poly.gcd(b.poly))
+    if is_nonnegative(-factor):
+        factor = -factor
+    if is_nonnegative(factor):
+        a, b = (Expr(a.ring, divmod(e.poly, factor.poly)[0]) for e in (a, b))
+    return a, b
+
+
+def _in_whole_numbers(a: Expr, b: Expr) -> tuple[Expr, Expr]:
+    """The same without a number that both have, and without fractions in front of terms."""
+    numbers = [number for e in (a, b) for number in e.poly.coeffs()]
+    whole = Fraction(lcm(*(int(n.q) for n in numbers)))
+    shared = gcd(*(int((n * int(whole)).p) for n in numbers)) or 1
+    return a * (whole / shared), b * (whole / shared)
 
 
 def _is_even(expr: Expr) -> bool:
@@ -310,7 +326,13 @@ class InverseForms(SetForms):
             return ()
         form = self.inverse_formulas.form
         return tuple(
-            tuple(Equality((form(one.left), form(one.right)), one.is_angle) for one in branch.when)
+            tuple(
+                Equality((form(left), form(right)), one.is_angle)
+                for one in branch.when
+                for left, right in [
+                    (one.left, one.right) if one.is_angle else _without_shared(one.left, one.right)
+                ]
+            )
             for branch in self.solved.branches
         )
 

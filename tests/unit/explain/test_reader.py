@@ -149,6 +149,12 @@ def test_for_which_parameters_configurations_are_all_that_are_singular() -> None
     assert "This is so where" not in in_one_line("gravity: none\n" + TWO_LINKS + "find: [singular]")
 
 
+def test_what_both_sides_share_is_cancelled() -> None:
+    arm = "dh: [{theta: q1*, d: 1/2, alpha: 90deg}, {theta: q2*, a: 1/2}, {theta: q3*, a: 1/2}]\n"
+    text = page("gravity: none\n" + arm + "find: [inverse]")
+    assert "atan2(s₃, 1 + c₃)" in text and "atan2(s₃/2" not in text
+
+
 @pytest.mark.parametrize("problem", ["puma560-first3", "elbow-3r", "spherical-rrp", "planar-rrp-task"])
 def test_no_line_is_wider_than_a_terminal(problem: str) -> None:
     solution = solved(problem)
