@@ -35,6 +35,7 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
+    Power,
     Product,
     Row,
     Sum,
@@ -42,6 +43,7 @@ from dynsolve.notation.tree import (
     Transpose,
     Words,
     equation,
+    walk,
 )
 from dynsolve.quantities import letters
 from dynsolve.robot.actions import Elastic, Motor
@@ -85,7 +87,14 @@ def spring_steps(context: Context) -> Iterator[Step]:
 
 
 def _stretched(context: Context, law: Elastic) -> Node:
-    """½ k (x - rest)², as the problem has it."""
+    """½ k (x - rest)², the deflection with the terms in the order that they have in the sum of all."""
+    squares = (one for one in walk(context.form("Ps")) if isinstance(one, Power))
+    sums = [one.base for one in squares if isinstance(one.base, Sum)]
+    for sign in (1, -1):
+        shown = context.show((law.of - law.rest) * sign)
+        for base in sums:
+            if isinstance(shown, Sum) and set(base.terms) == set(shown.terms):
+                return _half_square(context.show(law.stiffness), base)
     stretch = total([context.show(law.of), negated(context.show(law.rest))])
     return _half_square(context.show(law.stiffness), stretch)
 

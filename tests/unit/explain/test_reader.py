@@ -161,3 +161,9 @@ def test_no_line_is_wider_than_a_terminal(problem: str) -> None:
     for document in solution_documents(solution, tuple(Detail)):
         for line in terminal.render(document, style=solution.style):
             assert width(line.text) <= 100, line.text
+
+
+def test_a_spring_has_one_order_of_its_terms() -> None:
+    spring = "springs: [{stiffness: k, of: q2 - q1, rest: delta}, {stiffness: k2, of: q1}]\nfind: [Ps]"
+    text = page("gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES + spring)
+    assert len(set(re.findall(r"k \(.*?\)²", text))) == 1
