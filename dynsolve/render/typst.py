@@ -67,13 +67,13 @@ _PREAMBLE = """#set document(title: {title}, date: none)
   if here().page() > 1 { text(8.5pt, fill: luma(90), [#emph({header}) #h(1fr) #counter(page).display()]) }
 })
 #set text(font: ({face}, "Libertinus Serif", "DejaVu Sans Mono"), size: 10pt, lang: "en")
-#set par(leading: 0.6em, spacing: 0.7em)
-#set math.mat(delim: "[", row-gap: 0.45em, column-gap: 0.9em)
+#set par(leading: 0.52em, spacing: 0.55em)
+#set math.mat(delim: "[", row-gap: 0.4em, column-gap: 0.9em)
 #set math.equation(numbering: none)
 #show heading: set text(hyphenate: false)
 #show heading.where(level: 1): set text(size: 17pt)
-#show heading.where(level: 2): it => block(above: 1.6em, below: .8em, sticky: true, text(13pt, it.body))
-#show heading.where(level: 3): it => block(above: 1.15em, below: .6em, sticky: true, text(10.5pt, it.body))
+#show heading.where(level: 2): it => block(above: 1.25em, below: .6em, sticky: true, text(13pt, it.body))
+#show heading.where(level: 3): it => block(above: .9em, below: .45em, sticky: true, text(10.5pt, it.body))
 #show link: set text(fill: rgb("#1a5a96"))
 #let contents = block(above: 1.6em, breakable: false, {
   show outline.entry: set block(above: 0.5em)
@@ -85,13 +85,13 @@ _PREAMBLE = """#set document(title: {title}, date: none)
   block(width: 100%, ..options, body)
 }
 #let formula(body, side, sticky: false) = displayed(
-  above: 0.85em, below: 0.85em, breakable: false, sticky: sticky,
+  above: 0.6em, below: 0.6em, breakable: false, sticky: sticky,
   grid(columns: (1fr, auto, 1fr), align: (left, center, right + horizon), [], body, side))
 #let in-runs(runs, sticky, columns, ..options) = for (place, rows) in runs.enumerate() {
   let last = place == runs.len() - 1
-  displayed(breakable: false, sticky: sticky and last, above: if place == 0 { 0.85em } else { 0.3em },
-    below: if last { 0.85em } else { 0.3em },
-    grid(columns: columns, row-gutter: 0.3em, ..options, ..rows.flatten()))
+  displayed(breakable: false, sticky: sticky and last, above: if place == 0 { 0.6em } else { 0.22em },
+    below: if last { 0.6em } else { 0.22em },
+    grid(columns: columns, row-gutter: 0.22em, ..options, ..rows.flatten()))
 }
 #let strut = box(width: 0pt, hide($lr(|, size: #1.5em)$))
 #let right-aligned(width, body) = context h(width.to-absolute() - measure(body).width) + body
@@ -106,11 +106,11 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #let columned(count, indent, sticky: false, ..runs) = in-runs(runs.pos(), sticky,
   (indent * 1fr, ..(1fr / count,) * (count - 1), (1 / count - indent) * 1fr, 3em),
   align: (x, y) => if x > count { right + horizon } else { left + horizon })
-#let closing(body) = v(1.6em, weak: true) + layout(size => {
+#let closing(body) = v(1.25em, weak: true) + layout(size => {
   let needed = measure(block(width: size.width, body)).height
   let begun = calc.min(needed, (if needed > size.height { 0.2 } else { 0.35 }) * size.height)
   block(breakable: false, spacing: 0pt, height: begun)
-  v(-begun - 1.6em) // the space above the heading is that before the block, which no page begins with
+  v(-begun - 1.25em) // the space above the heading is that before the block, which no page begins with
   body
 })
 #let contents = block(above: 1.4em, breakable: false, {
@@ -364,12 +364,17 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
         rows.append(f"({_math(line.left)}, {_math(right)}, {apart}, [{side}])")
         above, all_tall = is_tall, all_tall and is_tall
     if all_tall:  # equations so high may stand alone
-        starts = [k for k, line in enumerate(lines) if line.left or not k]
+        starts = [k for k, begins in enumerate(map(_begins, lines)) if begins or not k]
         ends = [*starts[1:], len(lines)]
         runs = ", ".join(f"({', '.join(rows[a:b])},)" for a, b in zip(starts, ends, strict=True))
     else:
-        runs = _in_runs(rows, [bool(line.left) for line in lines], last)
+        runs = _in_runs(rows, list(map(_begins, lines)), last)
     return f"#formula-lines({runs}{_STICKY * sticks})"
+
+
+def _begins(line: Line) -> bool:
+    """Whether an equation begins with a line, or equations side by side, which have no name on the left."""
+    return bool(line.left) or not line.name
 
 
 def _in_runs(rows: Sequence[str], begins: Sequence[bool], last: int) -> str:

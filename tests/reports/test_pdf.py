@@ -35,6 +35,15 @@ def test_every_problem_gives_a_pdf_in_which_no_page_is_nearly_empty(problem: Pat
     assert min(map(len, pages)) >= FEWEST_LINES
 
 
+@pytest.mark.parametrize(
+    ("name", "most"), [("in3140-rp", 5), ("planar-2r", 6), ("elbow-3r", 11), ("puma560", 12)]
+)
+def test_a_report_has_few_pages(name: str, most: int, tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == name), Format.PDF))
+    assert len(lines_of(pdf)) <= most
+
+
 @pytest.mark.parametrize("name", ["planar-2r", "elbow-3r"])
 def test_every_equation_has_its_number_once(name: str, tmp_path: Path) -> None:
     pdf = tmp_path / "report.pdf"
