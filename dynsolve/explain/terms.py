@@ -278,9 +278,12 @@ def _rows_in_names(context: Context) -> tuple[Line, ...]:
         heights = [part for part in (g.rows[k][0],) if part != ZERO]
         return total([*inertial, collected_coriolis_force(coordinates, symbol, k), *rubbing, *heights])
 
-    rows = (equation(driving_row(context, q), row(k)) for k, q in enumerate(context.robot.coordinates))
-    forces = Reference(tuple(f"tau{q.index}" for q in context.robot.coordinates), ", ")
-    return (Line(("Row by row", forces, ":"), tuple(rows)),)
+    robot = context.robot
+    rows = (equation(driving_row(context, q), row(k)) for k, q in enumerate(robot.coordinates))
+    forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), ", ")
+    passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
+    lead: Prose = ("Row by row", *((", with ", equation(*passive, ZERO)) if passive else ()))
+    return (Line((*lead, forces, ":"), tuple(rows)),)
 
 
 def has_friction(context: Context) -> bool:

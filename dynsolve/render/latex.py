@@ -60,6 +60,7 @@ PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{3pt plus 1pt minus 1pt}
 \setlength{\emergencystretch}{6em}
+\binoppenalty=9999  % in a sentence a line hardly ends after a sign of a formula
 \setlength{\jot}{2pt}
 \delimitershortfall=3pt % of brackets around a column of fractions
 \setcounter{MaxMatrixCols}{30}

@@ -167,3 +167,8 @@ def test_a_spring_has_one_order_of_its_terms() -> None:
     spring = "springs: [{stiffness: k, of: q2 - q1, rest: delta}, {stiffness: k2, of: q1}]\nfind: [Ps]"
     text = page("gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES + spring)
     assert len(set(re.findall(r"k \(.*?\)²", text))) == 1
+
+
+def test_that_passive_forces_are_zero_is_said_where_rows_are_in_names_too() -> None:
+    text = in_one_line("gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES + "passive: [q2]\nfind: [tau, D, C, g]")
+    assert "Row by row, with τ₂ = 0:" in text
