@@ -11,6 +11,7 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cached_property
 
+from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import trig_factors
@@ -22,6 +23,7 @@ from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matrix, pairs, rates_of_pair
+from dynsolve.explain.parameter_meanings import angles_in
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
 from dynsolve.notation.tree import ZERO, Node, Product, Symbol
@@ -258,14 +260,39 @@ def is_numeric(robot: Robot) -> bool:
 
 
 def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
-    """The coordinates of joints that turn about parallel axes, whose angles add up; without joints, all."""
+    """The names whose angles add up: coordinates that turn about parallel axes, constant angles beside them.
+
+    Without joints all coordinates that turn.  A constant angle is with the joints before what it stands in.
+    """
     if not robot.has_table:
         turning = frozenset(q.name for q in robot.coordinates if q.type is JointType.REVOLUTE)
-        return [turning] if turning else []
+        return [turning | _constant_angles(robot)] if turning else []
     turns = [
         Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
     ]
-    return parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)
+    runs = parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)
+    if len(runs) == 1:
+        return [runs[0] | _constant_angles(robot)]
+    placed = [(body.link, body.center) for body in robot.bodies]
+    placed += [(point.link, point.position) for point in robot.questions.points]
+    for link, place in placed:
+        angles = {name for entry in place.entries for name in angles_in(entry)} & _constant_angles(robot)
+        turned = _turned_by(robot, link)
+        runs = [run | angles if turned & run else run for run in runs]
+    return runs
+
+
+def _constant_angles(robot: Robot) -> frozenset[str]:
+    """The names of angles that no coordinate adds to."""
+    names = (frozenset(names_of(pair.angle)) for pair in robot.ring.pairs)
+    return frozenset().union(*(own for own in names if own.isdisjoint(robot.ring.names)))
+
+
+def _turned_by(robot: Robot, link: int) -> frozenset[str]:
+    """The coordinates in the angle of the last joint that turns a link."""
+    while link and robot.joints[link - 1].variable != "theta":
+        link = robot.joints[link - 1].parent
+    return frozenset(names_of(robot.joints[link - 1].theta)) & {*robot.ring.names} if link else frozenset()
 
 
 # -- compact forms of products and quotients: a determinant in its factors, fractions --------------

@@ -486,7 +486,10 @@ def _actions(forms: Forms) -> Iterator[Prose]:
             at_rest = equation(forms.of(spring.law.of), forms.of(spring.law.rest))
             yield ("A spring of stiffness ", forms.of(spring.law.stiffness), " is at rest at ", at_rest, ".")
     for damper in actions.dampers:
-        yield ("A damper of coefficient ", forms.of(damper.damping), " acts along ", forms.of(damper.of), ".")
+        yield (
+            *("A damper of coefficient ", forms.of(damper.damping)),
+            *(" acts against changes of ", forms.of(damper.of), "."),
+        )
     yield from (_friction(forms, friction) for friction in actions.friction)
     yield from (_motor(forms, motor) for motor in actions.motors)
     if actions.passive:
@@ -537,10 +540,12 @@ def _questions(forms: Forms) -> Iterator[Prose]:
         yield ("To be reached: ", _target(forms.robot, questions.target), ".")
     for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
         if value is not None:
-            yield (equation(letters.bold("r", dots=dots), _flat(map(forms.of, value.entries))), ".")
+            wanted = equation(letters.bold("r", dots=dots), _flat(map(forms.of, value.entries)))
+            yield (f"The task is to have the {'velocity' if dots == 1 else 'acceleration'} ", wanted, ".")
     yield from (_load(forms, load) for load in questions.loads)
-    for limits in questions.limits:
-        yield (Relation((limits.low, Symbol(limits.coordinate), limits.high), ("≤", "≤")), ".")
+    ranges = [Relation((one.low, Symbol(one.coordinate), one.high), ("≤", "≤")) for one in questions.limits]
+    if ranges:
+        yield ("Limits: ", *listed(ranges), ".")
     given = (("The state: ", questions.state.values), ("The equilibrium: ", questions.model.linearize))
     for what, values in given:
         shown = [equation(Symbol(name, dots), value) for name, dots, value in values]
@@ -568,12 +573,25 @@ def _target(robot: Robot, target: Target) -> Node:
 
 
 def _load(forms: Forms, load: Load) -> Prose:
-    """A force F acts on link 2 at the tip."""
+    """The force (F, 0, 0) and the moment (0, 0, M) act on link 2 at the tip; or link 2 exerts them."""
     kinds = (("the force ", load.force), ("the moment ", load.moment))
     acting = [(what, _flat(map(forms.of, value.entries))) for what, value in kinds if not value.is_zero]
-    where = "the tip" if load.point == TIP else load.point or "a given point"
-    along = f" along the axes of frame {load.link} turned as given" if load.axes is not None else ""
-    return (f"On link {load.link} acts at {where} ", *listed(acting), f"{along}.")
+    at: Prose = (" at the tip",) if load.point == TIP else (" at ", load.point)
+    if load.force.is_zero:
+        at = ()
+    elif not load.point and load.position.is_zero:
+        at = (" at ", letters.o(load.link))
+    elif not load.point:
+        at = (" at ", _flat(map(forms.of, load.position.entries)), f" in frame {load.link}")
+    along = "" if load.axes is None else f", along the axes of frame {load.link}"
+    if load.axes is not None and load.axes != load.axes.identity(load.axes.ring, 3):
+        along += " turned as given"
+    told = listed(acting)
+    if load.by_robot:
+        return (f"Link {load.link} exerts ", *told, *at, f"{along}.")
+    first, *others = told
+    act = "act" if len(acting) > 1 else "acts"
+    return (opened(str(first)), *others, f" {act} on link {load.link}", *at, f"{along}.")
 
 
 def _values(robot: Robot, written: Mapping[str, str], own_units: Mapping[str, str]) -> Prose:

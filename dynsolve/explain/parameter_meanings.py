@@ -113,6 +113,12 @@ class Role(Enum):
         return agreeing(self.value, count)
 
 
+_ACTING = frozenset({Role.STIFFNESS, Role.VISCOUS, Role.DAMPING})
+
+_OF_ACTING = {"N m": "N m/rad", "kg/s^2": "N/m", "kg m^2/s": "N m s/rad", "kg/s": "N s/m"}
+"""What stiffnesses and coefficients of damping are measured in, of what turns and of what slides."""
+
+
 def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
     """The role and the SI unit of every parameter; the first role counts where one has several."""
     found: dict[str, Role] = {}
@@ -122,9 +128,10 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
 
     def unit(name: str, role: Role) -> str:
         own = dimensions.get(name) or at_state.get(name, "")
-        is_torsion = role is Role.STIFFNESS and own == "N m"
+        if role in _ACTING:
+            return _OF_ACTING.get(own, own)
         is_angle = role is Role.REST and not own and all(map(turns, robot.coordinates))
-        return "rad" if is_angle or role in (Role.TURN, Role.DOWN) else "N m/rad" if is_torsion else own
+        return "rad" if is_angle or role in (Role.TURN, Role.DOWN) else own
 
     return {name: (role := found.get(name, Role.OTHER), unit(name, role)) for name in robot.parameters}
 

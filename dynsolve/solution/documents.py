@@ -84,6 +84,7 @@ from dynsolve.robot import units
 from dynsolve.robot.model import Robot
 from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
+from dynsolve.solution.leading import leading
 from dynsolve.solution.numbers import given
 
 # The steps of a model in numbers as they are printed
@@ -411,38 +412,14 @@ def solution_documents(
 
     def made(short: Abbreviated | None) -> tuple[Document, ...]:
         steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
-        needed = None if stages is not None else needed_stages(solution)
-
-        def of(detail: Detail) -> Sequence[Step]:
-            if needed is None or detail is Detail.FULL:
-                return steps
-            return [step for step in steps if step.stage in needed]
-
-        parts = (_Parts(solution, detail, stages, of(detail), drawn, short) for detail in details)
+        least = leading(solution, steps) if stages is None else steps
+        shown = ((detail, steps if detail is Detail.FULL else least) for detail in details)
+        parts = (_Parts(solution, detail, stages, own, drawn, short) for detail, own in shown)
         return tuple(each.document() for each in parts)
 
     names = "what is written in names"
     short = attempted(lambda: solution.abbreviated(abbreviate), lambda: None, names)
     return made(None) if short is None else attempted(lambda: made(short), lambda: made(None), names)
-
-
-_FROM_AXES = frozenset({Stage.ENERGY, Stage.STATICS, Stage.TASK_INERTIA})
-"""The stages in which points move about the axes that the stage of the Jacobian tells of."""
-
-
-def needed_stages(solution: Dynamics) -> frozenset[Stage] | None:
-    """The stages of what is asked and of what that is derived from; None where all of them are told."""
-    known, values = quantities(solution.robot), solution.values
-    asked = [known[name].rule if name in known else "" for name in solution.problem.find]
-    if not asked or not all(name in values.rules for name in asked):
-        return None
-    leading = values.leading_to(asked)
-    found = {one.family.stage for one in known.values() if one.rule in leading}
-    if found & _FROM_AXES or solution.robot.questions.points:
-        found.add(Stage.JACOBIAN)
-    return frozenset(
-        found | {stage for stage in Stage if stage.asked_for}
-    )  # these tell of what is asked alone
 
 
 _IN_NUMBERS = (

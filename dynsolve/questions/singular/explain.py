@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import comb, prod
 
 from msgspec.structs import replace
 
@@ -14,7 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.set_forms import vanishing
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
 from dynsolve.explain.working.identities import SILENT
-from dynsolve.explain.writing import agreeing, listed, spong
+from dynsolve.explain.writing import agreeing, listed, spong, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, equation
 from dynsolve.quantities import letters
@@ -50,7 +51,12 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
     """The minors of J, or of what is left of it where rows and columns are cleared, as products."""
     name, J, size = _matrix(context), _letter(context), found.rank - found.pivots
     rows, columns = context.values[name].shape
-    minors = [forms.product(minor) for minor in found.minors]
+    distinct = [m for k, m in enumerate(found.minors) if not {m, -m} & {*found.minors[:k]}]
+    minors = [forms.product(minor) for minor in distinct]
+    of = context.values[name] if found.core is None else found.core
+    left_out: Prose = ()
+    if size > 1 and len(minors) < prod(comb(count, size) for count in of.shape):
+        left_out = (f"But for signs, {'one is' if len(minors) == 1 else 'these are'} not always 0:",)
     results = tuple(formula("minor {k} = {minor}", k=k, minor=minor) for k, minor in enumerate(minors, 1))
     working: tuple[Node, ...] = ()
     way = SILENT
@@ -91,7 +97,7 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
         source=spong("4.9"),
         working=working,
         lines=way.lines,
-        concluding=way.concluding,
+        concluding=way.concluding or left_out,
         result=results,
         listed=len(results) > 1,
         normal=TOLD & ~Part.RESULT if len(results) == 1 and "det" in context.wanted else TOLD,
@@ -101,7 +107,10 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
 
 def _alternatives(forms: SingularForms, found: SingularSet) -> Step:
     cases, special = forms.singular, tuple(_of_special(forms, found))
-    none = ", as no factor of the minors becomes 0" if found.rank > found.pivots else ""
+    none = ""
+    if found.rank > found.pivots:
+        never = "the minors are never all 0 at once" if len(found.minors) > 1 else "no factor of it becomes 0"
+        none = f", as {never}"
     step = Step(
         id="singular",
         title="No singular configuration",
@@ -146,15 +155,15 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
     names = [formula("𝐰")] if len(lost) == 1 else several
     told: Prose = ()
     if lost and not any(forms.lost_here[:case]):
-        task = context.robot.questions.task
-        is_force = _matrix(context) != "J" and (task is None or task.is_default)
+        is_force = _is_force(context)
         told = say(
             " Every velocity that the joints can give is orthogonal to {w}: {lost} lost. A force"
-            "{moment} along {it} no torque of the joints.{everywhere}",
+            "{moment} along {it} no {effort} of the joints.{everywhere}",
             w=listed(names),
             lost="that motion is" if len(names) == 1 else "these motions are",
             moment="" if is_force else " and a moment",
             it=f"{'it' if len(names) == 1 else 'them'} {'needs' if is_force else 'need'}",
+            effort=_effort(context.robot),
             everywhere=_elsewhere(loss.everywhere, len(names)),
         )
     if not loss.are_independent:
@@ -197,6 +206,20 @@ def _elsewhere(count: int, here: int) -> str:
         return ""
     beside = "Beside it" if here == 1 else "Beside them"
     return agreeing(f" {beside} {count} motion|motions is|are impossible in every configuration.", count)
+
+
+def _is_force(context: Context) -> bool:
+    """Whether all that is asked of the arm are places of points, so that what acts along them is a force."""
+    task = context.robot.questions.task
+    if _matrix(context) == "J" or task is None or task.is_twist:
+        return False
+    return all(isinstance(entry, Reference) and entry.row is not None for entry in task.entries)
+
+
+def _effort(robot: Robot) -> str:
+    """What the joints exert: torques where they turn, forces where they slide."""
+    turning = [turns(q) for q in robot.coordinates]
+    return "torque" if all(turning) else "torque or force" if any(turning) else "force"
 
 
 def _in_general(context: Context) -> Node:

@@ -94,3 +94,19 @@ def test_in_the_modified_table_a_length_is_that_of_the_link_before() -> None:
     found = told(f"convention: modified\n{table}\n{bodies}")
     assert found["l1"] == "length of link 1, from 𝐨₁ to 𝐨₂"
     assert found["c"] == "distance from 𝐨₂ to the mass centre of body 2"
+
+
+ACTING = """
+gravity: none
+dh: [{theta: q1*}, {d: q2*}]
+masses: [{mass: m1, link: 1, center: origin, inertia: {zz: I1}}, {mass: m2, link: 2}]
+springs: [{stiffness: k1, of: q1}, {stiffness: k2, of: q2}]
+dampers: [{damping: b1, of: q1}, {damping: b2, of: q2}]
+friction: {q1: f1, q2: {viscous: f2, coulomb: c2}}
+"""
+
+
+def test_what_turns_and_what_slides_have_units_of_their_own() -> None:
+    found = {name: unit for name, (_, unit, _) in meanings(solved(ACTING).robot).items()}
+    assert [found[name] for name in ("k1", "b1", "f1")] == ["N m/rad", "N m s/rad", "N m s/rad"]
+    assert [found[name] for name in ("k2", "b2", "f2", "c2")] == ["N/m", "N s/m", "N s/m", "N"]

@@ -115,8 +115,8 @@ PLACED = [
 
 @pytest.mark.parametrize(("base", "told"), PLACED)
 def test_the_statement_says_how_the_base_is_placed(base: str, told: str) -> None:
-    (given, _) = stated(solved(f"{base}\n{ARM % 'tip'}"))
-    assert told in given
+    (given, *_) = stated(solved(f"{base}\n{ARM % 'tip'}"))
+    assert told.rstrip() in given
 
 
 MOMENTS = [
@@ -193,3 +193,22 @@ def test_a_part_of_a_solution_has_no_statement() -> None:
 
 def is_words(block: Block) -> TypeGuard[Text]:
     return isinstance(block, Text) and isinstance(block.parts[0], str)
+
+
+LOADED = "gravity: none\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nfind: [tau_static]\nforces:\n  - "
+
+
+@pytest.mark.parametrize(
+    ("load", "told"),
+    [
+        ("{link: 2, at: tip, force: [F, 0, 0]}", "The force (F, 0, 0) acts on link 2 at the tip."),
+        ("{link: 1, at: [-a, 0, 0], force: [F, 0, 0]}", "acts on link 1 at (-a, 0, 0) in frame 1."),
+        ("{link: 2, moment: [0, 0, M]}", "The moment (0, 0, M) acts on link 2."),
+        (
+            "{link: 2, at: tip, force: [F, 0, 0], moment: [0, 0, M], by: robot}",
+            "Link 2 exerts the force (F, 0, 0) and the moment (0, 0, M) at the tip.",
+        ),
+    ],
+)
+def test_a_force_from_outside_is_told_with_who_exerts_it_and_where(load: str, told: str) -> None:
+    assert told in stated(solved(LOADED + load))[0]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 import dynsolve
+from dynsolve.document import Prose
+from dynsolve.notation.unicode import to_unicode
 
 RRP = """
 dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2* + 90deg, alpha: 90deg}, {d: q3*}]
@@ -44,3 +46,43 @@ def test_that_free_coordinates_are_free_is_said_where_there_are_any() -> None:
     for problem, are_free in ((pendulum, False), (sliding, True)):
         (step,) = (s for s in dynsolve.solve(problem).explain(["equilibria"]) if s.id == "equilibria")
         assert any(" may have any value." in note for note in step.notes) is are_free
+
+
+def _words(prose: Prose) -> str:
+    return "".join(part if isinstance(part, str) else to_unicode(part) for part in prose)
+
+
+def _told(problem: str, case: int) -> str:
+    """Why a step of a singular case says what it says, formulas as text."""
+    (step,) = (s for s in dynsolve.solve(problem).explain(["singular"]) if s.id == f"singular_{case}")
+    return _words(step.why)
+
+
+FLAT = STRETCHED.replace("find:", "task: [tip.x, tip.y, tip.z]\nfind:")
+UPRIGHT = """
+gravity: none
+dh: [{theta: q1*, alpha: 90deg, a: a1}, {theta: q2*, a: l1}]
+task: [tip.x, tip.y, tip.z]
+find: [singular]
+"""
+
+
+def test_a_force_is_named_where_all_that_is_asked_are_places_of_points() -> None:
+    assert "A force along it needs no torque" in _told(FLAT, 1)
+    slide = (
+        "dh: [{theta: q1*}, {d: d2*, alpha: 90deg}, {theta: q3*, a: l3}]\ngravity: none\nfind: [singular]\n"
+    )
+    assert "torque or force of the joints" in _told(slide + "task: [tip.x, tip.y, tip.z]\n", 1)
+
+
+def test_an_arm_of_full_rank_says_that_its_minors_are_never_0_at_once() -> None:
+    upright = UPRIGHT.replace("a: a1", "d: l0").replace("[tip.x, tip.y, tip.z]", "twist")
+    steps = dynsolve.solve(upright).explain(["singular"])
+    told = [_words(step.why) for step in steps if step.id == "singular"]
+    assert told == ["The rank is 2 in every configuration, as the minors are never all 0 at once."]
+    minors = next(
+        step for step in dynsolve.solve(upright).explain(["singular"]) if step.id == "singular_minors"
+    )
+    assert len({to_unicode(one).partition("=")[2].lstrip(" -") for one in minors.result}) == len(
+        minors.result
+    )

@@ -1,0 +1,72 @@
+"""The steps that lead to what is asked: a section on which nothing asked depends is left to `full`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from dynsolve.derivation.rules import course_rules
+from dynsolve.explain.step import Step
+from dynsolve.quantities.index import quantities
+from dynsolve.quantities.stages import Stage
+from dynsolve.solution.dynamics import Dynamics
+
+_MODEL = {"D", "C", "g"}
+"""With these the equations of motion are told, row by row and in matrices."""
+
+_WHOLE_WITH = {
+    Stage.JACOBIAN: {"K"},
+    Stage.INERTIA: {"K"},
+    Stage.ENERGY: {"K", "P"},
+    Stage.VECTORIZED: _MODEL,
+}
+"""Stages that are told as a whole where all of this is wanted; else only the steps that lead on are."""
+
+
+def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
+    """Those of a solution's steps that are asked for, or that such steps are derived from."""
+    asked = {_rule(solution, name) for name in solution.problem.find}
+    asked |= _MODEL if "tau" in asked else set()
+    named = {name: step for step in steps for name in (step.id, *step.also)}
+    if Stage.NEWTON_EULER in {step.stage for step in steps} or asked.isdisjoint(named):
+        return tuple(steps)
+    inputs = {name: rule.inputs for name, rule in solution.values.rules.items()}
+    inputs |= {rule.name: rule.inputs for rule in course_rules(solution.robot)}
+    wanted, kept = set[str](), tuple[Step, ...]()
+    while True:
+        found = set(_closure({*asked, *(step.id for step in kept)}, named, inputs))
+        if found == wanted:
+            return kept
+        wanted = found
+        kept = tuple(_kept(steps, wanted, named.keys() | inputs.keys()))
+
+
+def _rule(solution: Dynamics, name: str) -> str:
+    """The rule that computes an answer; of what has none, the answer itself."""
+    found = quantities(solution.robot).get(name)
+    return name if found is None or not found.rule else found.rule
+
+
+def _closure(
+    names: Iterable[str], named: Mapping[str, Step], inputs: Mapping[str, Sequence[str]]
+) -> Iterator[str]:
+    """Names and all that they are derived from, by their steps or, without steps, by their rules."""
+    seen, waiting = set[str](), list(names)
+    while waiting:
+        name = waiting.pop().partition("#")[0]
+        if name not in seen:
+            seen.add(name)
+            yield name
+            step = named.get(name)
+            uses = inputs.get(name, ()) if step is None or step.uses is None else step.uses
+            waiting += (*uses, *(() if step is None else (step.id, *step.also)))
+
+
+def _kept(steps: Sequence[Step], wanted: set[str], known: Iterable[str]) -> Iterator[Step]:
+    """The steps of the questions and of the kinematics; of other stages those that something needs."""
+    known = set(known)
+    stages = {step.stage for step in steps if step.id in wanted}
+    for step in steps:
+        parts = _WHOLE_WITH.get(step.stage, set()) & known
+        is_whole = step.stage in stages and parts <= wanted
+        if step.stage is Stage.KINEMATICS or step.stage.asked_for or is_whole or step.id in wanted:
+            yield step

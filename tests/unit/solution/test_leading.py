@@ -1,0 +1,66 @@
+"""A solution has the sections that lead to what is asked, and no others; `full` has them all."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.document import Heading
+from dynsolve.explain.step import Detail
+from dynsolve.quantities.stages import Stage
+from dynsolve.solution.documents import solution_document
+from dynsolve.solution.leading import leading
+from tests.support import solved
+
+ARM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+task: [tip.x, tip.y]
+find: [%s]
+"""
+_KINEMATICS = ["Forward kinematics"]
+_TASK = ["Points and tasks", "Singular configurations"]
+_ENERGY = ["The Jacobian", "The bodies: mass centres and inertia", "Potential and kinetic energy"]
+_FORCES = ["The Lagrangian", "The Euler-Lagrange equations"]
+
+
+def _sections(find: str, detail: Detail = Detail.NORMAL) -> list[str]:
+    blocks = solution_document(solved(ARM % find), detail).blocks
+    headings = [block.text for block in blocks if isinstance(block, Heading) and block.level == 2]
+    return [text.partition(". ")[2] for text in headings if text[0].isdigit()]
+
+
+@pytest.mark.parametrize(
+    ("find", "sections"),
+    [
+        ("r", [*_KINEMATICS, "Points and tasks"]),
+        ("singular", [*_KINEMATICS, *_TASK]),
+        ("inverse", [*_KINEMATICS, "Points and tasks", "Inverse kinematics"]),
+        ("J", [*_KINEMATICS, "The Jacobian"]),
+        ("K", [*_KINEMATICS, *_ENERGY]),
+        ("P", [*_KINEMATICS, *_ENERGY]),
+        ("tau1", [*_KINEMATICS, *_ENERGY, *_FORCES]),
+        ("tau, singular", [*_KINEMATICS, _ENERGY[0], *_TASK, *_ENERGY[1:], *_FORCES, "The matrix form"]),
+        ("D, C, g", [*_KINEMATICS, *_ENERGY, *_FORCES, "The matrix form"]),
+    ],
+)
+def test_a_section_leads_to_what_is_asked(find: str, sections: list[str]) -> None:
+    assert _sections(find) == sections
+
+
+def test_full_has_every_section() -> None:
+    assert _sections("r", Detail.FULL)[-1] == "The matrix form"
+
+
+def test_of_energy_alone_no_step_is_told_that_nothing_needs() -> None:
+    solution = solved(ARM % "g")
+    told = leading(solution, solution.steps)
+    assert [step.id for step in told if step.stage is Stage.ENERGY] == ["P1", "P2", "P"]
+    assert [step.id for step in told if step.stage is Stage.VECTORIZED] == ["g"]
+
+
+def test_of_a_whole_model_every_step_is_told() -> None:
+    solution = solved(ARM % "tau, D, C, g")
+    assert {step.id for step in solution.steps} - {
+        step.id for step in leading(solution, solution.steps)
+    } == set()
