@@ -145,7 +145,19 @@ Group = tuple[str, TextBox | Matrix]
 
 
 def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
-    """The lines of a displayed formula in `room` cells; none for an optional one that does not fit."""
+    """The lines of a displayed formula in `room` cells; none for an optional one that does not fit.
+
+    Where a matrix that cannot be listed entry by entry is wider, as one that is transposed, its rows are
+    written one after the other.
+    """
+    lines = _set_in_boxes(formula, printer, room)
+    if all(width(line) <= room for line in lines):
+        return lines
+    first, *others = break_sum(printer.text(formula.node), room, room - _HANG)
+    return [first, *(" " * _HANG + other for other in others)]
+
+
+def _set_in_boxes(formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
     groups = list(_grouped(formula.node, printer, room))
     boxes = [beside([TextBox.of(lead), piece]) for lead, piece in groups if isinstance(piece, TextBox)]
     if len(boxes) == len(groups) and sum(box.width for box in boxes) <= room:

@@ -164,6 +164,15 @@ def test_no_line_of_a_solution_runs_over_and_no_matrix_is_text(stem: str, column
     assert not [text for text in shown if "[[" in text]
 
 
+def test_a_transposed_matrix_that_is_too_wide_is_written_row_after_row() -> None:
+    wide = Transpose(matrix(*([", ".join(["a1 + b1*c1 + d1*e1"] * 5)] * 2)))
+    q = Letter("q", None, None, "bold")
+    shown = lines(Formula(equation(q, Product((wide, q)))), columns=60)
+    assert max(map(width, shown)) <= 60
+    letters = "".join("".join(line.split()) for line in shown)
+    assert letters.count("a₁+b₁c₁+d₁e₁") == 10 and letters.endswith("]]ᵀq")
+
+
 # -- fractions among words, and entries that are zero ------------------------------------------------
 
 
