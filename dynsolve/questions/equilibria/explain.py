@@ -106,7 +106,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         title="Where nothing else moves" if steady else "Where nothing moves",
         why=say(
             "{which}{held}{given}",
-            which=why(context) if steady else say(_AT_REST, idle="" if is_held else ", and no motor drives"),
+            which=why(context) if steady else say(_AT_REST, idle=_idle(robot, is_held)),
             held=say(balance, passive=passive) if is_held else "",
             given=say(_GIVEN, these=side_by_side(assumed)) if assumed else "",
         ),
@@ -114,6 +114,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         task=equation(forces, Number(0)),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         lines=lines,
+        concluding=("All of these are 0 where:",) if lines and result else (),
         result=result,
         listed=len(result) > 1,
         notes=(*of_free, *notes),
@@ -122,6 +123,13 @@ def _equilibria(context: Context) -> Iterator[Step]:
     )
     if any(points for points in found.points):
         yield _stability(context, shown, found)
+
+
+def _idle(robot: Robot, is_held: bool) -> str:
+    """What does not act in an equilibrium: motors, where they hold nothing, and forces from outside."""
+    idle = [] if is_held else ["no motor drives"]
+    idle += ["no force from outside acts"] if robot.questions.loads else []
+    return "".join(f", {'and ' * (one is idle[-1])}{one}" for one in idle)
 
 
 def _special(shown: EquilibriaForms, case: SpecialCase) -> Prose:

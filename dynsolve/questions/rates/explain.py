@@ -47,12 +47,12 @@ def steps(context: Context) -> Iterator[Step]:
 
 
 def state_prose(context: Context) -> Prose:
-    """The state that something is asked for at, as words: At q₁ = 90°, q̇₁ = 1."""
+    """The state that something is asked for at, as words: The state is q₁ = 90°, q̇₁ = 1."""
     values = context.robot.questions.state.values
     if not values:
         return ()
     given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in values])
-    return say("At {given}.", given=given)
+    return say("The state is {given}.", given=given)
 
 
 def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, why: Prose) -> Step:

@@ -35,7 +35,7 @@ def normal(problem: str) -> str:
         ("asked/goldstein-2-18-hoop.yaml", "stable where"),
         ("planar-2r-reach", "There are solutions where -1 ≤"),
         ("planar-2r-reach", "q₂ is beyond the limits."),
-        ("planar-3r-redundant", "At q₁ = 0, q₂ = 0, q₃ = 0. 𝐪̇ = 𝐉_r⁺ 𝐫̇"),
+        ("planar-3r-redundant", "The state is q₁ = 0, q₂ = 0, q₃ = 0. 𝐪̇ = 𝐉_r⁺ 𝐫̇"),
         ("rp-parameters", "Fewer than 3 entries are not enough"),
         ("planar-2r-motors", "Motor 2 rides on link 1"),
     ],

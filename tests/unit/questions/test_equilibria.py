@@ -139,3 +139,18 @@ def test_only_where_both_sides_are_equal_nothing_is_decided() -> None:
 def test_a_row_that_is_0_at_a_point_alone_leaves_nothing_neutral() -> None:
     """P = y²/2 - x⁴ falls along x, where its second derivatives are 0."""
     assert of_energy("c*y^2/2 - b*x^4", "xy")["equilibria_stability"] == [[{"stability": "undecided"}]]
+
+
+PUSHED = (
+    "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\n"
+    "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]\nfind: [equilibria]\n"
+)
+
+
+def test_that_forces_from_outside_are_left_out_is_said() -> None:
+    force = "forces: [{link: 2, at: tip, force: [F, 0, 0]}]\n"
+    for problem, is_told in ((PUSHED, False), (PUSHED + force, True)):
+        (step,) = (s for s in dynsolve.solve(problem).explain(["equilibria"]) if s.id == "equilibria")
+        words = "".join(part for part in step.why if isinstance(part, str))
+        assert ("no motor drives, and no force from outside acts" in words) is is_told
+        assert step.concluding == ("All of these are 0 where:",)
