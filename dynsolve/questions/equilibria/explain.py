@@ -114,7 +114,9 @@ def _equilibria(context: Context) -> Iterator[Step]:
         task=equation(forces, Number(0)),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         lines=lines,
-        concluding=("All of these are 0 where:",) if lines and result else (),
+        concluding=(_lead(len(result), len(rows) * is_new),)
+        if len(result) > 1 or (result and is_new)
+        else (),
         result=result,
         listed=len(result) > 1,
         notes=(*of_free, *notes),
@@ -123,6 +125,12 @@ def _equilibria(context: Context) -> Iterator[Step]:
     )
     if any(points for points in found.points):
         yield _stability(context, shown, found)
+
+
+def _lead(cases: int, combinations: int) -> str:
+    """What leads from forces, or from combinations of them, to where they are 0."""
+    what = "All are" if combinations > 1 else "It is"
+    return f"{what} 0 in these cases:" if cases > 1 else f"{what} 0 where:"
 
 
 def _idle(robot: Robot, is_held: bool) -> str:

@@ -153,4 +153,22 @@ def test_that_forces_from_outside_are_left_out_is_said() -> None:
         (step,) = (s for s in dynsolve.solve(problem).explain(["equilibria"]) if s.id == "equilibria")
         words = "".join(part for part in step.why if isinstance(part, str))
         assert ("no motor drives, and no force from outside acts" in words) is is_told
-        assert step.concluding == ("All of these are 0 where:",)
+        assert step.concluding == ("All are 0 where:",)
+
+
+def test_alternatives_are_said_to_be_cases() -> None:
+    (step,) = (s for s in dynsolve.solve(HOOP).explain(["equilibria"]) if s.id == "equilibria")
+    assert len(step.result) == 2 and step.concluding == ("It is 0 in these cases:",)
+
+
+HOOP = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {phi: revolute, theta: revolute}
+  bodies:
+    - {mass: m, at: [R*sin(theta)*cos(phi), R*sin(theta)*sin(phi), -R*cos(theta)]}
+    - {mass: M, at: [0, 0, 0], turn: phi, about: [0, 0, 1], inertia: {zz: I}}
+passive: [theta]
+steady: {phi: W}
+find: [equilibria]
+"""
