@@ -19,41 +19,11 @@ from dynsolve.errors import ReadError
 
 # The characters that a formula may contain, and the errors about all others
 
-GREEK: dict[str, str] = {
-    "alpha": "α",
-    "beta": "β",
-    "gamma": "γ",
-    "delta": "δ",
-    "epsilon": "ε",
-    "zeta": "ζ",
-    "eta": "η",
-    "theta": "θ",
-    "iota": "ι",
-    "kappa": "κ",
-    "lambda": "λ",
-    "mu": "μ",
-    "nu": "ν",
-    "xi": "ξ",
-    "pi": "π",
-    "rho": "ρ",
-    "sigma": "σ",
-    "tau": "τ",
-    "upsilon": "υ",
-    "phi": "φ",
-    "chi": "χ",
-    "psi": "ψ",
-    "omega": "ω",
-    "Gamma": "Γ",
-    "Delta": "Δ",
-    "Theta": "Θ",
-    "Lambda": "Λ",
-    "Xi": "Ξ",
-    "Pi": "Π",
-    "Sigma": "Σ",
-    "Phi": "Φ",
-    "Psi": "Ψ",
-    "Omega": "Ω",
-}
+_NAMES_OF_GREEK = (
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi "
+    "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
+)
+GREEK: dict[str, str] = dict(zip(_NAMES_OF_GREEK.split(), "αβγδεζηθικλμνξπρστυφχψωΓΔΘΛΞΠΣΦΨΩ", strict=True))
 """Spelled-out name -> letter, for the letters that cannot be taken for Latin ones."""
 
 SPELLED: dict[str, str] = {letter: name for name, letter in GREEK.items()} | {
@@ -152,18 +122,14 @@ def character_error(character: str, offset: int) -> ReadError:
     name = unicodedata.name(character, "")
     label = f"{code} {name}".rstrip()
     if unicodedata.category(character) in _UNSEEN:
-        return ReadError(
-            f"a character that cannot be seen ({label})", offset, 1, "delete it and type the text anew"
-        )
-    if unicodedata.category(character) in ("Mn", "Me"):
-        return ReadError(
-            f"a mark over or under a letter ({label}) has no meaning here", offset, 1, "delete it"
-        )
-    if character.isascii():
-        help = _REMEDIES.get(character, "")
-        return ReadError(f"`{character}` has no meaning here", offset, 1, help)
-    message = f"`{character}` ({label}) has no meaning here"
-    return ReadError(message, offset, 1, _remedy(character))
+        message, help = f"a character that cannot be seen ({label})", "delete it and type the text anew"
+    elif unicodedata.category(character) in ("Mn", "Me"):
+        message, help = f"a mark over or under a letter ({label}) has no meaning here", "delete it"
+    elif character.isascii():
+        message, help = f"`{character}` has no meaning here", _REMEDIES.get(character, "")
+    else:
+        message, help = f"`{character}` ({label}) has no meaning here", _remedy(character)
+    return ReadError(message, offset, 1, help)
 
 
 def _remedy(character: str) -> str:

@@ -57,18 +57,9 @@ _DOTS = ("", "\u0307", "\u0308", "\u20db")
 _SUBSCRIPTS = dict(zip("0123456789ijkn+-=()", SUBSCRIPT_DIGITS + "ᵢⱼₖₙ₊₋₌₍₎", strict=True))
 _SUPERSCRIPTS = dict(zip("0123456789inT+-()⋆", SUPERSCRIPT_DIGITS + "ⁱⁿᵀ⁺⁻⁽⁾⋆", strict=True))
 _FRACTIONS = {
-    ("1", "2"): "½",
-    ("1", "3"): "⅓",
-    ("2", "3"): "⅔",
-    ("1", "4"): "¼",
-    ("3", "4"): "¾",
-    ("1", "6"): "⅙",
-    ("5", "6"): "⅚",
-    ("1", "8"): "⅛",
-    ("3", "8"): "⅜",
-    ("5", "8"): "⅝",
-    ("7", "8"): "⅞",
-}
+    ("1", "2"): "½", ("1", "3"): "⅓", ("2", "3"): "⅔", ("1", "4"): "¼", ("3", "4"): "¾", ("1", "6"): "⅙",
+    ("5", "6"): "⅚", ("1", "8"): "⅛", ("3", "8"): "⅜", ("5", "8"): "⅝", ("7", "8"): "⅞",
+}  # fmt: skip
 _FRACTION_SIGNS = frozenset(_FRACTIONS.values())
 _RUN = re.compile(r"[A-Za-z]+|[^A-Za-z]+")
 _BARE_BASES = frozenset({Symbol, Parenthesized})
