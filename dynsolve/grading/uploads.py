@@ -116,21 +116,17 @@ class Uploads:
         self.path = path
         self.refused: list[Refused] = []
         self._besides = besides
-        self._zip: zipfile.ZipFile | None = None
         self._members: dict[PurePosixPath, zipfile.ZipInfo] = {}
         try:
-            if path.is_dir():
-                self.files = tuple(sorted(self._walk(), key=lambda upload: upload.path))
-                return
-            self._zip = zipfile.ZipFile(path)
-            self.files = tuple(sorted(self._list(self._zip), key=lambda upload: upload.path))
+            self._zip = None if path.is_dir() else zipfile.ZipFile(path)
+            found = self._walk() if self._zip is None else self._list(self._zip)
+            self.files = tuple(sorted(found, key=lambda upload: upload.path))
         except zipfile.BadZipFile:
             message, help = "this is neither a folder nor a zip", "give the download of the learning platform"
+            raise InputError([Finding(message, help, str(path))]) from None
         except OSError as error:
-            message, help = f"it cannot be read: {(error.strerror or str(error)).lower()}", "check the path"
-        else:
-            return
-        raise InputError([Finding(message, help, str(path))])
+            message = f"it cannot be read: {(error.strerror or str(error)).lower()}"
+            raise InputError([Finding(message, "check the path", str(path))]) from None
 
     def close(self) -> None:
         """Close the zip, where it is one."""
@@ -186,10 +182,10 @@ class Uploads:
             reason = self._of_member(member, name)
             if len(taken) >= MAX_INSIDE or total > MAX_INSIDE_TOTAL:
                 reason = "the zip holds too much"
-            path = archive.path / name if not reason else archive.path
             if reason:
                 refused.append(Refused(printable(name), reason))
             else:
+                path = archive.path / name
                 taken.append(Upload(path, (*member.date_time,), member.file_size, archive))
         return taken, refused
 
@@ -254,9 +250,8 @@ class Uploads:
         path = Path(os.fsdecode(error.filename))
         if path == self.path:
             raise error
-        self._refuse(
-            path.relative_to(self.path).as_posix(), f"cannot be read: {(error.strerror or '').lower()}"
-        )
+        reason = f"cannot be read: {(error.strerror or '').lower()}"
+        self._refuse(path.relative_to(self.path).as_posix(), reason)
 
     # -- a zip -------------------------------------------------------------------------------------
 

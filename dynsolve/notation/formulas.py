@@ -13,15 +13,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK, describes, runs, split
-from dynsolve.notation.printing import (
-    PLAIN,
-    Printer,
-    Style,
-    flat_factors,
-    is_numeric,
-    is_whole,
-    shorthand,
-)
+from dynsolve.notation.printing import PLAIN, Printer, Style, flat_factors, is_numeric, is_whole, shorthand
 from dynsolve.notation.tree import (
     Arguments,
     BigSum,

@@ -16,17 +16,7 @@ from itertools import zip_longest
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.document import (
-    Document,
-    Equations,
-    Fold,
-    Formula,
-    Heading,
-    Picture,
-    Prose,
-    Table,
-    Text,
-)
+from dynsolve.document import Document, Equations, Fold, Formula, Heading, Picture, Prose, Table, Text
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Letter, Matrix, Node, Relation, Row
 from dynsolve.notation.unicode import UnicodePrinter, printable, width
