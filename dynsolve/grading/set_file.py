@@ -22,7 +22,7 @@ Groups: what a group handed in counts for each of its members, in `groups.csv` b
     Group A,ada@uni.example
 
 A group is called as its files are; a student as in `grades.csv`, or as the platform's list says:
-by number, name or address.  `platforms.members` has whose the files are.
+by number, name or address.  `platforms.registry` has whose the files are.
 """
 
 from __future__ import annotations

@@ -54,7 +54,7 @@ def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:
                 yield "inverse in numbers", f"{lacking} has none; give it one under values"
 
 
-# `state
+# `state: reach`
 
 
 def with_reached_state(problem: Problem) -> Problem:
