@@ -44,7 +44,7 @@ def center_step(context: Context, body: Body) -> Step:
     return Step(
         id=f"rc{body.name}",
         title=f"Mass centre of {name_of(body)}",
-        why=(f"The position of {name_of(body)} is given{how}",),
+        why=(f"The position is given{how}",),
         result=(equation(letters.rc(body), factored(context, context.form(f"rc{body.name}"))),),
         said="given position" if moves else "",
         uses=(),

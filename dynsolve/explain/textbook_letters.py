@@ -350,8 +350,8 @@ def _of_forces(robot: Robot, style: Style) -> dict[str, Value]:
         "coordinate": unit("rad", "m"),
         "jacobian": "m or 1" if has_turning else "1",
         "force": unit("N m", "N"),
-        "inertia": unit("kg m^2", "kg", "kg m^2"),
-        "rate": unit("kg m^2/s", "kg/s", "kg m^2/s"),
+        "inertia": unit("kg m^2", "kg", "kg m^2, kg m or kg"),
+        "rate": unit("kg m^2/s", "kg/s", "kg m^2/s, kg m/s or kg/s"),
         "forces": (torque, force) if has_sliding else (torque,),
         "what_force": unit(", a torque", ", a force", f": a torque {turning}, a force ({written}) {sliding}"),
     }

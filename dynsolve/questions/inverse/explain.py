@@ -49,7 +49,7 @@ from dynsolve.questions.inverse.figures import figure_of
 from dynsolve.questions.inverse.forms import InverseForms, InverseFormulas
 from dynsolve.questions.inverse.solving import FixedPoint, Part, Solving, Turn
 from dynsolve.questions.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
-from dynsolve.questions.inverse.target import target_steps
+from dynsolve.questions.inverse.target import target_steps, task_of
 from dynsolve.robot.model import Robot
 
 SHORT = 4
@@ -503,7 +503,7 @@ def _wrist_notes(formulas: InverseFormulas, turn: Turn, step: Solved) -> Iterato
 def _branches(forms: InverseForms, solving: Solving) -> Step:
     """All of them, each put into r(q); a table where not every choice goes with every other."""
     names, count = [step.coordinate for step in solving.solved], len(forms.inverse)
-    task = letters.FRAME_OF_Q if _is_pose(forms.robot) else letters.TASK_OF_Q
+    task = task_of(forms.robot)
     choices = _choices(forms, solving)
     is_free = forms.target is None and len(set(forms.when)) <= 1 and _is_every_choice(forms, choices)
     there_are = f"there are {count} solutions" if count > 1 else "there is one solution"
@@ -515,15 +515,16 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     else:
         together = (f"{opened(there_are)}.",)
     starts = tuple(f"inverse_{what}_{number}" for what, number in _defined(solving))
+    same = f"A coordinate that stands in a formula is that of the same {'solution' if is_free else 'line'}."
     return Step(
         id=_id_of_branches(forms),
         title="The solution" if count == 1 else f"The {count} solutions",
         why=say(
-            "{together} Each is put into {task} to see that it gives what is asked. A coordinate that stands "
-            "in a formula is that of the same {solution}.",
+            "{together} {each} is put into {task} to see that it gives what is asked. {same}",
             together=together,
+            each="Each" if count > 1 else "It",
             task=task,
-            solution="solution" if is_free else "line",
+            same=same if count > 1 else "",
         ),
         table=None if is_free else _table(forms, choices),
         notes=(*_conditions(forms, task), *_free_coordinates(solving)),

@@ -55,6 +55,7 @@ from dynsolve.notation.tree import (
     names_in,
     walk,
 )
+from dynsolve.quantities import letters
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Target
 
@@ -471,19 +472,28 @@ def _all(forms: TargetForms) -> Step:
     )
 
 
+def task_of(robot: Robot) -> Node:
+    """What the coordinates are put into: r(q), or of a pose H(q)."""
+    task = robot.questions.task
+    return letters.FRAME_OF_Q if task is not None and task.is_pose else letters.TASK_OF_Q
+
+
 def told(forms: TargetForms) -> Prose:
     """How the configurations were found, and how they are known to be right; or why there are none."""
+    task = task_of(forms.robot)
     if forms.configurations and forms.is_searched:
         return say(
-            "Newton's method from 200 configurations led to these, each put into $𝐫(𝐪)$ to ten digits. That "
-            "there are no others is not proved."
+            "Newton's method from 200 configurations led to these, each put into {task} to ten digits. That "
+            "there are no others is not proved.",
+            task=task,
         )
     if forms.configurations:
-        return say("Each is put into $𝐫(𝐪)$ to see that it gives the task.")
+        each = "Each" if len(forms.configurations) > 1 else "It"
+        return say(f"{each} is put into {{task}} to see that it gives the task.", task=task)
     if forms.is_family:
         return say("The configurations that reach this do not stand alone: there are infinitely many.")
     if forms.unmet:
-        return say("No configuration reaches this: no joint gives $𝐫(𝐪)$ these values.")
+        return say("No configuration reaches this: no joint gives {task} these values.", task=task)
     if forms.lost:
         return say("No configuration reaches this: no branch is real.")
     return say("No configuration that reaches this was found: Newton's method from 200 of them led to none.")
