@@ -44,7 +44,9 @@ class Record(Fields):
         self.index = index
         for key in kind.required:
             if self.lacks(key.name):
-                self.faults.error(self.span, f"{what} has no `{key.name}`", f"add {key.help.removeprefix('write ')}")
+                self.faults.error(
+                    self.span, f"{what} has no `{key.name}`", f"add {key.help.removeprefix('write ')}"
+                )
         self._decoded = {
             key.name: decoder.value(key, self.get(key.name), what)
             for key in kind.keys

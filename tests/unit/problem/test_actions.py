@@ -77,7 +77,7 @@ FAULTS = {
     "a rest in the stretch": ("springs: [{stiffness: k, of: «q1 - L»}]", "without coordinates", "`rest`"),
     "an energy of nothing": ("springs: [{energy: «k»}]", "no coordinate", "function of them"),
     "a high energy": ("springs: [{energy: «k*q1^9»}]", "of degree 9", "lower degree"),
-    "no damping": ("dampers:\n  - «{of: q1}»", "no `damping`", "add write damping"),
+    "no damping": ("dampers:\n  - «{of: q1}»", "no `damping`", "add damping"),
     "no inertia": ("motors:\n  - «{turns: q1}»", "no `inertia`", "inertia"),
     "no link": ("motors: [{turns: q1, inertia: J, carrier: «3»}]", "there is no link 3", "from 1 to 2"),
     "the ground": ("motors: [{turns: q1, inertia: J, carrier: «0»}]", "link 0 is the ground", "from 1"),
