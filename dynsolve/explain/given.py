@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Block, Formula, Inline, List, Prose, Text
 from dynsolve.document.sentences import opened, say
@@ -23,6 +24,7 @@ from dynsolve.explain.kinematics import turned
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles
+from dynsolve.explain.set_forms import SetForms
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
 from dynsolve.notation import tree
@@ -553,13 +555,13 @@ def _questions(forms: Forms) -> Iterator[Prose]:
             yield (what, side_by_side(shown), ".")
     if questions.state_is_reached:
         yield ("The state is the configuration within these limits that reaches it.",)
-    candidates = [bound for one in questions.candidates for bound in one.assumed]
-    assumed = list(dict.fromkeys((*questions.model.assumed, *candidates)))
-    if assumed:
-        from dynsolve.explain.set_forms import SetForms
-
-        written = SetForms(forms.robot, forms.values)
-        yield ("Assumed: ", *listed([written.inequality(bound) for bound in assumed]), ".")
+    said: list[tuple[Prose, Sequence[Bound]]] = [((), questions.model.assumed)]
+    if questions.candidates and forms.robot.given is None:  # each has its own
+        said = [((" of ", Symbol(one.name)), one.assumed) for one in questions.candidates]
+    written = SetForms(forms.robot, forms.values)
+    for of, assumed in said:
+        if assumed:
+            yield ("Assumed", *of, ": ", *listed([written.inequality(bound) for bound in assumed]), ".")
 
 
 def _target(robot: Robot, target: Target) -> Node:

@@ -55,11 +55,18 @@ class SetForms:
         return self.comparison(bound.value, ">" if bound.is_strict else "≥")
 
     def comparison(self, value: Expr, sign: str) -> Relation:
-        """A value compared with 0: what is positive of it on one side, what is negative on the other."""
+        """A value compared with 0: what is positive of it on one side, what is negative on the other.
+
+        A positive factor that both sides share is left out; of matrices whose parameters may be negative none.
+        """
         ring = value.ring
-        for shared, exponent in trig_factors(value):
-            if is_positive(shared):
-                value = trig_quotient(value, shared**exponent) or value
+        if {factor < 0 for factor in value.poly.coeffs()} == {
+            True,
+            False,
+        } and not self.robot.questions.candidates:
+            for shared, exponent in trig_factors(value):
+                if is_positive(shared):
+                    value = trig_quotient(value, shared**exponent) or value
         sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
         for exponents, factor in value.poly.to_dict().items():
             sides[factor < 0][exponents] = abs(factor)

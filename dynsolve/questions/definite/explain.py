@@ -87,9 +87,18 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
         result=(matrix, *minors),
         why=(*assumed, *reason(context.forms, found), f" So {conclusion}"),
         notes=notes,
-        outcome=(name, f": {conclusion}"),
+        outcome=_outcome(context.forms, name, found),
         normal=NOTED,
         hint=("Look at its entries first, then at its leading minors.",),
+    )
+
+
+def _outcome(forms: Forms, name: Node, found: Definiteness) -> Prose:
+    """The verdict on a matrix, with its conditions."""
+    if found.answer is not Answer.IF:
+        return (name, f": {_CONCLUSIONS[found.answer]}")
+    return say(
+        "{name}: it can be an inertia matrix if {these}.", name=name, these=_all_of(forms, found.conditions)
     )
 
 
