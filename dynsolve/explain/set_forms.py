@@ -57,13 +57,12 @@ class SetForms:
     def comparison(self, value: Expr, sign: str) -> Relation:
         """A value compared with 0: what is positive of it on one side, what is negative on the other.
 
-        A positive factor that both sides share is left out; of matrices whose parameters may be negative none.
+        A positive factor that both sides share is left out, but not of matrices to be judged, whose
+        parameters may be negative.
         """
         ring = value.ring
-        if {factor < 0 for factor in value.poly.coeffs()} == {
-            True,
-            False,
-        } and not self.robot.questions.candidates:
+        has_both = len({factor < 0 for factor in value.poly.coeffs()}) == 2
+        if has_both and not self.robot.questions.candidates:
             for shared, exponent in trig_factors(value):
                 if is_positive(shared):
                     value = trig_quotient(value, shared**exponent) or value

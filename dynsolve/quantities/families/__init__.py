@@ -18,7 +18,7 @@ Reading, judging, marks, numbers, JSON and NumPy take what they must know from t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from dynsolve.quantities import action_families
 from dynsolve.quantities.families import bodies, lagrange
@@ -60,7 +60,7 @@ from dynsolve.quantities.families.lagrange import (
     P,
 )
 from dynsolve.quantities.family import Family
-from dynsolve.quantities.stages import ASKED_FOR, Stage
+from dynsolve.quantities.stages import Stage
 
 __all__ = [
     "H0", "DH", "A", "H", "JV", "JW", "J",
@@ -71,8 +71,19 @@ __all__ = [
     "FAMILIES", "HOLD_FORCES",
 ]  # fmt: skip
 
-_OF_THE_COURSE = (
+
+def _asked_for(stages: Iterable[Stage]) -> Iterator[Family]:
+    """Those of questions, each in its own folder."""
+    for stage in stages:
+        yield from getattr(stage.part(), "FAMILIES", ())
+
+
+_STAGES = list(Stage)
+_BODIES = _STAGES.index(Stage.INERTIA)
+
+FAMILIES: tuple[Family, ...] = (
     *bodies.KINEMATICS_FAMILIES,
+    *_asked_for(_STAGES[:_BODIES]),
     *bodies.FAMILIES,
     *lagrange.OF_BODIES,
     *action_families.OF_ENERGY,
@@ -81,17 +92,7 @@ _OF_THE_COURSE = (
     *lagrange.FAMILIES,
     *lagrange.VECTORIZED_FAMILIES,
     *action_families.OF_THE_MODEL,
-)
-
-
-def _asked_for() -> Iterator[Family]:
-    """Those of the questions, each in its own folder."""
-    for stage in ASKED_FOR:
-        yield from getattr(stage.part(), "FAMILIES", ())
-
-
-FAMILIES: tuple[Family, ...] = tuple(
-    sorted((*_OF_THE_COURSE, *_asked_for()), key=lambda family: list(Stage).index(family.stage))
+    *_asked_for(_STAGES[_BODIES:]),
 )
 
 HOLD_FORCES = frozenset(family.name for family in FAMILIES if family.holds_forces)

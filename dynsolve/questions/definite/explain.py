@@ -97,9 +97,8 @@ def _outcome(forms: Forms, name: Node, found: Definiteness) -> Prose:
     """The verdict on a matrix, with its conditions."""
     if found.answer is not Answer.IF:
         return (name, f": {_CONCLUSIONS[found.answer]}")
-    return say(
-        "{name}: it can be an inertia matrix if {these}.", name=name, these=_all_of(forms, found.conditions)
-    )
+    these = _all_of(forms, found.conditions)
+    return say("{name}: it can be an inertia matrix if {these}.", name=name, these=these)
 
 
 def reason(forms: Forms, found: Definiteness) -> Prose:
