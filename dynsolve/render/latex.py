@@ -97,7 +97,7 @@ MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
   \newpage\setbox\tablerows=\hbox{\begin{tabular}{#1}#2#3\end{tabular}}\fi\fi\fi
   {\centering\usebox\tablerows\par}}}
 \ifdefined\closingpage\else\newsavebox\closingpage\fi
-\providecommand{\putclosingpage}{\nobreak \ifdim\ht\closingpage>\textheight\else
+\providecommand{\putclosingpage}{\penalty0 \ifdim\ht\closingpage>\textheight\else
   \ifdim\ht\closingpage>.25\textheight
   \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax
   \ifdim\dimexpr\pagegoal-\pagetotal\relax<.35\textheight\newpage\fi\fi\fi\fi\unvbox\closingpage}

@@ -87,7 +87,7 @@ def test_a_coordinate_of_another_branch_has_a_column_of_zeros() -> None:
     ("problem", "told"),
     [
         ("crane", "At q₂ = 0: stable, but for q₁"),
-        ("articulated-6r", "The inverse kinematics: q₁ = atan2(y_c, x_c) q₁ = atan2(-y_c, -x_c)"),
+        ("articulated-6r", "⎣z - r₃₃ d₆⎦ q₁ = atan2(y_c, x_c) q₁ = atan2(-y_c, -x_c)"),
         ("planar-2r-reach", "The inverse kinematics: q₁ q₂ Limits"),
     ],
 )

@@ -163,7 +163,7 @@ def test_a_form_that_is_another_function_gives_way_to_the_plain_polynomial(
 @pytest.mark.parametrize("stage", [energy, vectorized])
 def test_a_stage_that_fails_shows_its_bare_results(stage: object, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stage, "steps", fails)
-    with pytest.warns(ExplanationWarning, match="LookupError at .*test_left_out"):
+    with pytest.warns(ExplanationWarning, match="LookupError at .*test_numeric"):
         text = page()
     assert "K₁" in text or "𝐃" in text
     assert "m l² θ̈" in text or "q̈₁" in text
