@@ -254,7 +254,7 @@ SEEN_REFERENCES = """
 """
 
 
-@pytest.mark.parametrize("name", ["planar-2r", "inf3480-rpr"])
+@pytest.mark.parametrize("name", ["planar-2r", "elbow-3r"])
 def test_at_each_depth_numbers_have_no_gaps_and_references_are_to_what_is_seen(
     name: str, page: Page, tmp_path: Path
 ) -> None:

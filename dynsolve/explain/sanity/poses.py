@@ -50,6 +50,8 @@ def inertia_poses_step(context: Context) -> Step | None:
     if not shown:
         return None
     names = listed([letters.entry("d", q.index, q.index) for q in shown])
+    of_rotors = context.values["Dm"] if context.robot.actions.motors else None
+    has_rotors = of_rotors is not None and any(not of_rotors[q.index - 1, q.index - 1].is_zero for q in shown)
     moved = [context.robot.joints_of(q)[0][0] for q in shown]
     after = [j.index for j in context.robot.joints if j.type and j.index > moved[0].index]
     following = f"joint {after[0]}" if len(after) == 1 else "the joints after it"
@@ -66,7 +68,7 @@ def inertia_poses_step(context: Context) -> Step | None:
         moved=f"joint {numbers} moves, {following}"
         if one
         else f"joints {numbers} move, respectively, the joints after them",
-        rotors=", and those of the rotors" if context.robot.actions.motors else "",
+        rotors=", and those of the rotors" if has_rotors else "",
         where=Reference(looked_at(context, "D", [context.result("D")]), " in "),
     )
     return Step(
@@ -79,8 +81,8 @@ def inertia_poses_step(context: Context) -> Step | None:
             "{names} {are} of inertia of all that {joints}{rotors}: in simple poses the parallel-axis "
             "theorem gives the same{of_rotors}.",
             joints=f"joint {numbers} moves" if one else f"joints {numbers} move",
-            rotors=", and of the rotors" if context.robot.actions.motors else "",
-            of_rotors=" for the bodies" if context.robot.actions.motors else "",
+            rotors=", with the rotors that turn with them" if has_rotors else "",
+            of_rotors=" for the bodies" if has_rotors else "",
             names=names,
             are=are,
         ),

@@ -13,7 +13,7 @@ from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.set_forms import vanishing
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, is_small, listed, side_by_side, spong
+from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, as_row, is_small, listed, side_by_side, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,
@@ -26,11 +26,12 @@ from dynsolve.notation.tree import (
     names_in,
     walk,
 )
+from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.quantities import letters
 from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
-from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Stability
+from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Stability, wanted_rows
 from dynsolve.robot.model import JointType, Robot
 
 _SOURCE = SLOTINE_LI.section("3.3")
@@ -41,7 +42,8 @@ def steps(context: Context) -> Iterator[Step]:
     """The equilibria with their stability; A and B of the motion near one."""
     wanted = context.wanted
     if "equilibria" in wanted:
-        group = Group("equilibria", "Where nothing moves, and how stable that is")
+        else_ = " else" if context.robot.questions.model.steady else ""
+        group = Group("equilibria", f"Where nothing{else_} moves, and how stable that is")
         yield from (replace(step, group=group, normal=NOTED) for step in _equilibria(context))
     if "balance" in wanted:
         yield replace(_balance(context), normal=NOTED)
@@ -110,7 +112,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
             held=say(balance, passive=passive) if is_held else "",
             given=say(_GIVEN, these=side_by_side(assumed)) if assumed else "",
         ),
-        formula=equation(forces, *([values] if is_small(values) else []), Number(0)),
+        formula=_balance_of(robot, forces, values),
         task=equation(forces, Number(0)),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         lines=lines,
@@ -137,7 +139,18 @@ def _idle(robot: Robot, is_held: bool) -> str:
     """What does not act in an equilibrium: motors, where they hold nothing, and forces from outside."""
     idle = [] if is_held else ["no motor drives"]
     idle += ["no force from outside acts"] if robot.questions.loads else []
+    idle += ["the forces of the constraints are left out"] if robot.questions.constraints else []
     return "".join(f", {'and ' * (one is idle[-1])}{one}" for one in idle)
+
+
+def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
+    """g = 0, or the rows of it that must be 0 where motors hold the others."""
+    rows = wanted_rows(robot)
+    if len(rows) == robot.n or not isinstance(values, MatrixTree):
+        return equation(forces, *([values] if is_small(values) else []), Number(0))
+    steady = bool(robot.questions.model.steady)
+    letter = [letters.force(q) if steady else letters.entry("g", q.index) for q in robot.coordinates]
+    return as_row(listed([equation(letter[k], values.rows[k][0], Number(0)) for k in rows]))
 
 
 def _special(shown: EquilibriaForms, case: SpecialCase) -> Prose:

@@ -315,11 +315,7 @@ def _jacobians(context: Context, point: NamedPoint) -> Step:
     why = say(
         "Column by column, as for the end of the arm, but taken at {P}{late}{turned}",
         P=P,
-        late=say(
-            agreeing("; {q} comes|come after its link and does|do not move it.", len(late)), q=listed(late)
-        )
-        if late
-        else ".",
+        late=say(agreeing("; {q} does|do not move its link.", len(late)), q=listed(late)) if late else ".",
         turned=f" What is seen from the world is then written along the axes of frame {axes}."
         if turned
         else "",
