@@ -171,7 +171,7 @@ MEANINGS = [
     ("elbow-3r", "𝐪, qᵢ", "column of the coordinates, coordinate i", "rad"),
     ("cartesian-pp", "𝐉, 𝐉_v, 𝐉_ω, 𝐉ᵢ", JACOBIANS, "1"),
     ("planar-2r", "𝐉, 𝐉_v, 𝐉_ω, 𝐉ᵢ", JACOBIANS, "m or 1"),
-    ("in3140-rp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg m²"),
+    ("in3140-rp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg m², kg m or kg"),
     ("cartesian-pp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg"),
     ("planar-2r", "Kᵢ, K_vi, K_ωi, Pᵢ",
      "kinetic energy, its part of translation, its part of rotation, potential energy of body i", "J"),
