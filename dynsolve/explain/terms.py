@@ -260,7 +260,7 @@ def _shortest_row(context: Context) -> tuple[Line, ...]:
     if len(summands(row)) > MOST_TERMS:
         return ()
     by = ("The shortest row as an example", Reference(("D", "christoffel", "g"), ", "), ":")
-    return (Line(by, (equation(driving_row(context, q), row),)),)
+    return (Line(by, (equation(driving_row(context.robot, q), row),)),)
 
 
 def _rows_in_names(context: Context) -> tuple[Line, ...]:
@@ -279,7 +279,7 @@ def _rows_in_names(context: Context) -> tuple[Line, ...]:
         return total([*inertial, collected_coriolis_force(coordinates, symbol, k), *rubbing, *heights])
 
     robot = context.robot
-    rows = (equation(driving_row(context, q), row(k)) for k, q in enumerate(robot.coordinates))
+    rows = (equation(driving_row(context.robot, q), row(k)) for k, q in enumerate(robot.coordinates))
     forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), ", ")
     passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
     lead: Prose = ("Row by row", *((", with ", equation(*passive, ZERO)) if passive else ()))
@@ -303,9 +303,9 @@ def driving_side(context: Context, constrained: bool = True) -> Node:
     return sum_of([letters.TAU, *_beside_motors(context, constrained)])
 
 
-def driving_row(context: Context, q: Coordinate) -> Node:
+def driving_row(robot: Robot, q: Coordinate) -> Node:
     """τ_k + Q_k + (A_cᵀ λ)_k: what a row of the left side comes to, with everything that acts."""
-    asked = context.robot.questions
+    asked = robot.questions
     outside: list[Node] = [letters.entry("Q", q.index)] if asked.loads else []
     held: list[Node] = [Entry(_HELD, Number(q.index))] if asked.constraints else []
     return sum_of([letters.force(q), *outside, *held])

@@ -76,7 +76,7 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
             "in which the coordinate does not occur drops out.",
         ),
     )
-    force, resisted = driving_row(context, q), [letters.friction(i)] * context.has_friction(i - 1)
+    force, resisted = driving_row(context.robot, q), [letters.friction(i)] * context.has_friction(i - 1)
     end = ending(context, f"tau{i}", {f"tau{i}": (force,)}, Way((), cancelling(context, q)))
     yield step(
         id=f"tau{i}",

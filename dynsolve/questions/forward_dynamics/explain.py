@@ -18,7 +18,7 @@ from dynsolve.explain.terms import (
 )
 from dynsolve.explain.writing import LYNCH_PARK, is_small
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Node, equation, mapped
+from dynsolve.notation.tree import Node, Symbol, equation, mapped
 from dynsolve.quantities import letters
 
 
@@ -48,6 +48,7 @@ def steps(context: Context) -> Iterator[Step]:
         lines=lines,
         concluding=("Multiplied out, and cancelled:",) if lines else (),
         result=(equation(letters.QDD, shown),),
+        entries=tuple((Symbol(q.name, 2),) for q in context.robot.coordinates),
         detail=Detail.BRIEF,
     )
 

@@ -495,7 +495,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
         terms.append(_rated(rate, Product((Transpose(held), axis))))
     kind, what = ("torque", "moment") if turns(q) else ("force", "force")
     beside, added = in_recursions(context, q)
-    end = ending(context, f"tau{q.index}", {f"tau{q.index}": (driving_row(context, q),)})
+    end = ending(context, f"tau{q.index}", {f"tau{q.index}": (driving_row(context.robot, q),)})
     return Step(
         id=f"tau{q.index}",
         title=f"Coordinate {q.index}: the {kind}",
@@ -507,7 +507,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
             collected=how_collected(context),
         ),
         said="" if beside else f"the {kind} of a motor",
-        formula=equation(driving_row(context, q), sum_of([*terms, *added])),
+        formula=equation(driving_row(context.robot, q), sum_of([*terms, *added])),
         source=context.by_convention("7.6", "6.5"),
         **asdict(end),
         detail=Detail.BRIEF,

@@ -100,6 +100,7 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
         source=spong("4.11"),
         working=tuple(working),
         result=(equation(x, context.form(name)),),
+        entries=tuple((Symbol(q.name, 1 if name == "qd" else 2),) for q in context.robot.coordinates),
         notes=notes,
         detail=Detail.BRIEF,
     )

@@ -10,6 +10,7 @@ from itertools import chain
 
 from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
 from dynsolve.explain.step import Detail
+from dynsolve.explain.terms import driving_row
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation, walk
 from dynsolve.notation.unicode import UnicodePrinter
@@ -76,7 +77,10 @@ def _by_stage(robot: Robot, shown: Iterator[Quantity]) -> dict[Stage, list[Shown
     for quantity in shown:
         stage = quantity.family.stage
         if stage in stages:
-            found.setdefault(stage, []).append((quantity.rule, quantity.letter(robot)))
+            letter = quantity.letter(robot)
+            if quantity.family is of.FORCE:
+                letter = driving_row(robot, robot.coordinates[quantity.index[0] - 1])
+            found.setdefault(stage, []).append((quantity.rule, letter))
     return {stage: found[stage] for stage in Stage if stage in found}
 
 
