@@ -190,8 +190,11 @@ def _principal(context: Context, body: Body, tensor: algebra.Matrix) -> Prose:
     told: Prose = (" They are principal axes: there are no products of inertia.",)
     slender = [name for i, name in enumerate("xyz") if tensor[i, i].is_zero]
     if len(slender) == 1:
+        slender_axis = "xyz".index(slender[0])
         axis = _axis(context, body, slender[0], f"its {slender[0]}")
-        told += say(" The moment about {axis} is taken as 0: the body is slender.", axis=axis)
+        across = {tensor[i, i] for i in range(3)} - {tensor[slender_axis, slender_axis]}
+        why = ": the body is slender" if len(across) == 1 else ""
+        told += say(f" The moment about {{axis}} is taken as 0{why}.", axis=axis)
     return told
 
 

@@ -91,7 +91,7 @@ def _matrix(context: Context) -> Step:
         id="Ac",
         title="The constraint matrix",
         why=say(f"{of_functions * slopes}{of_rates}$𝐀_c 𝐪̇ = 0$."),
-        formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes else "𝐀_c 𝐪̇ = 0"),
+        formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes and not has_rates else "𝐀_c 𝐪̇ = 0"),
         source=mls("6.1.1"),
         result=(equation(letters.A_C, context.form("Ac")),),
         uses=("hc",) if slopes else (),
