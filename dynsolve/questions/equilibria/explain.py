@@ -161,6 +161,9 @@ def _special(shown: EquilibriaForms, case: SpecialCase) -> Prose:
         return say("Where {where}, there is no equilibrium.", where=where)
     if not forces:
         return say("Where {where}, every configuration is an equilibrium.", where=where)
+    if names_in(*forces).isdisjoint(q.name for q in shown.robot.coordinates):
+        text = "Where {where}, every configuration is an equilibrium if {zero}, and none is if not."
+        return say(text, where=where, zero=vanishing(forces))
     return say("Where {where}, the equilibria are where {zero}.", where=where, zero=vanishing(forces))
 
 
