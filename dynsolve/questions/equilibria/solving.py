@@ -139,7 +139,8 @@ class Curvature(Struct, frozen=True):
         if not left:
             return Point(values, Stability.STABLE, neutral)
         if any(minor.is_number for minor in left):
-            return Point(values, Stability.UNDECIDED, neutral)
+            moves = any(minor.ring.depends_on_coordinates(minor) for minor in left)
+            return Point(values, Stability.UNDECIDED, neutral, is_open=moves)
         if any(minor.ring.depends_on_coordinates(minor) for minor in left):
             return Point(values, Stability.UNDECIDED, neutral, is_open=True)
         conditions = independent([Bound(minor) for minor in _least(left, signs)], signs.assumed)
