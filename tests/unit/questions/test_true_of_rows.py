@@ -1,0 +1,45 @@
+"""What stands before a row, a gradient, a condition: it is that of this robot, and of this row."""
+
+from __future__ import annotations
+
+import dynsolve
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
+
+ARM = """
+gravity: [0, -g, 0]
+dh: [{theta: q2*, a: l1}, {theta: q1*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+"""
+
+
+def text(problem: str) -> str:
+    return report(dynsolve.solve(problem), Format.TEXT).decode()
+
+
+def test_the_rows_of_accelerations_have_the_names_of_their_coordinates() -> None:
+    friction = "friction: {q1: {viscous: f, coulomb: c}}\n"
+    told = text(f"{ARM}{friction}find: [qdd_forward]\n")
+    assert 0 < told.index("q̈₂ = ") < told.index("q̈₁ = ")
+
+
+def test_a_row_in_rates_is_no_gradient() -> None:
+    of_both = f"{ARM}constraints: [tip.y, {{rates: q1' + q2'}}]\nfind: [Ac]\n"
+    steps = {step.id: step for step in dynsolve.solve(of_both).steps}
+    assert to_unicode(steps["Ac"].formula) == "A_c q̇ = 0"
+
+
+def test_only_what_motors_do_not_hold_must_be_in_balance() -> None:
+    told = text(f"{ARM}passive: [q1]\ninputs: given\nfind: [equilibria]\n")
+    assert "g₂ = " in told and "⎤ = 0" not in told
+
+
+def test_a_matrix_has_its_own_assumptions_and_the_conditions_of_its_verdict() -> None:
+    told = text(
+        "coordinates: {q1: revolute, q2: revolute}\n"
+        "candidates: {A: [[a, 0], [0, b]], B: [[c, d], [d, c]]}\n"
+        "assume: {A: [a > 0, b > 0], B: [c > 0]}\n"
+    )
+    assert "Assumed of A: a > 0 and b > 0. Assumed of B: c > 0." in " ".join(told.split())
+    assert "B: it can be an inertia matrix if " in told
