@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
+from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node, names_of
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
@@ -252,15 +252,23 @@ def direction_at(angle: Angle, values: StateValues) -> SurdAngle:
 
 
 def needed_roots(ring: Ring, values: StateValues) -> list[Node]:
-    """What a ring must hold where all coordinates have values: these, and sines and cosines as sums of roots.
+    """What a ring must hold where all coordinates have values: these, and sines and cosines.
 
-    Raises NotExact where they are none.
+    A sine is a sum of roots, or that of a constant angle; raises AlgebraError where it is neither.
     """
     moving = {name for name, _ in ring.coordinates}
     turned = [pair.angle for pair in ring.pairs if moving & set(names_of(pair.angle))]
-    found = [direction_at(angle, values) for angle in turned]
-    roots = [part.node for angle in found for part in (angle.sine, angle.cosine)]
-    return [*roots, *filter(_has_value, values.values())]
+    found = [node for angle in turned for node in _sine_and_cosine(angle, values)]
+    return [*found, *filter(_has_value, values.values())]
+
+
+def _sine_and_cosine(angle: Angle, values: StateValues) -> tuple[Node, Node]:
+    try:
+        found = direction_at(angle, values)
+        return found.sine.node, found.cosine.node
+    except AlgebraError:
+        size = angle_node(angle_at(angle, values))
+        return Function("sin", size), Function("cos", size)
 
 
 def _has_value(tree: Node) -> bool:

@@ -443,8 +443,10 @@ def _function(name: str, argument: Node, known: Mapping[str, Exact]) -> Exact:
 
 
 def _of_angle(name: str, value: Exact) -> Surd:
-    if not isinstance(value, SurdAngle):
-        raise NotExact
+    if isinstance(value, Surd):
+        if not value.is_zero:
+            raise NotExact
+        value = SurdAngle.of_degrees(0)
     if name == "tan":
         if value.rest:
             raise NotExact
@@ -467,9 +469,9 @@ def _inverse(name: str, number: Surd) -> SurdAngle:
 def _sum(values: list[Exact]) -> Exact:
     angles = [value for value in values if isinstance(value, SurdAngle)]
     numbers = [value for value in values if isinstance(value, Surd)]
-    if angles and numbers:
+    if angles and any(not number.is_zero for number in numbers):
         raise NotExact
-    return reduce(add, angles) if angles else reduce(add, numbers)
+    return reduce(add, angles or numbers)
 
 
 def _product(values: list[Exact]) -> Exact:

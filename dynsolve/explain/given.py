@@ -6,6 +6,7 @@ alone: the table or the bodies, what acts on them, what is asked, and what the s
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -15,11 +16,12 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Block, Formula, Inline, List, Prose, Text
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.inertia import has_link_axes, is_moved, stays_with_base
+from dynsolve.explain.inertia import has_link_axes, is_moved, lies_as_drawn, stays_with_base
 from dynsolve.explain.kinematics import turned
 from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
@@ -28,8 +30,10 @@ from dynsolve.explain.set_forms import SetForms
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
 from dynsolve.notation import tree
+from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     ZERO,
+    Degrees,
     Negative,
     Node,
     Number,
@@ -41,6 +45,7 @@ from dynsolve.notation.tree import (
     mapped,
     walk,
 )
+from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
@@ -56,6 +61,8 @@ if TYPE_CHECKING:
 
 MOST_BODIES = 4
 """Up to this number of bodies each is named."""
+
+_PROPERTIES = "mass, mass centre and inertia tensor"
 
 _COUNTS = {1: "one rigid body", 2: "two rigid bodies", 3: "three rigid bodies", 4: "four rigid bodies"}
 
@@ -152,8 +159,9 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
     """What is given, sentence by sentence."""
     robot = forms.robot
     if problem.normals is not None:
-        yield ("the axes of the arm as they are drawn.",)
+        yield ("the axes of the arm as they are drawn, in world coordinates.",)
         yield from _axes(problem.normals)
+        yield _drawn_bodies(forms, problem.normals)
     elif robot.has_table:
         yield (*_table(forms), ".")
         yield _angles(robot)
@@ -161,7 +169,8 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
         yield from _model(forms)
     if robot.has_table and 0 < len(robot.bodies) <= MOST_BODIES:
         yield _tensors(forms)
-    yield _base(forms)
+    if problem.normals is None:
+        yield _base(forms)
     if robot.has_dynamics and robot.given is None:
         yield _gravity(forms)
     if robot.has_dynamics:
@@ -191,9 +200,23 @@ def _table(forms: Forms) -> Prose:
     if not count:
         return (what,)
     if count > MOST_BODIES:
-        return (f"{what}, and mass, mass centre and inertia tensor of {count} rigid bodies",)
-    told = tuple(part for body in robot.bodies for part in ("; ", *_body(forms, body)))
-    return (f"{what} and {_COUNTS[count]}: ", *told[1:])
+        return (f"{what}, and {_PROPERTIES} of {count} rigid bodies",)
+    return (f"{what} and {_COUNTS[count]}: ", *_bodies(forms))
+
+
+def _bodies(forms: Forms, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
+    told = tuple(part for body in forms.robot.bodies for part in ("; ", *_body(forms, body, drawn)))
+    return told[1:]
+
+
+def _drawn_bodies(forms: Forms, normals: Normals) -> Prose:
+    """The bodies of a drawing, their mass centres in this pose; nothing where there are none."""
+    count = len(forms.robot.bodies)
+    if count > MOST_BODIES:
+        return (f"{opened(_PROPERTIES)} of {count} rigid bodies are given, too.",)
+    kinds = [(q.name, q.type.value) for q in forms.robot.coordinates]
+    told = _bodies(forms, DrawnFrames.of(normals, kinds))
+    return (f"{opened(_COUNTS[count])}: ", *told, ".") if told else ()
 
 
 def _angles(robot: Robot) -> Prose:
@@ -275,10 +298,10 @@ def _position(forms: Forms, body: Body) -> Prose:
 # -- a body: its mass, the dimensions of its shape, its mass centre, its moments of inertia --------
 
 
-def _body(forms: Forms, body: Body) -> Prose:
+def _body(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
     """body 2 in link 2, a uniform slender rod of mass m₂ and length l₂ along 𝐱₂, its mass centre at 𝐨₁"""
     density, shape = body.density, body.shape
-    center = ("mass centre ", *_center(forms, body))
+    center = ("mass centre ", *_center(forms, body, drawn))
     what: Prose
     if body.is_point and density is None:
         what = (" a point", *_mass(forms, body), " ", *center[1:])
@@ -291,15 +314,17 @@ def _body(forms: Forms, body: Body) -> Prose:
         what = (f" a uniform {SHAPES[shape.kind]}", *_sized(forms, body, shape), ", its ", *center)
     else:
         what = (*_mass(forms, body), ", its ", *center)
-    axes = () if body.is_point and density is None else _from_the_base(body)
+    axes = () if body.is_point and density is None else _from_the_base(body, bool(drawn.frames))
     return (f"{name_of(body)} in link {body.link},", *what, *axes)
 
 
-def _from_the_base(body: Body) -> Prose:
+def _from_the_base(body: Body, is_drawn: bool) -> Prose:
     """How the axes of a body lie, where the problem gives turns that take those of the base to them."""
+    if lies_as_drawn(body):
+        return (", its axes those of the world",)
     if body.axes.kind is not AxesKind.BASE or not body.axes.turns:
         return ()
-    return (", its axes those of the base turned by ", turned(body.axes.turns))
+    return (f", its axes those of the {'world' if is_drawn else 'base'} turned by ", turned(body.axes.turns))
 
 
 def _mass(forms: Forms, body: Body) -> Prose:
@@ -336,8 +361,12 @@ def _axis(forms: Forms, body: Body, name: str) -> Prose:
     return (f"its {name}-axis",)
 
 
-def _center(forms: Forms, body: Body) -> Prose:
+def _center(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
     """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁; at (x, y, 0) from 𝐨₁ along the axes of frame 1"""
+    if drawn.frames and is_given_by(body, "drawn"):
+        at = drawn.in_world(body.link, [*map(forms.of, body.center.entries)])
+        ring = forms.robot.ring
+        return ("at ", _flat(forms.of(value_of(ring, entry)) for entry in at))
     near, far = ends(forms.robot, body)
     if body.center_written == "tip":
         return ("at ", letters.o(far))
@@ -554,7 +583,8 @@ def _questions(forms: Forms) -> Iterator[Prose]:
         if shown and not questions.state_is_reached:
             yield (what, side_by_side(shown), ".")
     if questions.state_is_reached:
-        yield ("The state is the configuration within these limits that reaches it.",)
+        within = " within these limits" if questions.limits else ""
+        yield (f"The state is the configuration{within} that reaches it.",)
     said: list[tuple[Prose, Sequence[Bound]]] = [((), questions.model.assumed)]
     if questions.candidates and forms.robot.given is None:  # each has its own
         said = [((" of ", Symbol(one.name)), one.assumed) for one in questions.candidates]
@@ -568,7 +598,9 @@ def _target(robot: Robot, target: Target) -> Node:
     """The task, or the frame, and what it is to be."""
     task, values = robot.questions.task, target.values
     if task is None or not task.is_pose:
-        return equation(letters.TASK, _flat(values))
+        is_told = task is None or not task.is_default
+        left = letters.TASK if is_told else _flat(map(_in_letters, task.entries))
+        return equation(left, _flat(values))
     rows = [(*values[3 * k + 3 : 3 * k + 6], values[k]) for k in range(3)]
     pose = tree.Matrix((*rows, (ZERO, ZERO, ZERO, Number(1))))
     return equation(letters.H(robot, len(robot.joints)), pose)
@@ -596,13 +628,17 @@ def _load(forms: Forms, load: Load) -> Prose:
     return (opened(str(first)), *others, f" {act} on link {load.link}", *at, f"{along}.")
 
 
+_AS_WRITTEN = re.compile(r"[-+0-9./eE]*")
+"""A number that is told as the file has it: 0.4318, 1/4."""
+
+
 def _values(robot: Robot, written: Mapping[str, str], own_units: Mapping[str, str]) -> Prose:
     """In numbers: a₂ = 0.4318 m; nothing where the problem has no values."""
     known = {name: unit for name, (_, unit) in roles(robot).items()}
     given: list[Prose] = []
     for name, text in written.items():
         unit = own_units.get(name, known.get(name, ""))
-        value = text.replace(" deg", "°").replace("deg", "°")
-        with_unit = (" ", units.node(unit)) if unit and not value.endswith("°") else ()
-        given.append((equation(Symbol(name), Words(value)), *with_unit))
+        value = Words(text) if _AS_WRITTEN.fullmatch(text) else read(text).tree
+        with_unit = (" ", units.node(unit)) if unit and not isinstance(value, Degrees) else ()
+        given.append((equation(Symbol(name), value), *with_unit))
     return (" In numbers: ", *listed(given), ".") if given else ()

@@ -287,6 +287,11 @@ def has_link_axes(body: Body) -> bool:
     return not body.is_point and axes.kind is AxesKind.LINK and axes.rotation == one
 
 
+def lies_as_drawn(body: Body) -> bool:
+    """Whether the body-attached axes are those of the world in the pose of a drawing."""
+    return body.axes.kind is AxesKind.LINK and body.axes.written == "base"
+
+
 def _rotation(context: Context, body: Body, tells: bool) -> Step:
     R = letters.of_body("R", body, "bold")
     why, product, notes = _orientation(context, body)
@@ -322,6 +327,8 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             return say(why, link=link, turned=turned), frame, ()
         case AxesKind.LINK:
             why = f"The body's axes are turned in frame {link}, as the problem gives them."
+            if lies_as_drawn(body):
+                why = f"The body's axes are those of the world as drawn, and fixed in frame {link}."
             return (why,), Product((frame, context.show(body.axes.rotation))), ()
         case AxesKind.REST:
             turning = say(

@@ -349,7 +349,7 @@ def base_step(context: Context) -> Step:
     is_whole = bool(robot.base_turns) or not is_turned
     way = ""
     if not is_whole:
-        way = " Its axes are the columns of the rotation that the problem gives."
+        way = "" if context.normals else " Its axes are the columns of the rotation that the problem gives."
     elif len(factors) > 1:
         way = " Each motion is along or about an axis of the frame that those before it have led to."
     return Step(
@@ -382,8 +382,12 @@ def _matters_to(robot: Robot) -> Iterator[Prose]:
 
 
 def product_of_axes(context: Context, body: Body) -> Node | None:
-    """The rotation as the problem writes it, behind that of the base where there is one; None of a matrix."""
-    base = [letters.R(context.robot, 0)] if letters.has_base(context.robot) else []
+    """The rotation as the problem writes it, behind that of the base where there is one; None of a matrix.
+
+    Of a drawing it is given from the world.
+    """
+    from_frame = letters.has_base(context.robot) and context.normals is None
+    base = [letters.R(context.robot, 0)] if from_frame else []
     own = [turned([turn]) for turn in body.axes.turns]
     if base and not own:
         own = [context.show(body.axes.rotation)]
@@ -392,7 +396,8 @@ def product_of_axes(context: Context, body: Body) -> Node | None:
 
 def why_axes(context: Context, body: Body) -> Prose:
     """That the problem gives the axes, and how they lie in the frame of the link."""
-    given = f"The problem gives the axes of {name_of(body)} from the base. "
+    origin = "base" if context.normals is None else "world"
+    given = f"The problem gives the axes of {name_of(body)} from the {origin}. "
     H, frame = context.values[f"H{body.link}"], f"frame {body.link}"
     if not link_frame.turns_with_link(context.robot, body, H):
         return (given, f"They do not turn with link {body.link}.")

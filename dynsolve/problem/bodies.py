@@ -100,7 +100,6 @@ class DrawnFrames(Struct, frozen=True):
 
     frames: tuple[tuple[tuple[Node, ...], ...], ...] = ()
     slides: frozenset[str] = frozenset()
-    turns_are_drawn: bool = True
 
     @staticmethod
     def of(normals: Normals | None, names: Sequence[tuple[str, str]]) -> DrawnFrames:
@@ -123,7 +122,7 @@ class DrawnFrames(Struct, frozen=True):
         slides = frozenset(name for name, kind in names if kind == JointType.PRISMATIC.value)
         hand, x = normals.hand, normals.hand_x
         found.append((trees(x), trees(cross(hand.direction, x)), trees(hand.direction), trees(hand.point)))
-        return DrawnFrames(tuple(found), slides, drawing.zero_is_drawn)
+        return DrawnFrames(tuple(found), slides)
 
     def place(self, faults: Faults, place: ParsedPlace | None, link: int | None) -> ParsedPlace | None:
         """A place in the frame of its link; one that is not drawn as it is, None where it was reported."""
@@ -148,16 +147,23 @@ class DrawnFrames(Struct, frozen=True):
         names = tuple(name for name in cell.names if name.name not in self.slides)
         return replace(cell, tree=tree, names=names)
 
-    def axes_of_base(self, link: int | None, span: Span) -> ParsedRotation | None:
-        """Frame 0 seen from a link's frame in the pose that is drawn; None where that is q = 0 anyhow."""
-        if not self.frames or self.turns_are_drawn or link is None:
+    def axes_of_world(self, link: int | None, span: Span) -> ParsedRotation | None:
+        """The world seen from a link's frame in the pose that is drawn; None without a drawing."""
+        if not self.frames or link is None:
             return None
-        frame, base = self.frames[link], self.frames[0]
         rows = tuple(
-            tuple(Cell("the axes of the base", _dot(mine, theirs), (), "", span[0]) for theirs in base[:3])
-            for mine in frame[:3]
+            tuple(Cell("the axes of the world", entry, (), "", span[0]) for entry in axis)
+            for axis in self.frames[link][:3]
         )
         return ParsedRotation(span, "base", rows=rows)
+
+    def in_world(self, link: int, place: Sequence[Node]) -> tuple[Node, ...]:
+        """A point of a link's frame in world coordinates of the pose that is drawn."""
+        *axes, origin = self.frames[link]
+        moved = [
+            (_dot(place, along), start) for along, start in zip(zip(*axes, strict=True), origin, strict=True)
+        ]
+        return tuple(total([start, along]) for along, start in moved)
 
 
 def _dot(a: Sequence[Node], b: Sequence[Node]) -> Node:
@@ -412,10 +418,10 @@ def _check_about(body: Record) -> str:
 
 
 def _in_drawn_pose(axes: ParsedAxes | None, link: int | None, drawn: DrawnFrames) -> ParsedAxes | None:
-    """Axes of the base in the pose that is drawn, relative to the link where q = 0 is another pose."""
+    """Of a drawing axes of the base are those of the world in the pose that is drawn."""
     if axes is None or axes.kind is not AxesKind.REST:
         return axes
-    rotation = drawn.axes_of_base(link, axes.span)
+    rotation = drawn.axes_of_world(link, axes.span)
     return axes if rotation is None else ParsedAxes(AxesKind.LINK, axes.span, rotation, axes.written)
 
 

@@ -56,6 +56,8 @@ def build_robot(
         from dynsolve.problem.mechanism import given_model, placed_bodies
 
         given, bodies = given_model(values, model), placed_bodies(values, model)
+    if parsed.normals is not None and rotation is not None:
+        bodies = [body and _given_from_world(body, rotation) for body in bodies]
     asked_points = [named_point(builder.places, point) for point in parsed.questions.points]
     points = [point for point in asked_points if point]
     loads = [load(builder.places, entry, points, len(joints)) for entry in parsed.questions.loads]
@@ -84,6 +86,13 @@ def build_robot(
     robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
+
+
+def _given_from_world(body: Body, base: Matrix) -> Body:
+    """A body of a drawing, whose axes that the problem gives from the base are given from the world."""
+    if body.axes.kind is not AxesKind.BASE:
+        return body
+    return replace(body, axes=replace(body.axes, rotation=base.T @ body.axes.rotation))
 
 
 def _with_candidates(values: CellValues, parsed: ParsedFile, robot: Robot) -> Robot:

@@ -237,7 +237,8 @@ def with_questions(
     for stage, given in parsed.of.items():
         robot = stage.part("file").build(values, robot, given)
     questions = robot.questions
-    if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
+    asks_of_tip = parsed.rates or parsed.reached_state or Stage.TASK in asked_stages(questions)
+    if questions.task is None and asks_of_tip:
         questions = replace(questions, task=default_task(robot))
     if questions.task is not None and questions.task.reached:
         check_reach(values.faults, parsed.reach, len(questions.task.reached))

@@ -71,7 +71,7 @@ def with_reached_state(problem: Problem) -> Problem:
     except AlgebraError:
         raise _fault(
             problem,
-            "the configuration that reaches the target is known in decimals alone",
+            f"{_written(one)} reaches the target: its sines and cosines are no short sums of roots",
             "give the state itself: state: {q1: 90deg}",
         ) from None
     questions = replace(robot.questions, state=state)

@@ -8,11 +8,15 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
 import pytest
 
+import dynsolve
 from dynsolve.notation.printing import Style
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import Problem, read_problem
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 from tests.support import assert_close, numbers, solve_json
 from tests.unit.problem.marked import errors, places, unmarked
 
@@ -240,6 +244,93 @@ def test_they_are_so_too_where_the_coordinates_are_the_tables() -> None:
     ours, theirs = results(RRP_AS_DRAWN.replace("ZERO", "table")), results(RRP_IN_FRAMES)
     for name, value in ours.items():
         assert_close(numbers(value, table), numbers(theirs[name], values), name)
+
+
+# -- axes of bodies: those of the world in the pose that is drawn ----------------------------------
+
+ON_ITS_SIDE = """
+axes:
+  - {turn: q1, about: [1, 0, 0], through: [0, 0, 0]}
+  - {turn: q2, about: [0, 0, 1], through: [h, 0, 0]}
+  - {slide: q3, along: [0, 1, 0], through: [h, 0, 0]}
+tip: [h, q3, 0]
+zero: ZERO
+masses:
+  - {mass: m1, link: 1, center: {drawn: [h/2, b, 0]}, inertia: {xx: A1}, axes: base}
+  - {mass: m2, link: 2, center: {drawn: [h, b, 0]}, inertia: {xx: A, yy: B, zz: C}, axes: GIVEN}
+  - {mass: m3, link: 3, center: {drawn: [h, q3, b]}, inertia: {xx: A, yy: B, zz: C, xy: E}, axes: base}
+find: [D]
+"""
+
+
+def turned_about(axis: int, angle: float) -> np.ndarray:
+    x, y = (axis + 1) % 3, (axis + 2) % 3
+    found = np.eye(3)
+    found[x, x] = found[y, y] = np.cos(angle)
+    found[y, x], found[x, y] = np.sin(angle), -np.sin(angle)
+    return found
+
+
+def energy_on_its_side(q: np.ndarray, rates: np.ndarray, at: dict[str, float]) -> float:
+    """K by differences of where each body is and how it is turned from the pose that is drawn."""
+    A, B, C, h, b = (at[name] for name in ("A", "B", "C", "h", "b"))
+    tensors = (np.diag([at["A1"], 0, 0]), np.diag([A, B, C]), np.diag([A, B, C]))
+    tensors[2][0, 1] = tensors[2][1, 0] = at["E"]
+
+    def placed(t: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        q1, q2, q3 = q + t * rates
+        first, elbow = turned_about(0, q1), np.array([h, 0, 0])
+        second = first @ turned_about(2, q2)
+        return [
+            (first, first @ np.array([h / 2, b, 0])),
+            (second, first @ elbow + second @ np.array([0, b, 0])),
+            (second, first @ elbow + second @ np.array([0, q3, b])),
+        ]
+
+    step, energy = 1e-5, 0.0
+    masses = (at["m1"], at["m2"], at["m3"])
+    places = zip(placed(-step), placed(0), placed(step), masses, tensors, strict=True)
+    for (R0, r0), (R, _), (R1, r1), mass, tensor in places:
+        v, W = (r1 - r0) / (2 * step), R.T @ (R1 - R0) / (2 * step)
+        w = np.array([W[2, 1], W[0, 2], W[1, 0]])
+        energy += (mass * v @ v + w @ tensor @ w) / 2
+    return float(energy)
+
+
+@pytest.mark.parametrize(("zero", "back"), [("drawn", 0), ("table", pi / 2)])
+@pytest.mark.parametrize("given", ["base", "{base: Rx(q1) Rz(q2)}"])
+def test_the_axes_of_bodies_are_those_of_the_drawings_world(zero: str, back: float, given: str) -> None:
+    """Frame 0 has its z along the world's x; in the table θ_2 is 90° as drawn."""
+    if zero == "table" and given != "base":
+        given = "{base: Rx(q1) Rz(q2 - 90deg)}"
+    text = ON_ITS_SIDE.replace("ZERO", zero).replace("GIVEN", given)
+    at = {
+        "A1": 0.3,
+        "A": 0.4,
+        "B": 0.7,
+        "C": 0.9,
+        "E": 0.1,
+        "h": 1.1,
+        "b": 0.2,
+        "m1": 2.0,
+        "m2": 3.0,
+        "m3": 1.5,
+    }
+    q, rates = np.array([0.3, 0.8, 0.6]), np.array([0.7, -0.4, 0.9])
+    table = {"q1": q[0], "q2": q[1] + back, "q3": q[2]}
+    D = np.array(numbers(solve_json(text)["results"]["D"], at | table), float)
+    assert_close(rates @ D @ rates / 2, energy_on_its_side(q, rates, at), given, 1e-7)
+
+
+def test_the_bodies_of_a_drawing_are_given_as_they_are_drawn() -> None:
+    told = text_of(ON_ITS_SIDE.replace("ZERO", "drawn").replace("GIVEN", "base"))
+    given = " ".join(told[: told.index("To be found")].split())
+    assert "body 2 in link 2, of mass m₂, its mass centre at (h, b, 0), its axes those of the world" in given
+    assert "𝐇₀" not in given  # frame 0 is to be found
+
+
+def text_of(problem: str) -> str:
+    return report(dynsolve.solve(problem), Format.TEXT).decode()
 
 
 DRAWN_FAULTS = {

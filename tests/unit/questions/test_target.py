@@ -19,6 +19,7 @@ TWO = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nvalues: {l1: 2, l2: 1}"
 ELBOW = "dh: [{theta: q1*, d: 1, alpha: 90deg}, {theta: q2*, a: 1}, {theta: q3*, a: 1}]"
 ORTHOGONAL = "dh: [{theta: q1*, a: 1, alpha: 90deg}, {theta: q2*, a: 1, alpha: 90deg}, {theta: q3*, a: 1}]"
 POLAR = "dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: d2*}]"
+CROSSED = TWO.replace("]", ", {theta: q3*}]\npoints: {P: {link: 2}}\ntask: [P.x, P.y, q1 + q3]")
 DIRECTED = UNIT.replace("]", ", {theta: q3*, a: 1}]\ntask: [tip.x, tip.y, q1 + q2 + q3]")
 
 
@@ -38,6 +39,8 @@ EXACT = [
     (TWO, "[1, l1]", "q1: atan2(3, 4), q2: pi/2 | q1: pi/2, q2: -pi/2"),
     (UNIT, "[sqrt(2), 0]", "q1: -pi/4, q2: pi/2 | q1: pi/4, q2: -pi/2"),
     (UNIT, "[2, 0]", "q1: 0, q2: 0"),
+    (TWO, "[cos(0), 2 + sin(0) - tan(0)]", "q1: atan2(3, 4), q2: pi/2 | q1: pi/2, q2: -pi/2"),
+    (CROSSED, "[1, 2, 0]", "q1: atan2(3, 4), q2: pi/2, q3: atan2(-3, 4) | q1: pi/2, q2: -pi/2, q3: -pi/2"),
     (UNIT, "[0, 0]", "q2: pi"),
     (ELBOW, "[0, 0, 2]", "q2: pi/6, q3: 2*pi/3 | q2: 5*pi/6, q3: -2*pi/3"),
     (WRIST, "[0, 0, 0, 0, 0, 1, 0, 1, 0, -1, 0, 0]", "q1: 0, q2: pi/2, q3: 0 | q1: pi, q2: -pi/2, q3: pi"),

@@ -263,6 +263,44 @@ def test_answers_are_judged_there() -> None:
         assert answer.verdict == verdict
 
 
+@pytest.mark.parametrize(
+    ("task", "reach", "state"),
+    [
+        ("[tip.x, tip.y]", "[2*cos(0), 1 + sin(0)]", "{q1: 0, q2: 90deg}"),
+        ("[q1, q1 + q2]", "[20deg, 110deg + 0]", "{q1: 20deg, q2: 90deg}"),
+    ],
+)
+def test_what_is_exact_is_a_state(task: str, reach: str, state: str) -> None:
+    """A cosine of 0, and an angle whose sine is no sum of roots."""
+    asks = "find: [qd, qdd, Q, tau_static, lost]"
+    held = TARGET.replace("velocity: [1, 0]\nacceleration: [0, 0]\n", "").replace(
+        asks, "find: [Q, tau_static]"
+    )
+    reached = results(f"{held}task: {task}\nreach: {reach}\nlimits: {{q2: [0, 180deg]}}\n")
+    given = results(f"{held.replace('state: reach', f'state: {state}')}")
+    assert all(reached[name] == given[name] for name in ("Q", "tau_static"))
+
+
+def test_the_tip_is_the_task_where_the_file_gives_none() -> None:
+    held = TARGET.replace("velocity: [1, 0]\nacceleration: [0, 0]\n", "").replace("qd, qdd, ", "")
+    reached = results(held.replace(", lost", "") + "reach: [2, 1]\nlimits: {q2: [0, 180deg]}\n")
+    assert reached["tau_static"]
+
+
+def test_nested_roots_are_no_state() -> None:
+    """q3 of a shoulder with an offset: r is √(x² + y²) - 1, and its square has a root in it."""
+    text = """
+dh: [{theta: q1*, alpha: 90deg, a: 1}, {theta: q2*, a: 1}, {theta: q3*, a: 1}]
+masses: [{mass: m, link: 3}]
+reach: [1.3, 0.7, 0.4]
+limits: {q3: [0, 180deg], q1: [0, 90deg]}
+state: reach
+find: [tau_static]
+"""
+    with pytest.raises(ProblemError, match="no short sums of roots"):
+        dynsolve.solve(text)
+
+
 # (what is added to the file, what is wrong, the remedy)
 FAULTS = [
     ("reach: [1, 2]\n", "2 configurations reach the target: {q1: atan2(3, 4), q2: pi/2} and", "limits"),
