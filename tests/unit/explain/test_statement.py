@@ -34,7 +34,8 @@ CASES = [
     ),
     (
         "inf3480-rrp-drawn",
-        "Given: the axes of the arm as they are drawn. Joint 1, with the variable θ₁, turns about (0, 0, 1) "
+        "Given: the axes of the arm as they are drawn, in world coordinates. Joint 1, with "
+        "the variable θ₁, turns about (0, 0, 1) "
         "through (0, 0, 0). Joint 2, with the variable θ₂, turns about (0, 1, 0) through (0, Loff, L₁). "
         "Joint 3, with the variable L₃, slides along (1, 0, 0) through (0, Loff, L₁ + L₂). In this pose the "
         "hand is at (L₃, Loff, L₁ + L₂).",
