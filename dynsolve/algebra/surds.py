@@ -471,7 +471,7 @@ def _sum(values: list[Exact]) -> Exact:
     numbers = [value for value in values if isinstance(value, Surd)]
     if angles and any(not number.is_zero for number in numbers):
         raise NotExact
-    return reduce(add, angles or numbers)
+    return reduce(add, angles) if angles else reduce(add, numbers)
 
 
 def _product(values: list[Exact]) -> Exact:

@@ -364,9 +364,8 @@ def _axis(forms: Forms, body: Body, name: str) -> Prose:
 def _center(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
     """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁; at (x, y, 0) from 𝐨₁ along the axes of frame 1"""
     if drawn.frames and is_given_by(body, "drawn"):
-        at = drawn.in_world(body.link, [*map(forms.of, body.center.entries)])
-        ring = forms.robot.ring
-        return ("at ", _flat(forms.of(value_of(ring, entry)) for entry in at))
+        seen = drawn.in_world(body.link, [*map(forms.of, body.center.entries)])
+        return ("at ", _flat(forms.of(value_of(forms.robot.ring, entry)) for entry in seen))
     near, far = ends(forms.robot, body)
     if body.center_written == "tip":
         return ("at ", letters.o(far))
@@ -598,8 +597,7 @@ def _target(robot: Robot, target: Target) -> Node:
     """The task, or the frame, and what it is to be."""
     task, values = robot.questions.task, target.values
     if task is None or not task.is_pose:
-        is_told = task is None or not task.is_default
-        left = letters.TASK if is_told else _flat(map(_in_letters, task.entries))
+        left = _flat(map(_in_letters, task.entries)) if task and task.is_default else letters.TASK
         return equation(left, _flat(values))
     rows = [(*values[3 * k + 3 : 3 * k + 6], values[k]) for k in range(3)]
     pose = tree.Matrix((*rows, (ZERO, ZERO, ZERO, Number(1))))
