@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from math import lcm, prod
 from typing import TYPE_CHECKING, Any
@@ -13,10 +14,12 @@ from dynsolve.algebra.factors import is_positive, ratio, trig_factors, trig_quot
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
+from dynsolve.errors import AlgebraError
 from dynsolve.explain.forms import is_numeric, leading_names, parallel_coordinates
 from dynsolve.explain.writing import as_row, listed, side_by_side
 from dynsolve.notation.build import cost, split_sign, times
@@ -26,6 +29,9 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
+    Parenthesized,
+    Product,
+    Quotient,
     Relation,
     Sum,
     equation,
@@ -92,8 +98,16 @@ class SetForms:
 
     def condition(self, condition: Condition) -> Node:
         """What is 0 where a condition holds, with whole coefficients but where the file has decimals."""
-        whole = 1 if is_numeric(self.robot) else lcm(*(int(c.q) for c in condition.expr.poly.coeffs()))
-        return self._signed(condition.expr * whole)[0]
+        expr = condition.expr
+        forms = [self._whole(expr)]
+        with suppress(AlgebraError):  # the robot's own ring, with sums of angles, has not every angle
+            forms.append(self._whole(Transfer(expr.ring, self.robot.ring)(expr)))
+        return min(forms, key=cost)
+
+    def _whole(self, expr: Expr) -> Node:
+        """What is 0 where an expression is, without a number in front of it."""
+        whole = 1 if is_numeric(self.robot) else lcm(*(int(c.q) for c in expr.poly.coeffs()))
+        return without_number(self._signed(expr * whole)[0])
 
     def vanishing(self, value: Expr) -> Node:
         """What is 0 where an expression is, without the factors that never are."""
@@ -126,6 +140,20 @@ class SetForms:
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
+
+
+def without_number(node: Node) -> Node:
+    """2 (a + b) and (a + b)/2 as a + b"""
+    match node:
+        case Product((Number(), *rest)):
+            return _bare(times(1, [(factor, 1) for factor in rest]))
+        case Quotient(numerator, Number()):
+            return without_number(_bare(numerator))
+    return node
+
+
+def _bare(node: Node) -> Node:
+    return node.argument if isinstance(node, Parenthesized) else node
 
 
 def vanishing(conditions: tuple[Node, ...]) -> Node:

@@ -160,6 +160,13 @@ class Step(Struct, frozen=True):
     is_task: bool = True
 
 
-def not_derived(id: str, why: str, group: Group | None = None) -> Step:
-    """What a step says of a result whose work goes over a bound."""
-    return Step(id, title="Not derived", why=(f"{opened(why)}.",), detail=Detail.BRIEF, group=group, uses=())
+NOT_DERIVED = ": not derived"
+"""How the title of a step ends that has no result."""
+
+
+def not_derived(id: str, what: str, why: str, group: Group | None = None) -> Step:
+    """What a step says of a result, told in words, that is not derived."""
+    said = (f"{opened(why)}.",)
+    return Step(
+        id, title=f"{what}{NOT_DERIVED}", why=said, detail=Detail.BRIEF, group=group, outcome=said, uses=()
+    )

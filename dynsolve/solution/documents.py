@@ -45,7 +45,7 @@ from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
 from dynsolve.explain.given import CALLED, statement
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID
 from dynsolve.explain.writing import (
     GAUTIER_KHALIL,
@@ -358,7 +358,8 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     steady = robot.questions.model.steady if name == "equilibria" else ()
     kept = side_by_side([equation(Symbol(of, 1), value) for of, value in steady]) if steady else ""
     of_motion = say(" with {kept}", kept=kept) if steady else ""
-    yield Text(say(f"{called[0].upper()}{called[1:]}{{of_motion}}:", of_motion=of_motion))
+    if not step.title.endswith(NOT_DERIVED):
+        yield Text(say(f"{called[0].upper()}{called[1:]}{{of_motion}}:", of_motion=of_motion))
     unknowns = {f"{name}_{q.name}" for q in robot.coordinates} & set(step.uses or ())
     used = [one for one in steps if one.id in (step.uses or ())]
     found = [node for one in used for node in (one.result if one.id in unknowns else one.defines)]
@@ -368,11 +369,14 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
             yield from map(Formula, together) if matrices else (Equations(together),)
         yield from (Text(step.outcome),) if step.outcome else ()
         yield from (Table(step.table.header, step.table.rows),) if step.table is not None else ()
+    elif step.title.endswith(NOT_DERIVED):
+        yield Text((f"{step.title}. ", *step.outcome))
     elif step.result:
         yield Equations(step.result)
         yield from (Text(step.outcome),) if step.outcome and name == "equilibria" else ()
     else:
-        told = tuple(one.outcome for one in steps if one.stage is step.stage and one.outcome)
+        own = [one for one in steps if one.id == name or one.id.startswith(f"{name}_")]
+        told = tuple(one.outcome for one in own if one.outcome)
         yield List(told or step.notes or (step.why,))
     yield from (Text(one.concluding) for one in steps if one.id == f"{name}_stability")
 

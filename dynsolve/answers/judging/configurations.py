@@ -276,7 +276,7 @@ class ConfigurationKey:
         zeros = (
             [compactor.form(value)]
             if isinstance(value, Expr)
-            else in_balance(self.robot, compactor.matrix(value))
+            else in_balance(self.forms, compactor.matrix(value))
         )
         if not names_in(*zeros) <= self._names:
             return False
@@ -301,7 +301,7 @@ class ConfigurationKey:
 
     @cached_property
     def _equilibria(self) -> EquationSet:
-        forces = in_balance(self.robot, self.forms(balanced_forces(self.robot)))
+        forces = in_balance(self.forms, self.forms(balanced_forces(self.robot)))
         alternatives = self.equilibria.equilibria
         if any(self._is_special(one.factor) for one in self.values["equilibria"].special):
             alternatives = (tuple(forces),)

@@ -10,7 +10,7 @@ accelerations.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
+from itertools import combinations, islice
 from math import atan2
 
 from msgspec import Struct
@@ -22,12 +22,13 @@ from dynsolve.derivation.configurations import NO_VALUE, is_zero
 from dynsolve.derivation.elimination import is_positive_definite, solved
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.errors import VerificationError
-from dynsolve.notation.tree import Matrix, Node
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Matrix, Negative, Node, Product, Sum
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.questions.equilibria.balance import STATES, never_zero, table_lengths
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
-from dynsolve.questions.equilibria.solving import Point, Stability, wanted_rows
+from dynsolve.questions.equilibria.solving import Point, Stability, order_of_minors, wanted_rows
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
 
@@ -70,10 +71,34 @@ def balanced_forces(robot: Robot) -> str:
     return "tau" if robot.questions.model.steady else "g"
 
 
-def in_balance(robot: Robot, forces: Node) -> list[Node]:
-    """The forces that must be 0: those of all coordinates that no motor holds."""
+def in_balance(forms: Forms, forces: Node) -> list[Node]:
+    """What must be 0: the forces of what no motor holds; with constraints what these leave of them."""
+    robot, wanted = forms.robot, wanted_rows(forms.robot)
     assert isinstance(forces, Matrix)
-    return [forces.rows[k][0] for k in wanted_rows(robot)]
+    row = tuple(forces.rows[k][0] for k in wanted)
+    if not robot.questions.constraints or robot.questions.model.steady:
+        return list(row)
+    A, h, order = forms("Ac"), forms("hc"), order_of_minors(robot, forms.values["Ac"])
+    assert isinstance(A, Matrix) and isinstance(h, Matrix)
+    columns = [tuple(line[k] for k in wanted) for line in A.rows]
+    dependent = [
+        _determinant([[line[k] for k in across] for line in (*chosen, row)])
+        for chosen in combinations(columns, order - 1)
+        for across in combinations(range(len(wanted)), order)
+    ]
+    return [*dependent, *(line[0] for line in h.rows)]
+
+
+def _determinant(rows: Sequence[Sequence[Node]]) -> Node:
+    """Along the first row."""
+    first, *others = rows
+    if not others:
+        return first[0]
+    terms = []
+    for k, entry in enumerate(first):
+        term = Product((entry, _determinant([[*line[:k], *line[k + 1 :]] for line in others])))
+        terms.append(Negative(term) if k % 2 else term)
+    return Sum(tuple(terms))
 
 
 def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:
@@ -110,12 +135,12 @@ def zero_along(names: Sequence[str], zeros: Program, start: Mapping[str, float])
     return None
 
 
-def verify_equilibria(robot: Robot, balanced: Node, cases: Sequence[Case]) -> None:
+def verify_equilibria(robot: Robot, balanced: Node, zeros: Sequence[Node], cases: Sequence[Case]) -> None:
     """Compare the cases with the forces, which are those of `balanced_forces`.
 
     Raises VerificationError where an equilibrium is none, one is missing, or its stability is another.
     """
-    forces = compile_trees(in_balance(robot, balanced))
+    forces = compile_trees(list(zeros))
     programs = [compile_trees(list(case.zeros)) for case in cases]
     for start in starts(robot):
         for program, case in zip(programs, cases, strict=True):
@@ -170,7 +195,8 @@ def verify(held: Held) -> None:
         verify_balance(robot, forms("g"), shown.balance)
     if "equilibria" in held.wanted:
         cases = [Case(*case) for case in zip(shown.equilibria, values["equilibria"].points, strict=True)]
-        verify_equilibria(robot, forms(balanced_forces(robot)), cases)
+        balanced = forms(balanced_forces(robot))
+        verify_equilibria(robot, balanced, in_balance(forms, balanced), cases)
 
 
 def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:

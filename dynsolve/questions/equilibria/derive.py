@@ -7,7 +7,7 @@ from functools import partial
 
 from dynsolve.derivation.graph import Rule
 from dynsolve.questions.equilibria import balance, linearization
-from dynsolve.questions.equilibria.solving import equilibria
+from dynsolve.questions.equilibria.solving import constrained_equilibria, equilibria
 from dynsolve.robot.model import Robot
 
 
@@ -18,6 +18,8 @@ def rules(robot: Robot) -> Iterator[Rule]:
     yield Rule("balance", ("g",), partial(balance.balance, robot))
     if robot.questions.model.steady:
         yield Rule("equilibria", ("D", "C", "g"), partial(linearization.steady_equilibria, robot))
+    elif robot.questions.constraints:
+        yield Rule("equilibria", ("g", "Ac", "hc"), partial(constrained_equilibria, robot))
     else:
         yield Rule("equilibria", ("g",), partial(equilibria, robot))
     if robot.questions.model.linearize:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
@@ -11,7 +11,7 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
-from dynsolve.explain.set_forms import vanishing
+from dynsolve.explain.set_forms import vanishing, without_number
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, as_row, is_small, listed, side_by_side, spong
 from dynsolve.notation.template import formula
@@ -20,18 +20,23 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
-    Relation,
     Symbol,
     equation,
     names_in,
-    walk,
 )
 from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.quantities import letters
 from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
-from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Stability, wanted_rows
+from dynsolve.questions.equilibria.solving import (
+    Equilibria,
+    Point,
+    SpecialCase,
+    Stability,
+    order_of_minors,
+    wanted_rows,
+)
 from dynsolve.robot.model import JointType, Robot
 
 _SOURCE = SLOTINE_LI.section("3.3")
@@ -55,31 +60,39 @@ def steps(context: Context) -> Iterator[Step]:
 
 # -- where nothing moves ---------------------------------------------------------------------------
 
-_AT_REST = "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion $𝐠$ is left. "
-_GIVEN = "Of the parameters it is given that {these}. "
+_AT_REST = (
+    "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion {left} is left. "
+)
+_CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
+_DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
+_GIVEN = "Let all parameters be positive{these}. "
 
 
 def _equilibria(context: Context) -> Iterator[Step]:
     robot, found = context.robot, context.values["equilibria"]
     if isinstance(found, Skipped):
-        yield not_derived("equilibria", found.why)
+        yield not_derived("equilibria", "Where nothing moves", found.why)
         return
     shown = EquilibriaForms(robot, context.values)
     cases = shown.equilibria
-    result: tuple[Node, ...] = tuple(vanishing(one) for one in cases if one)
-    rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
-    said = {part for one in result for part in walk(one) if isinstance(part, Relation)}
-    turned = [equation(context.show(-row), Number(0)) for row in found.rows]
+    told = [shown.relations(*both) for both in zip(found.alternatives, cases, strict=True)]
+    result: tuple[Node, ...] = tuple(as_row(listed(one)) for one in told if one)
+    rows = tuple(equation(without_number(context.show(row)), Number(0)) for row in found.rows)
+    said = {equation(value, Number(0)) for one in cases for value in one}
+    turned = [equation(without_number(context.show(-row)), Number(0)) for row in found.rows]
     is_said = all(one in said or other in said for one, other in zip(rows, turned, strict=True))
+    constrained, working = _with_constraints(context) if robot.questions.constraints else ((), ())
     balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
-    own = {sign * force for force in balanced.entries for sign in (1, -1)}
+    own = set() if constrained else {sign * force for force in balanced.entries for sign in (1, -1)}
     is_new = not is_said and not own.issuperset(found.rows)  # else nothing was combined
     of_free: list[Prose] = []
     special = [shown.comparison(one.factor, "≠") for one in found.special]
     where = say(" where {special}", special=listed(special)) if special else ""
     factors = say("that are not 0{where}" if special else "that are never 0", where=where)
     heading = say(
-        "Combined, without factors {which}:", which="of the parameters" if found.may_be_others else factors
+        "{what}, without factors {which}:",
+        what="With the constraints" if constrained else "Combined",
+        which="of the parameters" if found.may_be_others else factors,
     )
     lines = (Line(heading, rows),) if is_new else ()
     if not cases:
@@ -87,15 +100,14 @@ def _equilibria(context: Context) -> Iterator[Step]:
     elif not cases[0]:
         notes = [say("Nothing is left to be 0{where}: every configuration is an equilibrium.", where=where)]
     else:
-        names = [q.name for q in robot.coordinates if q.name not in dict(robot.questions.model.steady)]
-        free = [Symbol(name) for name in names if any(name not in names_in(*one) for one in cases)]
-        some = " where it does not occur" if len(cases) > 1 else ""
-        of_free = [say("{free} may have any value{some}.", free=listed(free), some=some)] if free else []
+        of_free = [*_arbitrary(robot, cases)]
         notes = [*shown.existence("equilibria", found.exist)]
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
     notes += [_special(shown, one) for one in found.special]
     if found.may_be_others:
         notes.append(("For special values of the parameters there may be others.",))
+    if found.may_be_dependent:
+        notes.append(say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$."))
     steady = bool(robot.questions.model.steady)
     forces: Node = FORCES if steady else letters.G
     values = context.show(forces_of_motion(context)) if steady else context.form("g")
@@ -107,14 +119,18 @@ def _equilibria(context: Context) -> Iterator[Step]:
         id="equilibria",
         title="Where nothing else moves" if steady else "Where nothing moves",
         why=say(
-            "{which}{held}{given}",
-            which=why(context) if steady else say(_AT_REST, idle=_idle(robot, is_held)),
+            "{which}{held}{constrained}{given}",
+            which=why(context) if steady else _at_rest(robot, _CONSTRAINED if constrained else letters.G),
             held=say(balance, passive=passive) if is_held else "",
-            given=say(_GIVEN, these=side_by_side(assumed)) if assumed else "",
+            constrained=constrained,
+            given=say(_GIVEN, these=say(", and {these}", these=side_by_side(assumed)) if assumed else "")
+            if robot.parameters
+            else "",
         ),
-        formula=_balance_of(robot, forces, values),
-        task=equation(forces, Number(0)),
+        formula=_CONSTRAINED if constrained else _balance_of(robot, forces, values),
+        task=_CONSTRAINED if constrained else equation(forces, Number(0)),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
+        working=working,
         lines=lines,
         concluding=(_lead(len(result), len(rows) * is_new),)
         if len(result) > 1 or (result and is_new)
@@ -129,18 +145,50 @@ def _equilibria(context: Context) -> Iterator[Step]:
         yield _stability(context, shown, found)
 
 
+def _arbitrary(robot: Robot, cases: Sequence[tuple[Node, ...]]) -> Iterator[Prose]:
+    """The coordinates that a case leaves free, told once where they are the same in all."""
+    names = [q.name for q in robot.coordinates if q.name not in dict(robot.questions.model.steady)]
+    free = [tuple(name for name in names if name not in names_in(*one)) for one in cases]
+    places = (
+        [("", free[0])] if len(set(free)) == 1 else [(f"In case {k}, ", one) for k, one in enumerate(free, 1)]
+    )
+    for place, found in places:
+        if found:
+            verb = "are" if len(found) > 1 else "is"
+            yield say(f"{place}{{free}} {verb} arbitrary.", free=listed([*map(Symbol, found)]))
+
+
 def _lead(cases: int, combinations: int) -> str:
     """What leads from forces, or from combinations of them, to where they are 0."""
     what = "All are" if combinations > 1 else "It is"
     return f"{what} 0 in these cases:" if cases > 1 else f"{what} 0 where:"
 
 
-def _idle(robot: Robot, is_held: bool) -> str:
-    """What does not act in an equilibrium: motors, where they hold nothing, and forces from outside."""
-    idle = [] if is_held else ["no motor drives"]
+def _at_rest(robot: Robot, left: Node) -> Prose:
+    """What is left of the equations of motion where motors, if they hold nothing, and forces are idle."""
+    idle = [] if robot.questions.model.inputs_given else ["no motor drives"]
     idle += ["no force from outside acts"] if robot.questions.loads else []
-    idle += ["the forces of the constraints are left out"] if robot.questions.constraints else []
-    return "".join(f", {'and ' * (one is idle[-1])}{one}" for one in idle)
+    others = "".join(f", {'and ' * (one is idle[-1])}{one}" for one in idle)
+    return say(_AT_REST, idle=others, left=left)
+
+
+def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
+    """For which forces there are multipliers, and the rows that are dependent there."""
+    robot = context.robot
+    columns, order = wanted_rows(robot), order_of_minors(robot, context.values["Ac"])
+    if order > len(columns):
+        return ("The constraints leave nothing free: what they allow is an equilibrium. ",), ()
+    A, g = context.form("Ac"), context.form("g")
+    assert isinstance(A, MatrixTree) and isinstance(g, MatrixTree)
+    forces = tuple(g.rows[k][0] for k in columns)
+    together = MatrixTree((*(tuple(row[k] for k in columns) for row in A.rows), forces))
+    free = " without the columns of what motors hold" if len(columns) < robot.n else ""
+    is_square = len(together.rows) == len(columns) == order
+    zero = "their determinant is" if is_square else f"all their minors of order {order} are"
+    return (
+        say(f"There is a $𝛌$ where $𝐠ᵀ$ is a combination of the rows of $𝐀_c${free}: {zero} 0. "),
+        (equation(_DEPENDENT, together),) if is_small(together) else (),
+    )
 
 
 def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
@@ -242,7 +290,7 @@ _VERDICTS: dict[Stability, Prose] = {
 def _balance(context: Context) -> Step:
     found, wanted = context.values["balance"], context.robot.questions.model.balanced
     if isinstance(found, Skipped):
-        return not_derived("balance", found.why)
+        return not_derived("balance", "What balances gravity", found.why)
     shown = EquilibriaForms(context.robot, context.values).balance
     goal: Node = Number(0) if wanted is None else context.show(wanted)
     g = equation(letters.G, context.form("g"))
@@ -271,7 +319,7 @@ def _balance(context: Context) -> Step:
 def _state_matrix(context: Context) -> Step:
     robot, value = context.robot, context.values["linear_A"]
     if isinstance(value, Skipped):
-        return not_derived("linear_A", value.why)
+        return not_derived("linear_A", "The matrix A of the linear model", value.why)
     has_friction = "friction" in robot.actions.kinds
     passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
     by = "gravity and springs do" if robot.actions.springs else "gravity does"
@@ -316,7 +364,7 @@ def _state_matrix(context: Context) -> Step:
 def _input_matrix(context: Context) -> Step:
     robot, value = context.robot, context.values["linear_B"]
     if isinstance(value, Skipped):
-        return not_derived("linear_B", value.why)
+        return not_derived("linear_B", "The matrix B of the linear model", value.why)
     inputs: list[Node] = [letters.force(robot.coordinates[k]) for k in linearization.driven(robot)]
     column = "A column for each input" if len(inputs) > 1 else "One column, of the only input"
     ones = "has a 1 in the row of each, a column each" if len(inputs) > 1 else "has a 1 in its row"

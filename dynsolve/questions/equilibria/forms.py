@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
+from dynsolve.algebra.angles import angle_node
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive
+from dynsolve.derivation.elimination import turn_of
 from dynsolve.derivation.graph import Skipped
-from dynsolve.notation.tree import (
-    Node,
-)
-from dynsolve.questions.equilibria.solving import SpecialCase
-
-if TYPE_CHECKING:
-    pass
-
-
+from dynsolve.derivation.singular.sets import Alternative
+from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.explain.set_forms import SetForms
+from dynsolve.notation.tree import Function, Node, Number, Quotient, equation
+from dynsolve.questions.equilibria.solving import SpecialCase
 
 
 class EquilibriaForms(SetForms):
@@ -26,6 +23,24 @@ class EquilibriaForms(SetForms):
     def equilibria(self) -> tuple[tuple[Node, ...], ...]:
         """The equilibria: alternatives of expressions that are 0 together; none where they are too long."""
         return self.alternatives("equilibria")
+
+    def relations(self, case: Alternative, zeros: tuple[Node, ...]) -> list[Node]:
+        """What is 0 in a case, as equations: the tangent of an angle where that has one value."""
+        return [
+            self._tangent(one) or equation(value, Number(0)) for one, value in zip(case, zeros, strict=True)
+        ]
+
+    def _tangent(self, condition: Condition) -> Node | None:
+        """tan θ = b/a where a sin θ = b cos θ, and a is not 0."""
+        turn = turn_of(condition.expr)
+        if turn is None or turn.is_one_sided or not turn.rest.is_zero:
+            return None
+        sign = next((sign for sign in (1, -1) if is_positive(turn.sine * sign)), 0)
+        ring, form = condition.expr.ring, self.compactor(condition.expr.ring).form
+        common = turn.sine.poly.gcd(turn.cosine.poly)
+        above, below = (form(Expr(ring, part.poly / common) * sign) for part in (-turn.cosine, turn.sine))
+        angle = Function("tan", angle_node(turn.pair.angle, ring.names))
+        return equation(angle, above if below == Number(1) else Quotient(above, below)) if sign else None
 
     def special_forces(self, case: SpecialCase) -> tuple[Node, ...] | None:
         """What must be 0 for special parameters, without what never is; None where it cannot be."""

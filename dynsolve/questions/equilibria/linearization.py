@@ -69,6 +69,7 @@ MOST_PRODUCTS = 200_000
 
 TOO_LARGE = "the inverse of the inertia matrix is too large to be read"
 SINGULAR = "the inertia matrix has no inverse"
+CONSTRAINED = "the constraints leave fewer coordinates free than the state has"
 
 Linear = Matrix | FractionMatrix | Skipped
 
@@ -113,9 +114,12 @@ def damping(robot: Robot, friction: Matrix | None) -> Matrix:
 
 def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, friction: Matrix | None = None) -> Linear:
     """A, 2n×2n."""
+    if robot.questions.constraints:
+        return Skipped(CONSTRAINED)
     name = unbalanced(robot, gravity)
     if name:
-        return Skipped(f"this is no equilibrium: no motor holds {name}")
+        by = "gravity and springs move" if robot.actions.springs else "gravity moves"
+        return Skipped(f"the given state is no equilibrium: {by} {name}, which no motor holds")
     below = Matrix(
         robot.ring,
         tuple(
@@ -131,6 +135,8 @@ def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, friction: Matrix | No
 
 def input_matrix(robot: Robot, D: Matrix) -> Linear:
     """B, 2n×m, a column for each coordinate that a motor drives."""
+    if robot.questions.constraints:
+        return Skipped(CONSTRAINED)
     inputs = driven(robot)
     selected = Matrix.of(
         robot.ring,
@@ -174,6 +180,8 @@ def steady_energy(robot: Robot, P: Expr, K: Expr) -> Expr:
 
 def steady_equilibria(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Equilibria | Skipped:
     """Where the others are in balance."""
+    if robot.questions.constraints:
+        return Skipped("what the constraints hold in a steady motion is not looked for")
     forces = steady_forces(robot, C, gravity)
     changing = (*D.entries, *(forces[row, 0] for row in wanted_rows(robot)))
     for name, _ in robot.questions.model.steady:
@@ -183,7 +191,7 @@ def steady_equilibria(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Eq
     braked = _braked(robot)
     if braked:
         return Skipped(f"friction acts on {braked} in this motion, and no motor holds it")
-    return equilibria(robot, forces, may_be_held(robot, D))
+    return equilibria(robot, forces, may_be_held=may_be_held(robot, D))
 
 
 def may_be_held(robot: Robot, D: Matrix) -> bool:

@@ -10,6 +10,11 @@ is: these are told, with the remainders of the forces on division by it, which a
 
 Where rates are held constant, g is the sum of forces in that motion (`linearization`).
 
+With constraints g = A_cᵀ λ and h = 0.  Where the rows of A_c are independent there is a λ if they and
+gᵀ are not: the minors of both together are 0.
+
+Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.2 (1994).
+
 Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
 
 How stable equilibria are, by the second derivatives of the potential energy.
@@ -35,11 +40,12 @@ from itertools import combinations, product
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.inequality import Bound, independent
-from dynsolve.algebra.linear_systems import part
-from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.linear_systems import part, rank_parts
+from dynsolve.algebra.matrix import Matrix, determinant, minors, work
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import ParameterSigns, Turn, conditions, turn_of
@@ -265,7 +271,8 @@ class Equilibria(Struct, frozen=True):
     """Where all of `rows` are 0: at any of the alternatives, with the points of each.
 
     `exist` is what the parameters must satisfy for each to be there.  All this is so where none of the
-    `special` is; where there `may_be_others`, that are not told, for general parameters.
+    `special` is; where there `may_be_others`, that are not told, for general parameters; where the rows of
+    A_c, which `may_be_dependent`, are not.
     """
 
     rows: tuple[Expr, ...]
@@ -274,6 +281,7 @@ class Equilibria(Struct, frozen=True):
     exist: tuple[tuple[Bound, ...], ...]
     special: tuple[SpecialCase, ...] = ()
     may_be_others: bool = False
+    may_be_dependent: bool = False
 
 
 def wanted_rows(robot: Robot) -> list[int]:
@@ -287,13 +295,44 @@ def wanted_rows(robot: Robot) -> list[int]:
     ]
 
 
-def equilibria(robot: Robot, forces: Matrix, may_be_held: bool = False) -> Equilibria | Skipped:
+def constrained_columns(robot: Robot, A: Matrix) -> Matrix:
+    """The columns of A_c that belong to the coordinates that no motor holds."""
+    return part(A, tuple(range(A.shape[0])), tuple(wanted_rows(robot)))
+
+
+def order_of_minors(robot: Robot, A: Matrix) -> int:
+    """The order of the minors that are 0 where forces are combinations of these rows."""
+    return rank_parts(constrained_columns(robot, A)).rank + 1
+
+
+def constrained_equilibria(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Equilibria | Skipped:
+    """The configurations in which multipliers hold the forces, and h is 0."""
+    columns = constrained_columns(robot, A)
+    row = Matrix.of(robot.ring, [[forces[k, 0] for k in wanted_rows(robot)]])
+    order = order_of_minors(robot, A)
+    held = [*minors(Matrix(robot.ring, (*columns.rows, *row.rows)), order), *h.entries]
+    if sum(map(len, held)) > MOST_TERMS:
+        return Skipped(TOO_LONG)
+    found = equilibria(robot, forces, held)
+    if isinstance(found, Skipped):
+        return found
+    there = Transfer(robot.ring, search_ring(robot.ring, (), {}))
+    try:
+        left = common_zeros([there(one) for one in (*minors(columns, order - 1), *h.entries)])
+    except TooLong:
+        return replace(found, may_be_dependent=True)
+    return replace(found, may_be_dependent=order > 1 and bool(left))
+
+
+def equilibria(
+    robot: Robot, forces: Matrix, held: Sequence[Expr] | None = None, may_be_held: bool = False
+) -> Equilibria | Skipped:
     """The configurations where the forces (n×1) are 0 in every row that no motor holds.
 
     The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
-    `stability.Curvature`.
+    `Curvature`.  Where constraints act, `held` are what is 0 in their place; no stability is told.
     """
-    wanted = [forces[k, 0] for k in wanted_rows(robot)]
+    wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held]
     if sum(map(len, wanted)) > MOST_TERMS:
         return Skipped(TOO_LONG)
     ring = search_ring(robot.ring, (), {})
@@ -301,9 +340,9 @@ def equilibria(robot: Robot, forces: Matrix, may_be_held: bool = False) -> Equil
     assumed = robot.questions.model.assumed
     signs = ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
     special = Special(signs)
-    rows = tuple(combined(robot, wanted, lambda factor: special.add(there(factor))))
+    left = tuple(combined(robot, wanted, lambda factor: special.add(there(factor))))
     try:
-        alternatives = common_zeros([there(row) for row in rows], special)
+        alternatives = common_zeros([there(row) for row in left], special)
     except TooLong:
         return Skipped(TOO_LONG)
     found = {
@@ -311,14 +350,17 @@ def equilibria(robot: Robot, forces: Matrix, may_be_held: bool = False) -> Equil
         for one in alternatives
         if (exist := conditions([condition.expr for condition in one], signs)) is not None
     }
-    second = Matrix.of(ring, ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries))
-    for condition in (condition for one in found for condition in one):
-        special.add(condition.multiplier(second.entries))
-    curvature = Curvature(second, signs.beside(nonzero=special.factors), may_be_held)
-    points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
+    points: tuple[tuple[Point, ...], ...] = tuple(() for _ in found)
+    if held is None:
+        rows = ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries)
+        second = Matrix.of(ring, rows)
+        for condition in (condition for one in found for condition in one):
+            special.add(condition.multiplier(second.entries))
+        curvature = Curvature(second, signs.beside(nonzero=special.factors), may_be_held)
+        points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
     short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
     return Equilibria(
-        rows,
+        left,
         tuple(found),
         points,
         tuple(found.values()),

@@ -28,7 +28,7 @@ def steps(context: Context) -> Iterator[Step]:
         return
     value = context.values["qdd_forward"]
     if isinstance(value, Skipped):
-        yield not_derived("qdd_forward", value.why)
+        yield not_derived("qdd_forward", "The accelerations", value.why)
         return
     D = context.values["D"]
     inverse = context.forms.of(quotient(adjugate(D), determinant(D)))

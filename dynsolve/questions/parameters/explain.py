@@ -80,12 +80,17 @@ def steps(context: Context) -> Iterator[Step]:
             if name in wanted:
                 value = values[name]
                 if isinstance(value, Skipped):
-                    yield not_derived(name, value.why, group)
+                    yield not_derived(
+                        name, title if name == linear.a else f"The regressor{linear.of}", value.why, group
+                    )
                 else:
                     yield made(context, linear, group)
     if "Yr" in wanted and not values["tau"].is_zero:
         value = values["Yr"]
-        yield not_derived("Yr", value.why) if isinstance(value, Skipped) else _with_references(context)
+        if isinstance(value, Skipped):
+            yield not_derived("Yr", "The regressor of reference motions", value.why)
+        else:
+            yield _with_references(context)
 
 
 def _forces(context: Context, linear: _Linear) -> Matrix:

@@ -38,7 +38,11 @@ def steps(context: Context) -> Iterator[Step]:
     found = forms.singular_set
     if found is None:
         why = "The Jacobian and its minors are too long to be taken apart into factors. "
-        yield not_derived("singular", why + "At given values of q its rank shows whether the arm is singular")
+        yield not_derived(
+            "singular",
+            _TITLE,
+            why + "At given values of q its rank shows whether the arm is singular",
+        )
         return
     yield replace(_rank(context, forms, found), group=_SETS)
     yield replace(_alternatives(forms, found), group=_SETS, normal=NOTED)

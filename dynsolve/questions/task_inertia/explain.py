@@ -21,7 +21,7 @@ def steps(context: Context) -> Iterator[Step]:
         return
     value = context.values["Lambda"]
     if isinstance(value, Skipped):
-        yield not_derived("Lambda", value.why)
+        yield not_derived("Lambda", "The inertia matrix of the task", value.why)
         return
     rows, columns = context.values["Jr"].shape
     size = context.show(determinant(context.values["D"]))

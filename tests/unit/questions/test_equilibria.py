@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from math import acos, cos, sin
 from typing import Any
 
 import pytest
+import sympy
 from msgspec.structs import replace
 
 import dynsolve
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Function, Number, Product, Quotient, Relation, Symbol, equation, walk
 from dynsolve.problem import read_problem
-from dynsolve.questions.equilibria.check import Case, verify_equilibria
+from dynsolve.questions.equilibria.check import Case, in_balance, verify_equilibria
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.solving import Stability
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
@@ -60,17 +62,19 @@ def test_an_elastic_joint_holds_below() -> None:
 def test_the_check_finds_what_is_wrong() -> None:
     robot = read_problem(ARM).robot
     values = derive(robot)
-    g, shown = Forms(robot, values)("g"), EquilibriaForms(robot, values).equilibria
+    forms, shown = Forms(robot, values), EquilibriaForms(robot, values).equilibria
+    g = forms("g")
+    zeros = in_balance(forms, g)
     (points,) = values["equilibria"].points
     right = Case(shown[0], points)
-    verify_equilibria(robot, g, [right])
+    verify_equilibria(robot, g, zeros, [right])
     with pytest.raises(VerificationError, match="missing"):
-        verify_equilibria(robot, g, [])
+        verify_equilibria(robot, g, zeros, [])
     with pytest.raises(VerificationError, match="moves"):
-        verify_equilibria(robot, g, [Case((shown[0][0],), ())])
+        verify_equilibria(robot, g, zeros, [Case((shown[0][0],), ())])
     turned = tuple(replace(point, stability=Stability.STABLE) for point in points)
     with pytest.raises(VerificationError, match="stability"):
-        verify_equilibria(robot, g, [Case(shown[0], turned)])
+        verify_equilibria(robot, g, zeros, [Case(shown[0], turned)])
     assert Symbol("q1") not in shown[0]
 
 
@@ -172,3 +176,101 @@ passive: [theta]
 steady: {phi: W}
 find: [equilibria]
 """
+
+
+LOOP = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+constraints: [tip.x - k]
+find: [equilibria]
+"""
+NUMBERS = {"l": 0.7, "k": 0.9, "m1": 1.3, "m2": 0.4, "g": 9.8}
+
+
+def test_constraints_hold_what_they_can_in_an_equilibrium() -> None:
+    solution = dynsolve.solve(LOOP)
+    (case,) = solution.to_json()["results"]["equilibria"]
+    sides = [equation.removesuffix(" = 0") for equation in case]
+    length, k, m1, m2, g = NUMBERS.values()
+
+    def elbow(a: float) -> float:
+        return acos(k / length - cos(a)) - a  # the tip on the wall
+
+    def energy(a: float) -> float:
+        return g * length * ((m1 + m2) * sin(a) + m2 * sin(a + elbow(a)))
+
+    low, high = 0.1, 1.27
+    for _ in range(100):
+        x, y = low + (high - low) / 3, high - (high - low) / 3
+        low, high = (x, high) if energy(x) < energy(y) else (low, y)
+    a, b = low, elbow(low)
+    assert 0.2 < a < 1.2  # the greatest energy, inside
+    at = {**NUMBERS, "q1": a, "q2": b}
+    values = [sympy.sympify(side).subs(at) for side in sides]
+    assert all(abs(value) < 1e-6 for value in values)
+    assert all(abs(sympy.sympify(side).subs({**at, "q1": a + 0.1})) > 1e-3 for side in sides)
+    assert solution.to_json()["results"]["equilibria_stability"] == [[]]
+
+
+BEAD = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, theta: revolute}
+  bodies:
+    - {mass: m, at: [x, y, 0]}
+    - {mass: M, at: [l*cos(theta), l*sin(theta), 0], turn: theta, about: [0, 0, 1], inertia: {zz: I}}
+constraints: [x - a*cos(theta), y - a*sin(theta)]
+find: [equilibria]
+"""
+
+
+def test_a_rod_that_carries_a_bead_hangs_or_stands() -> None:
+    (case,) = dynsolve.solve(BEAD).to_json()["results"]["equilibria"]
+    assert sorted(case) == ["a*sin(theta) - y = 0", "cos(theta) = 0", "x = 0"]
+    held = f"{BEAD}inputs: given\npassive: [x]\n"  # motors hold the rest: what the constraints allow
+    (case,) = dynsolve.solve(held).to_json()["results"]["equilibria"]
+    assert sorted(case) == ["a*cos(theta) - x = 0", "a*sin(theta) - y = 0"]
+
+
+def test_a_skate_stands_across_its_slope() -> None:
+    skate = """
+gravity: [-g, 0, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute}
+  bodies: [{mass: m, at: [x, y, 0], turn: phi, about: [0, 0, 1], inertia: {zz: J}}]
+constraints: [{rates: "x'*sin(phi) - y'*cos(phi)"}]
+find: [equilibria]
+"""
+    solution = dynsolve.solve(skate)
+    assert solution.to_json()["results"]["equilibria"] == [["cos(phi) = 0"]]
+    (step,) = (step for step in solution.steps if step.id == "equilibria")
+    assert "are arbitrary" in str(step.notes)
+
+
+def test_one_angle_is_told_by_its_tangent() -> None:
+    bent = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1, center: {near: [b, c, 0]}, inertia: {zz: I}}]
+find: [equilibria]
+"""
+    (step,) = (step for step in dynsolve.solve(bent).steps if step.id == "equilibria")
+    b, c = Symbol("b"), Symbol("c")
+    (result,) = step.result
+    assert [*walk(result)].count(equation(Function("tan", Symbol("q1")), Quotient(b, c))) == 1
+
+
+def test_no_number_stands_before_what_is_zero() -> None:
+    wire = """
+gravity: [0, -g, 0]
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+springs: [{stiffness: k, of: x - y}]
+constraints: [y - b*x*x]
+find: [equilibria]
+"""
+    (step,) = (step for step in dynsolve.solve(wire).steps if step.id == "equilibria")
+    sides = [node.parts[0] for one in step.result for node in walk(one) if isinstance(node, Relation)]
+    assert len(sides) == 4
+    assert not any(isinstance(side, Product) and isinstance(side.factors[0], Number) for side in sides)
+    assert not any(isinstance(side, Quotient) for side in sides)

@@ -58,7 +58,8 @@ def test_linearization_is_that_of_sympy() -> None:
 
 def test_no_equilibrium_is_told() -> None:
     found = results(ARM.replace("q1: 60deg, q2: 30deg", "q1: 60deg, q2: 0"))
-    assert found["linear_A"] == {"skipped": "this is no equilibrium: no motor holds q2"}
+    why = "the given state is no equilibrium: gravity moves q2, which no motor holds"
+    assert found["linear_A"] == {"skipped": why}
 
 
 def test_the_inertia_of_the_task_of_the_exam() -> None:

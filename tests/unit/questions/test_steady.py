@@ -114,6 +114,6 @@ def test_the_step_says_what_is_left_of_the_equations() -> None:
 def test_the_step_and_the_hint_say_what_is_assumed_and_what_the_motion_leaves() -> None:
     solution = dynsolve.solve(f"{ARM}assume: [l*W^2 > g]\n")
     (why,) = (step.why for step in solution.steps if step.id == "equilibria")
-    assert "Of the parameters it is given that" in str(why)
+    assert "Let all parameters be positive, and " in str(why)
     hint = str(solution.hint("equilibria"))
     assert "The rates that are constant stay" in hint and "The inverse of D" not in hint
