@@ -63,7 +63,7 @@ def steps(context: Context) -> Iterator[Step]:
     if by_method:
         yield from (*spring_steps(context), *friction_steps(context))
         for q in robot.coordinates:
-            yield replace(_torque(context, q), group=Group("tau", "The forces and torques of the motors"))
+            yield replace(_torque(context, q), group=Group("tau", "The generalized forces"))
         yield _lagrange(context)
     else:
         yield from _ends(context)
@@ -91,9 +91,10 @@ class Names(Struct, frozen=True):
         return Names(Number(link), Number(before), standard, index)
 
     @staticmethod
-    def general(standard: bool) -> Names:
-        """Those of link i."""
-        return Names(letters.COUNT, letters.BEFORE, standard)
+    def general(context: Context) -> Names:
+        """Those of link i; in a tree its row starts from frame p."""
+        before = _PARENT if context.robot.is_tree else letters.BEFORE
+        return Names(letters.COUNT, before, context.standard)
 
     def __call__(self, text: str, **values: Node) -> Node:
         """A formula of the link, in which
@@ -121,6 +122,9 @@ class Names(Struct, frozen=True):
             own[f"{name}0"] = letters.bold(base, before, before, dots)
         return formula(text, i=i, **{**own, **values})
 
+
+_PARENT, _CHILD = Symbol("p"), Symbol("k")
+"""The frame from which the row of link i starts, and a link that follows it, in a tree."""
 
 Rates = tuple[Node, Node] | None
 """The first and second rate of a joint's variable; None of a joint that does not move so."""
@@ -211,7 +215,7 @@ Part = tuple[Node, Matrix | None]
 
 def _links(context: Context) -> Step:
     """R, the levers, the axes, gravity, and the tensors of all links."""
-    general = Names.general(context.standard)
+    general = Names.general(context)
     base = say(" In place of gravity the base accelerates upwards, which weighs on every link alike.")
     if context.standard:
         base = say(" Gravity is turned into each frame too: ${g} = 𝐑_i^0ᵀ 𝐠_0$.", g=general("{g}"))
@@ -220,8 +224,9 @@ def _links(context: Context) -> Step:
         title="The links, each in its own frame",
         why=say(
             "Every vector of link i is written along the axes of its own frame i, in which the mass centre "
-            "and the tensor are constant. A vector passes from frame i-1 to frame i by the transpose of "
+            "and the tensor are constant. A vector passes from frame {before} to frame i by the transpose of "
             "{R}, the rotation in $𝐀_i$.{base}",
+            before=say("p, from which row i starts,") if context.robot.is_tree else "i-1",
             R=general("{R}"),
             base=base,
         ),
@@ -329,7 +334,7 @@ def _spinning_step(context: Context, joint: Joint) -> Step:
     """ω̇_i"""
     robot, i, link = context.robot, joint.index, Names.of(context.robot, joint.index)
     spin = _rates(context, joint, JointType.REVOLUTE)
-    why = "The joint adds nothing; that of the link before is turned into the frame."
+    why = "That of the link before, turned into the frame."
     A: Matrix = context.values[f"A{i}"]
     values = [rotation(A).T @ _motion_before(context, joint).dw]
     if spin:
@@ -400,27 +405,31 @@ def _center_step(context: Context, joint: Joint, body: Body) -> Step:
 
 def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
     """The steps of one link, of what is asked for and what that is derived from."""
-    i, wanted, follows = joint.index, context.wanted, context.robot.links_after(joint.index)
-    nothing = "" if follows else " No link follows, so nothing is passed on."
+    i, wanted = joint.index, context.wanted
     if f"fl{i}" in wanted:
-        title = f"Link {i}, inwards: the force in its joint"
-        why = say(
-            "Newton's law: what the mass needs{own}{next}.{nothing}"
-            if context.robot.bodies_on(i)
-            else "The link has no mass: it passes on the force that the next link needs.{nothing}",
-            own=" beside its weight" if _is_heavy(context) else "",
-            next=", and what the next link needs" if follows else "",
-            nothing=nothing,
-        )
-        yield _sum(context, f"fl{i}", title, why, letters.in_link("f", i), list(_forces(context, i)))
+        title, why = f"Link {i}, inwards: the force that it needs", _force_why(context, i)
+        yield _sum(context, f"fl{i}", title, (why,), letters.in_link("f", i), list(_forces(context, i)))
     if f"nl{i}" in wanted:
-        title = f"Link {i}, inwards: the moment in its joint"
+        title = f"Link {i}, inwards: the moment that it needs"
+        has_tensor = any(not body.is_point for body in context.robot.bodies_on(i))
         why = say(
-            "Euler's law about the mass centre, and the moments of the forces about {o}.{nothing}",
-            o=letters.o(i - 1 if context.standard else i),
-            nothing=nothing,
+            "Euler's law about the mass centre, and the moments of the forces about {o}."
+            if has_tensor
+            else "The moments about {o}.",
+            o=letters.o(joint.parent if context.standard else i),
         )
         yield _sum(context, f"nl{i}", title, why, letters.in_link("n", i), list(_moments(context, i)))
+
+
+def _force_why(context: Context, i: int) -> str:
+    """Newton's law for the mass of a link; what the links after it need."""
+    follows = context.robot.links_after(i)
+    after = "the next link needs" if len(follows) == 1 else "the links after it need"
+    if not context.robot.bodies_on(i):
+        return f"The link has no mass: it passes on what {after}." if follows else "The link has no mass."
+    own = " beside its weight" if _is_heavy(context) else ""
+    rest = f", and what {after}." if follows else ". No link follows, so nothing is passed on."
+    return f"Newton's law: what the mass needs{own}{rest}"
 
 
 def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:
@@ -474,10 +483,10 @@ def _ends(context: Context) -> Iterator[Step]:
     if told:
         yield Step(
             id="tau_held",
-            title="The forces and torques of the motors",
-            why=say(
-                "A motor gives the component of what its joint holds along the joint's axis; the bearings "
-                "hold the others. The result is that of the Euler-Lagrange equations."
+            title="The generalized forces",
+            why=(
+                "Along the axis of a joint the force, where it slides, or the moment, where it turns, is "
+                "what drives it. The result is that of the Euler-Lagrange equations.",
             ),
             source=context.by_convention("7.6", "6.5"),
             result=tuple(form for q in told if (form := _torque(context, q).formula) is not None),
@@ -489,10 +498,12 @@ def _ends(context: Context) -> Iterator[Step]:
 
 def _torque(context: Context, q: Coordinate) -> Step:
     terms: list[Node] = []
-    for joint, rate in context.robot.joints_of(q):
+    joints = context.robot.joints_of(q)
+    for joint, rate in joints:
         held = letters.in_link("n" if joint.type is JointType.REVOLUTE else "f", joint.index)
         axis = Names.of(context.robot, joint.index)("{z}")
         terms.append(_rated(rate, Product((Transpose(held), axis))))
+    is_passive = q.index - 1 in context.robot.actions.passive
     kind, what = ("torque", "moment") if turns(q) else ("force", "force")
     beside, added = in_recursions(context, q)
     end = ending(context, f"tau{q.index}", {f"tau{q.index}": (driving_row(context.robot, q),)})
@@ -500,18 +511,29 @@ def _torque(context: Context, q: Coordinate) -> Step:
         id=f"tau{q.index}",
         title=f"Coordinate {q.index}: the {kind}",
         why=say(
-            "The motor gives the component of the {what} along the axis of the joint; the bearings hold "
-            "the others.{beside}{collected}",
-            what=what,
+            "{drives}{beside}{collected}",
+            drives=_what_drives(context, q, what),
             beside=beside,
             collected=how_collected(context),
         ),
-        said="" if beside else f"the {kind} of a motor",
+        said="" if beside or len(joints) > 1 or is_passive else f"the {kind} of a joint",
         formula=equation(driving_row(context.robot, q), sum_of([*terms, *added])),
         source=context.by_convention("7.6", "6.5"),
         **asdict(end),
         detail=Detail.BRIEF,
     )
+
+
+def _what_drives(context: Context, q: Coordinate, what: str) -> Prose:
+    """What of the force or moment of its joint is the force of a coordinate."""
+    questions = context.robot.questions
+    if q.index - 1 in context.robot.actions.passive:
+        zero = equation(letters.force(q), Number(0))
+        return say("No motor drives {q}: {zero}.", q=Symbol(q.name), zero=zero)
+    if len(context.robot.joints_of(q)) > 1:
+        return (Symbol(q.name), f" moves several joints: of each the {what} along its axis counts.")
+    rest = "" if questions.loads or questions.constraints else "; the bearings hold the rest"
+    return (f"Along the axis of the joint the {what} is what drives it{rest}.",)
 
 
 def _lagrange(context: Context) -> Step:
@@ -533,18 +555,23 @@ def _lagrange(context: Context) -> Step:
 
 
 def general_steps(context: Context) -> Iterator[Step]:
-    """Outwards for each kind of joint, then inwards, link i standing for all."""
-    link = Names.general(context.standard)
-    for kind, name in ((JointType.REVOLUTE, "revolute"), (JointType.PRISMATIC, "prismatic")):
+    """Outwards for each kind of row, then inwards, link i standing for all."""
+    link, is_tree = Names.general(context), context.robot.is_tree
+    for kind, name, over in (
+        (JointType.REVOLUTE, "revolute", "a revolute joint"),
+        (JointType.PRISMATIC, "prismatic", "a prismatic joint"),
+        (None, "fixed", "a row without a joint"),
+    ):
         if any(joint.type is kind for joint in context.robot.joints):
             variable = "theta" if kind is JointType.REVOLUTE else "d"
             rates = Letter(variable, letters.COUNT, dots=1), Letter(variable, letters.COUNT, dots=2)
-            spin, slide = (rates, None) if kind is JointType.REVOLUTE else (None, rates)
+            spin = rates if kind is JointType.REVOLUTE else None
+            slide = rates if kind is JointType.PRISMATIC else None
             yield _general(
                 context,
                 f"outwards_{name}",
-                f"Outwards over a {name} joint",
-                "From the first link to the last, the motion of each follows from that of the one before.",
+                f"Outwards over {over}",
+                "From the first link on, the motion of each follows from that of the one before.",
                 {
                     "{w}": _angular_velocity(link, spin),
                     "{dw}": _angular_acceleration(link, spin),
@@ -552,13 +579,14 @@ def general_steps(context: Context) -> Iterator[Step]:
                     "{ac}": _center_acceleration(link, slide),
                 },
             )
-    after = Names(letters.AFTER, letters.COUNT, context.standard)
+    after = Names(_CHILD if is_tree else letters.AFTER, letters.COUNT, context.standard)
     inertial = _inertial_force(link, formula("m_i"), _is_heavy(context))
     yield _general(
         context,
         "inwards",
-        "Inwards: the forces and moments in the joints",
-        "From the last link, which holds nothing, to the first: Newton's law and Euler's for each link.",
+        "Inwards: the forces and moments that the links need",
+        "From the last link to the first: Newton's law and Euler's for each."
+        + " Each link k that follows link i has the terms with k." * is_tree,
         {
             "𝐟_{i}^{i}": [after("{R} 𝐟_{i}^{i}"), inertial],
             "𝐧_{i}^{i}": [*_moment_of_next(link, after), *_moment_of_body(link, inertial, is_point=False)],
@@ -568,11 +596,12 @@ def general_steps(context: Context) -> Iterator[Step]:
 
 def _general(context: Context, key: str, title: str, why: str, sums: dict[str, list[Node]]) -> Step:
     """Recursions of link i, each the sum of its terms."""
-    link = Names.general(context.standard)
+    link = Names.general(context)
     return Step(
         id=key,
         title=title,
         why=(why,),
+        said=why,
         source=context.by_convention("7.6", "6.5"),
         result=tuple(equation(link(name), sum_of(terms)) for name, terms in sums.items()),
         listed=True,
@@ -587,8 +616,8 @@ AT_HAND = "You have the matrices of the rows of the table:"
 PITFALLS = """
     Every vector has its components along the axes of its own link: what comes from another link is
         turned first, outwards by the transpose of the rotation, inwards by the rotation.
-    standard? The axis of joint i is that of frame i-1, turned into frame i: it is the third row of the
-        rotation, and not (0, 0, 1).
+    standard? The axis of a joint is that of the frame before, turned into its own: it is the third row of
+        the rotation, and not (0, 0, 1).
     standard? The moment is about the origin before the link: the lever of the mass centre starts there.
     sliding? A joint that slides on a turning link adds twice ω × the velocity, besides its own
         acceleration.
