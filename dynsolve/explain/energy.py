@@ -28,6 +28,7 @@ from dynsolve.explain.working.derivatives import summed
 from dynsolve.explain.working.rotational import along_own_axes, multiplied_out, turned
 from dynsolve.explain.working.squares import linear, squared, written_velocity
 from dynsolve.explain.writing import (
+    agreeing,
     are_counted,
     counted_sum,
     is_small,
@@ -145,16 +146,8 @@ def _jacobians(context: Context, body: Body) -> Step:
         id=f"Jv{b}",
         title=f"Jacobian{'s' * bool(turning)} of the mass centre of {name_of(body)}",
         why=say(
-            "As for {end}, but for the mass centre{late}.{zero}",
-            end=context.end,
-            late=say(
-                ": only the joints up to the body's link can move it, so the {columns} of {late} {are} zero",
-                columns="column" if len(late) == 1 else "columns",
-                late=listed(late),
-                are="is" if len(late) == 1 else "are",
-            )
-            if late
-            else "",
+            "The column of each joint, taken at the mass centre{late}.{zero}",
+            late=say(agreeing("; {q} does|do not move it", len(late)), q=listed(late)) if late else "",
             zero=parallel(context, body.link, letters.rc(body), center) if context.is_short else "",
         ),
         formula=side_by_side([linear, *turning]) if beside else linear,

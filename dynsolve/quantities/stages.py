@@ -42,7 +42,7 @@ class Stage(StrEnum):
     FORWARD_DYNAMICS = "forward_dynamics", "Forward dynamics", True
     TASK_INERTIA = "task_inertia", "Inertia as the task meets it", True
     DEFINITE = "definite", "Inertia matrices: symmetric, positive definite", True
-    STATICS = "statics", "Forces from outside, and the torques that hold them", True
+    STATICS = "statics", "Statics", True
     CONSTRAINTS = "constraints", "Constraints", True
 
     def __new__(cls, value: str, heading: str = "", asked_for: bool = False) -> Stage:

@@ -1,4 +1,4 @@
-"""Forces from outside, and the torques that hold them."""
+"""Statics: forces from outside, and what holds them."""
 
 from __future__ import annotations
 

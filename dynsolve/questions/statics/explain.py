@@ -11,9 +11,9 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, Detail, Group, Step
-from dynsolve.explain.writing import is_small, spong, sum_of
+from dynsolve.explain.writing import agreeing, is_small, listed, spong, sum_of
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Node, Number, equation
+from dynsolve.notation.tree import Negative, Node, Number, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.questions.rates.explain import state_prose
 from dynsolve.questions.statics import derive as statics
@@ -21,7 +21,7 @@ from dynsolve.questions.statics.derive import jacobians
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, Load
 
-HELD = Group("Q", "The sum, and the torques that hold it")
+HELD = Group("Q", "The sum, and what holds it")
 
 
 _FORCES = spong("4.10")
@@ -33,10 +33,11 @@ def steps(context: Context) -> Iterator[Step]:
     for index, load in enumerate(context.robot.questions.loads, 1):
         if f"load{index}" in wanted:
             yield _load(context, index, load)
-    if "Q" in wanted:
+    questions = context.robot.questions
+    if "Q" in wanted and (questions.loads or "Q" in questions.asked):
         yield replace(_total(context), group=HELD)
     if "tau_static" in wanted:
-        yield replace(_holding(context), group=HELD)
+        yield replace(_holding(context), group=HELD if questions.loads else None)
 
 
 def _load(context: Context, index: int, load: Load) -> Step:
@@ -46,8 +47,8 @@ def _load(context: Context, index: int, load: Load) -> Step:
     parts = []
     for letter, velocity, value, jacobian in zip("FM", ("v", "omega"), wrench, of_point, strict=True):
         J = letters.JV if velocity == "v" else letters.JW
-        if load.point and load.point != TIP:
-            J = letters.j_of_point(velocity, load.point)
+        if load.point != TIP:
+            J = letters.j_of_point(velocity, load.point or f"F{index}")
         parts.append((letters.bold(letter, Number(index)), letters.bold(velocity), J, value, jacobian))
     if load.moment.is_zero:
         del parts[1]
@@ -68,7 +69,7 @@ def _load(context: Context, index: int, load: Load) -> Step:
         notes += (("It is given along axes of its link, and turned into the world.",),)
     return Step(
         id=f"load{index}",
-        title=f"What force {index} does to the joints",
+        title=f"What {'moment' if load.force.is_zero else 'force'} {index} does to the joints",
         why=say(
             "In every motion its power is {power}, and that of its generalized forces ${Q}ᵀ 𝐪̇$: so the "
             "transpose of the Jacobian of {where} gives its effect on the joints.",
@@ -85,6 +86,9 @@ def _load(context: Context, index: int, load: Load) -> Step:
     )
 
 
+_COUNTED = ("No force acts from outside. ", "There is only one force. ", "The sum over the forces. ")
+
+
 def _total(context: Context) -> Step:
     numbers = range(1, len(context.robot.questions.loads) + 1)
     general = statics.total(context.robot, tuple(context.values[f"load{i}"] for i in numbers))
@@ -92,7 +96,7 @@ def _total(context: Context) -> Step:
     return Step(
         id="Q",
         title="The generalized forces from outside",
-        why=("The sum over the forces. " if several else "There is only one force. ", *at),
+        why=(_COUNTED[min(len(numbers), 2)], *at),
         formula=equation(letters.Q_FORCES, sum_of([*map(letters.of_load, numbers)])),
         source=_FORCES,
         working=(equation(letters.Q_FORCES, context.show(general)),) if at and several else (),
@@ -102,20 +106,31 @@ def _total(context: Context) -> Step:
 
 
 def _holding(context: Context) -> Step:
-    heavy = bool(context.robot.bodies) and not context.robot.gravity.is_zero
-    g = context.form("g") if heavy else None
+    robot, g = context.robot, context.form("g") if context.robot.bodies else None
+    terms: list[Node] = []
+    if g is not None and not context.values["g"].is_zero:
+        terms.append(letters.G)
+    if robot.questions.loads:
+        terms.append(Negative(letters.Q_FORCES))
+    passive = [q for q in robot.coordinates if q.index - 1 in robot.actions.passive]
+    beside = ", beside the forces of the constraints" if robot.questions.constraints else ""
     return Step(
         id="tau_static",
-        title="The torques that hold it at rest",
+        title="What holds it at rest",
         why=say(
-            "At rest{free} only {left} left in the equations of motion. {at}",
-            free="" if heavy else ", and without gravity,",
-            left="gravity and these forces are" if heavy else "these forces are",
+            "At rest this is left of the equations of motion{beside}.{passive} {at}",
+            beside=beside,
+            passive=say(
+                agreeing(" No motor drives {q}: its|their entry|entries must be 0.", len(passive)),
+                q=listed([Symbol(q.name) for q in passive]),
+            )
+            if passive and not beside
+            else "",
             at=state_prose(context),
         ),
-        formula=formula("𝛕_static = 𝐠 - 𝐐" if heavy else "𝛕_static = -𝐐"),
+        formula=equation(letters.TAU_STATIC, sum_of(terms) if terms else Number(0)),
         source=_FORCES,
-        working=(equation(letters.G, g),) if g is not None and is_small(g) else (),
+        working=(equation(letters.G, g),) if letters.G in terms and g is not None and is_small(g) else (),
         result=(equation(letters.TAU_STATIC, context.form("tau_static")),),
         detail=Detail.BRIEF,
     )
@@ -123,7 +138,7 @@ def _holding(context: Context) -> Step:
 
 # -- hints -----------------------------------------------------------------------------------------
 
-AT_HAND = "You have the Jacobian of the end of the arm, and the frames:"
+AT_HAND = "You have the Jacobian of the last frame, and the frames:"
 
 PITFALLS = """
     The Jacobian is that of the point at which the force acts, and its transpose stands before the force.

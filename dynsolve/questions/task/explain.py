@@ -75,7 +75,9 @@ def _map(context: Context, task: Task) -> Step:
         points=say(" The coordinates of {points} are put in.", points=listed(points)) if points else "",
     )
     if task.is_default:
-        why = say("The task is the position of the tip, of which these are the coordinates that move.")
+        o = letters.o(len(context.robot.joints))
+        tip = say("the tip, {o}", o=o) if context.robot.is_tree else "the tip"
+        why = say("The task is the position of {tip}, of which these are the coordinates that move.", tip=tip)
     return Step(
         id="r",
         title="The task",
@@ -313,7 +315,7 @@ def _jacobians(context: Context, point: NamedPoint) -> Step:
                 products.append(formula("{RT} {J}", RT=context.show(R.T), J=world))
             turned += [equation(J, world), equation(result, *products)]
     why = say(
-        "Column by column, as for the end of the arm, but taken at {P}{late}{turned}",
+        "The column of each joint, taken at {P}{late}{turned}",
         P=P,
         late=say(agreeing("; {q} does|do not move its link.", len(late)), q=listed(late)) if late else ".",
         turned=f" What is seen from the world is then written along the axes of frame {axes}."
