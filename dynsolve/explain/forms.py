@@ -110,7 +110,7 @@ class Forms:
     def _make(self, name: str) -> Node:
         value = self.values[name]
         if isinstance(value, Skipped):
-            return tree.Words(value.why)
+            return tree.Words(f"({value.why})")
         if isinstance(value, FractionMatrix):
             return self.of(value)
         if name == "det":

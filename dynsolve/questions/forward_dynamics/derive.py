@@ -38,7 +38,7 @@ TOO_LARGE = "multiplied out they are too large to be read"
 
 SINGULAR = "the inertia matrix has no inverse: a coordinate moves nothing that has mass"
 
-CONSTRAINED = "the forces of the constraints act, too: the accelerations follow with the multipliers lambda"
+CONSTRAINED = "the forces of the constraints act, too: the accelerations follow with the multipliers"
 
 
 def rules(robot: Robot) -> Iterator[Rule]:

@@ -34,6 +34,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
+from dynsolve.questions.inverse.derive import REDUNDANT, is_redundant
 from dynsolve.questions.inverse.equations import (
     Direct,
     Equation,
@@ -63,11 +64,14 @@ def steps(context: Context) -> Iterator[Step]:
     forms = InverseForms(context.robot, context.values)
     yield _task(context, forms)
     if forms.solved is None:
+        is_free = is_redundant(context.values["pose" if _is_pose(context.robot) else "r"])
         yield Step(
             id=_id_of_branches(forms),
             title="No closed form",
             why=(
-                "No equation with one unknown in a known form was found: turned into the frames of the "
+                f"{opened(REDUNDANT)}."
+                if is_free
+                else "No equation with one unknown in a known form was found: turned into the frames of the "
                 "joints, squared and added, these equations stay coupled. Such arms are solved numerically.",
             ),
             detail=Detail.BRIEF,

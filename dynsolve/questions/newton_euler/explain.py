@@ -407,8 +407,15 @@ def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
     """The steps of one link, of what is asked for and what that is derived from."""
     i, wanted = joint.index, context.wanted
     if f"fl{i}" in wanted:
-        title, why = f"Link {i}, inwards: the force that it needs", _force_why(context, i)
-        yield _sum(context, f"fl{i}", title, (why,), letters.in_link("f", i), list(_forces(context, i)))
+        title = f"Link {i}, inwards: the force that it needs"
+        yield _sum(
+            context,
+            f"fl{i}",
+            title,
+            (_force_why(context, i),),
+            letters.in_link("f", i),
+            list(_forces(context, i)),
+        )
     if f"nl{i}" in wanted:
         title = f"Link {i}, inwards: the moment that it needs"
         has_tensor = any(not body.is_point for body in context.robot.bodies_on(i))

@@ -12,6 +12,8 @@ from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Matrix, Negative, walk
 from dynsolve.quantities import letters
 from dynsolve.questions.forward_dynamics.check import COMPARED, verify_forward
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 from tests.support import numbers, solve_json
 
 CART = """
@@ -120,3 +122,15 @@ def test_an_answer_is_judged(name: str, change: tuple[str, str], verdict: str, t
     hand_in.write_text(f"answers: {{{name}: [{entries}]}}\n", encoding="utf-8")
     (answer,) = dynsolve.check(CART, hand_in).answers
     assert (answer.name, str(answer.verdict)) == ("qdd_forward", verdict)
+
+
+def test_what_is_not_derived_has_its_name_and_its_reason_in_the_summary() -> None:
+    held = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+constraints: [tip.y - h]
+find: [qdd_forward]
+"""
+    told = " ".join(report(dynsolve.solve(held), Format.TEXT).decode().split())
+    assert ": not derived. The forces of the constraints act, too" in told

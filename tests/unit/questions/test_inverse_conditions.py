@@ -75,3 +75,13 @@ def test_a_formula_has_no_text_among_words() -> None:
         str(Number(1))
     why = next(s for s in solve(text(TWO, "")).steps if s.id == "inverse").why
     assert not any(isinstance(part, str) and "Letter" in part for part in why)
+
+
+def test_an_arm_that_can_move_and_keep_its_task_is_said_to_have_infinitely_many_solutions() -> None:
+    redundant = """
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l2, alpha: 90deg}, {theta: q3*, a: l3, d: d3},
+  {theta: q4*, a: l4}]
+find: [inverse]
+"""
+    (step,) = (step for step in solve(redundant).steps if step.title == "No closed form")
+    assert step.why == ("The arm can move and keep the task: infinitely many configurations reach it.",)

@@ -9,8 +9,11 @@ from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Matrix, Negative
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.questions.statics.check import verify_statics as verify_statics
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 
 ELBOW = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\n"
 SPATIAL = """
@@ -88,3 +91,29 @@ def test_each_force_has_its_step_and_says_whose_it_is() -> None:
     steps = {step.id: step for step in dynsolve.solve(SPATIAL).steps}
     assert [i for i in steps if steps[i].stage == "statics"] == ["load1", "load2", "load3", "Q", "tau_static"]
     assert "its opposite" in steps["load2"].notes[0][0] and steps["load1"].notes == ()
+
+
+# -- what is said of what holds an arm ---------------------------------------------------------------
+
+SPRUNG = """
+gravity: none
+dh: [{theta: q1*, a: l1}, {d: q2*, alpha: 90deg}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+springs: [{stiffness: k, of: q2, rest: l0}]
+passive: [q1]
+find: [tau_static]
+"""
+
+
+def test_without_forces_from_outside_what_holds_is_g_alone_and_none_is_told() -> None:
+    steps = {step.id: step for step in dynsolve.solve(SPRUNG).steps}
+    assert "Q" not in steps and to_unicode(steps["tau_static"].formula) == "τ_static = g"
+    loaded = SPRUNG.replace("find:", "forces: [{link: 2, moment: [0, 0, M], at: tip}]\nfind:")
+    steps = {step.id: step for step in dynsolve.solve(loaded).steps}
+    assert to_unicode(steps["tau_static"].formula) == "τ_static = g - Q"
+    assert steps["load1"].title == "What moment 1 does to the joints"
+
+
+def test_nothing_but_0_holds_what_no_motor_drives() -> None:
+    told = report(dynsolve.solve(SPRUNG), Format.TEXT).decode()
+    assert "No motor drives q₁: its entry must be 0." in " ".join(told.split())
