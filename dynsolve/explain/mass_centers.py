@@ -136,7 +136,7 @@ def _half(near: Node, far: Node) -> Node:
 
 
 _FROM_THE_NEAR_END = (
-    "is given from the near end of link {link}, {near}, along the axes of frame {link}, which is fixed in "
+    "{given} from the near end of link {link}, {near}, along the axes of frame {link}, which is fixed in "
     "the link"
 )
 
@@ -145,7 +145,9 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
     """How a mass centre is given: the kind of it, and in words."""
     written = body.center_written
     kind, words = "frame", "is given by its coordinates in frame {link}, which are constant"
-    if written == "tip":
+    if body.density is not None and body.density.begins:
+        kind, words = "found", _FROM_THE_NEAR_END
+    elif written == "tip":
         kind, words = written, "is at the far end of link {link}, {far}"
     elif written == "midpoint":
         kind, words = written, "is half-way along link {link}, between {near} and {far}"
@@ -161,7 +163,8 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
     near, far = map(letters.o, ends(context.robot, body))
     part = part_of_the_way(body) if kind == "" else None
     own = letters.o(body.link)
-    return kind, say(words, link=body.link, near=near, far=far, own=own, part=part or "")
+    given = "was found by integration," if kind == "found" else "is given"
+    return kind, say(words, link=body.link, near=near, far=far, own=own, part=part or "", given=given)
 
 
 def is_given_by(body: Body, key: str) -> bool:

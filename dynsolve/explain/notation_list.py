@@ -56,7 +56,7 @@ def problem_names(robot: Robot) -> Iterator[Line]:
                 yield _named(names, words, unit)
             names = [name for name, told in alike if not told.words]
             if names:
-                yield _named(names, role.of(len(names)), unit)
+                yield _named(names, role.of(len(names), unit), unit)
 
 
 def _named(names: Sequence[str], meaning: str, unit: str) -> Line:

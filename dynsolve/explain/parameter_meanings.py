@@ -1,8 +1,9 @@
 """What each parameter of a problem is, in words: length of link 2, from o_1 to o_2.
 
-It is told from where the parameter stands and how: alone, as the entry a of row 2, it is the distance between
-two axes; in a sum with others it is only said to stand in that row.  Parameters that are alike, each with its
-own number, are told in one line with i (`told_together`).
+It is told where the parameter itself is the value: alone, as the entry a of row 2, it is the distance between
+two axes; as a term of that entry it is a length in that row.  In any other expression, m l²/12, the place says
+nothing of it, and it is called by its dimension: a length.  Parameters that are alike, each with its own number,
+are told in one line with i (`told_together`).
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
+from itertools import chain
 from string import ascii_letters, digits
 
 from msgspec import Struct
@@ -20,16 +22,16 @@ from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.explain.writing import agreeing, and_joined, turns
+from dynsolve.explain.writing import agreeing, and_joined
+from dynsolve.notation.build import split_sign
 from dynsolve.notation.characters import split
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.tree import names_in as names_in_trees
 from dynsolve.notation.unicode import lowered, to_unicode
 from dynsolve.quantities import letters
 from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
-from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import AXES, MASS, Shape
 from dynsolve.robot.units import ENERGY, si
 
@@ -108,9 +110,22 @@ class Role(Enum):
     CONSTRAINT = "constant|constants in the constraints"
     OTHER = "parameter|parameters of the problem"
 
-    def of(self, count: int) -> str:
-        """What so many of them are."""
-        return agreeing(self.value, count)
+    def of(self, count: int, unit: str) -> str:
+        """What so many of them are; what no place tells is called by its unit."""
+        called = _BY_UNIT.get(unit, self.value) if self is Role.OTHER else self.value
+        return agreeing(called, count)
+
+
+_BY_UNIT = {
+    "m": "length|lengths",
+    "kg": "mass|masses",
+    "kg m^2": "moment|moments of inertia",
+    "N": "force|forces",
+    "N m": "torque|torques",
+    "m/s": "velocity|velocities",
+    "rad": "angle|angles",
+}
+"""What a parameter is that is no value by itself, but a part of one."""
 
 
 _ACTING = frozenset({Role.STIFFNESS, Role.VISCOUS, Role.DAMPING})
@@ -130,10 +145,14 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
         own = dimensions.get(name) or at_state.get(name, "")
         if role in _ACTING:
             return _OF_ACTING.get(own, own)
-        is_angle = role is Role.REST and not own and all(map(turns, robot.coordinates))
+        is_angle = role is Role.REST and dimensions.get(name) == ""
         return "rad" if is_angle or role in (Role.TURN, Role.DOWN) else own
 
-    return {name: (role := found.get(name, Role.OTHER), unit(name, role)) for name in robot.parameters}
+    def role(name: str) -> Role:
+        own = found.get(name, Role.OTHER)
+        return own if own is not Role.POSITION or dimensions.get(name) == "m" else Role.OTHER
+
+    return {name: (role(name), unit(name, role(name))) for name in robot.parameters}
 
 
 def _units_of_values(robot: Robot) -> dict[str, str]:
@@ -142,7 +161,7 @@ def _units_of_values(robot: Robot) -> dict[str, str]:
     given = [*robot.questions.state.values, *robot.questions.model.linearize]
     given += [(name, 1, value) for name, value in robot.questions.model.steady]
     per = ("", "/s", "/s^2")
-    return {value.name: base[name] + per[dots] for name, dots, value in given if isinstance(value, Symbol)}
+    return {own: base[name] + per[dots] for name, dots, value in given for own in _alone_in_tree(value)}
 
 
 def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
@@ -162,13 +181,14 @@ def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
 
 
 def _dimensions(robot: Robot) -> dict[str, str]:
-    """Units of the parameters: a torque, or the stiffness of a torsion spring, is no energy."""
+    """Units of the parameters as far as they are known: a torque, or a torsion spring's stiffness, is no energy."""
     known = Dimensions(robot.ring, robot, with_questions=True)
     units: dict[str, str] = {}
     for generator in robot.ring.generators:
         if generator.kind == "symbol" and not generator.dots:
             found = known.of_generator(generator)
-            units[generator.name] = "" if found is None else "N m" if found == ENERGY else si(found)
+            if found is not None:
+                units[generator.name] = "N m" if found == ENERGY else si(found)
     return units
 
 
@@ -204,15 +224,15 @@ def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
         yield from _untold(Role.GRAVITY, names_in(entry))
         yield from _untold(Role.DOWN, angles_in(entry))
     for joint in robot.joints:
-        for name in names_in(joint.a):
+        for name in _terms_of(joint.a):
             yield Role.LENGTH, name, _along_x(robot, joint, name) if _is(joint.a, name) else _in_row(joint)
-        for name in names_in(joint.d):
+        for name in _terms_of(joint.d):
             yield Role.LENGTH, name, _along_z(robot, joint, name)
         yield from _untold(Role.ANGLE, names_of(joint.theta), names_of(joint.alpha))
     in_world = Meaning("{coordinates} of o{before} in the world", before=0)
     for axis, entry in zip(AXES, robot.base_position.entries, strict=True):
-        for name in names_in(entry):
-            yield Role.BASE, name, replace(in_world, axes=(axis,)) if _is(entry, name) else _UNTOLD
+        for name in _alone(entry):
+            yield Role.BASE, name, replace(in_world, axes=(axis,))
     yield from _untold(Role.TURN, names_in_trees(*(angle for _, angle in robot.base_turns)))
     for body in robot.bodies:
         yield from _mass(body)
@@ -226,7 +246,7 @@ def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
         rates = (rate for turn in body.turns for rate in turn.rates.entries)
         yield from _untold(Role.POSITION, *map(names_in, rates))
     yield from _acting(robot.actions)
-    yield from _asked(robot.questions)
+    yield from _asked(robot)
 
 
 def _untold(role: Role, *names: Iterable[str]) -> Iterator[tuple[Role, str, Meaning]]:
@@ -237,39 +257,41 @@ def _untold(role: Role, *names: Iterable[str]) -> Iterator[tuple[Role, str, Mean
 def _acting(actions: Actions) -> Iterator[tuple[Role, str, Meaning]]:
     """Where the parameters of what acts stand."""
     for motor in actions.motors:
-        yield from _untold(Role.ROTOR, names_in(motor.inertia))
-        yield from _untold(Role.RATIO, names_in(motor.ratio))
+        yield from _untold(Role.ROTOR, _alone(motor.inertia))
+        yield from _untold(Role.RATIO, _alone(motor.ratio))
     for spring in (spring for spring in actions.springs if not spring.law):
         yield from _untold(Role.SPRING, names_in(spring.energy))
     for law in (spring.law for spring in actions.springs if spring.law):
-        yield from _untold(Role.STIFFNESS, names_in(law.stiffness))
-        yield from _untold(Role.REST, names_in(law.rest))
+        yield from _untold(Role.STIFFNESS, _alone(law.stiffness))
+        yield from _untold(Role.REST, _alone(law.rest))
     for one in actions.friction:
-        yield from _untold(Role.VISCOUS, names_in(one.viscous))
-        yield from _untold(Role.COULOMB, names_in(one.coulomb))
+        yield from _untold(Role.VISCOUS, _alone(one.viscous))
+        yield from _untold(Role.COULOMB, _alone(one.coulomb))
     for damper in actions.dampers:
-        yield from _untold(Role.DAMPING, names_in(damper.damping))
+        yield from _untold(Role.DAMPING, _alone(damper.damping))
 
 
-def _asked(questions: Questions) -> Iterator[tuple[Role, str, Meaning]]:
+def _asked(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
     """Where the parameters of what is asked stand: in forces, points, rates, a state, constraints."""
-    loads, points = questions.loads, questions.points
+    questions = robot.questions
     of_exact = (
-        (Role.FORCE, [load.force for load in loads]),
-        (Role.MOMENT, [load.moment for load in loads]),
-        (Role.PLACE, [*(load.position for load in loads), *(point.position for point in points)]),
+        (Role.FORCE, [load.force for load in questions.loads]),
+        (Role.MOMENT, [load.moment for load in questions.loads]),
         (Role.SPEED, [questions.velocity]),
         (Role.ACCELERATION, [questions.acceleration]),
     )
     for role, values in of_exact:
         entries = [entry for value in values if value is not None for entry in value.entries]
-        yield from _untold(role, *map(names_in, entries))
+        yield from _untold(role, *map(_alone, entries))
+    for place in (*questions.loads, *questions.points):
+        for position in (place.position, _from_near_end(robot, place.link, place.position)):
+            yield from _untold(Role.PLACE, *map(_alone, position.entries if position is not None else ()))
     for _, dots, formula in questions.state.values:
-        yield from _untold(Role.RATE if dots else Role.STATE, names_in_trees(formula))
+        yield from _untold(Role.RATE if dots else Role.STATE, _alone_in_tree(formula))
     for _, formula in questions.model.steady:
-        yield from _untold(Role.STEADY, names_in_trees(formula))
+        yield from _untold(Role.STEADY, _alone_in_tree(formula))
     for _, _, formula in questions.model.linearize:
-        yield from _untold(Role.STATE, names_in_trees(formula))
+        yield from _untold(Role.STATE, _alone_in_tree(formula))
     for constraint in questions.constraints:
         yield from _untold(Role.CONSTRAINT, names_in_trees(constraint.entry))
 
@@ -318,14 +340,15 @@ def _is_upright(robot: Robot) -> bool:
 def _mass(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
     """The mass or the density, and the dimensions of a body with a density."""
     density = body.density
-    mass, names = ("mass", [*names_in(body.mass)])
-    if density is not None:
-        mass, names = "density", [*names_in_trees(density.formula)]
-        yield from _sizes(body, density.shape)
-    for name in names:
-        is_alone = density.formula == Symbol(name) if density is not None else _is(body.mass, name)
-        part = "" if is_alone else "part of the "
-        yield Role.MASS, name, Meaning(f"{part}{mass} of body {{body}}", body=body.name)
+    if density is None:
+        part = "" if len(body.mass) == 1 else "part of the "
+        for name in _alone(body.mass) if len(body.mass) == 1 else _terms_of(body.mass):
+            yield Role.MASS, name, Meaning(f"{part}mass of body {{body}}", body=body.name)
+        return
+    yield from _sizes(body, density.shape)
+    part = "" if isinstance(density.formula, Symbol) else "parameter of the "
+    for name in names_in_trees(density.formula):
+        yield Role.MASS, name, Meaning(f"{part}density of body {{body}}", body=body.name)
 
 
 def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[Role, str, Meaning]]:
@@ -358,17 +381,16 @@ def _inertia(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
     moment = Meaning(f"moment of inertia of body {{body}} about {{axes}} through {point}", body=body.name)
     for i, row in enumerate(rows):
         for j, entry in enumerate(row):
-            for name in names_in(entry):
+            for name in _alone(entry):
                 if i != j:
                     yield Role.PRODUCT, name, Meaning("products of inertia of body {body}", body=body.name)
                 else:
-                    is_alone = _is(entry, name)
-                    yield Role.INERTIA, name, replace(moment, axes=(AXES[i],)) if is_alone else _UNTOLD
+                    yield Role.INERTIA, name, replace(moment, axes=(AXES[i],))
 
 
 def _center(robot: Robot, body: Body) -> Iterator[tuple[Role, str, Meaning]]:
     """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
-    near = _from_near_end(robot, body)
+    near = _from_near_end(robot, body.link, body.center)
     link, before = body.link, robot.joints[body.link - 1].parent
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
         if _is_distance(body.center, name):
@@ -381,19 +403,20 @@ def _center(robot: Robot, body: Body) -> Iterator[tuple[Role, str, Meaning]]:
             words = "{coordinates} of the mass centre of body {body}, in frame {link}"
             alone = (axis for axis, entry in zip(AXES, body.center.entries, strict=True) if _is(entry, name))
             yield from ((Role.CENTER, name, Meaning(words, link, body.name, axes=(axis,))) for axis in alone)
-            yield Role.CENTER, name, _UNTOLD
+            in_near = () if near is None else chain.from_iterable(map(_alone, near.entries))
+            yield from _untold(Role.CENTER, [name] if name in set(in_near) else [])
 
 
-def _from_near_end(robot: Robot, body: Body) -> Matrix | None:
-    """The mass centre from the near end of its link, o_{i-1}, along the axes of its frame.
+def _from_near_end(robot: Robot, link: int, place: Matrix) -> Matrix | None:
+    """A place in a link from the near end of this, o_{i-1}, along the axes of its frame.
 
     None in the modified convention, in which that end is the origin of the frame itself.
     """
     if robot.convention is Convention.MODIFIED:
         return None
-    row, ring = robot.joints[body.link - 1], robot.ring
+    row, ring = robot.joints[link - 1], robot.ring
     across, along = row.d * ring.sin(row.alpha), row.d * ring.cos(row.alpha)
-    return body.center + Matrix.column(ring, (row.a, across, along))
+    return place + Matrix.column(ring, (row.a, across, along))
 
 
 def _is_distance(place: Matrix, name: str) -> bool:
@@ -406,6 +429,23 @@ def _is(value: Expr, name: str, factor: Fraction = Fraction(1)) -> bool:
     """Whether a value is the parameter itself, or its negative; or such a multiple of it."""
     symbol = value.ring.symbol(name) * factor
     return value in (symbol, -symbol)
+
+
+def _alone(value: Expr) -> list[str]:
+    """The parameter that a value is, or is the negative of."""
+    return [name for name in names_in(value) if _is(value, name)]
+
+
+def _terms_of(value: Expr) -> list[str]:
+    """The parameters that are a term of a value by themselves, whatever number stands before them."""
+    ring, terms = value.ring, set(value.poly.monoms())
+    return [name for name in names_in(value) if terms >= set(ring.symbol(name).poly.monoms())]
+
+
+def _alone_in_tree(formula: Node) -> list[str]:
+    """The same of a formula as it is written."""
+    _, inner = split_sign(formula)
+    return [inner.name] if isinstance(inner, Symbol) else []
 
 
 # -- several in one line ---------------------------------------------------------------------------

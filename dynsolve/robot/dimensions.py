@@ -9,11 +9,14 @@ masses nothing can be told, and nothing is said.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from typing import Any
 
 from dynsolve.algebra.expr import Expr, Generator, is_sign
 from dynsolve.algebra.ring import Ring
-from dynsolve.notation.tree import Node, Reference, Symbol, walk
+from dynsolve.algebra.ring_values import value_of
+from dynsolve.notation.build import summands, total
+from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Reference, Symbol, walk
 from dynsolve.notation.tree_values import recalled
 from dynsolve.robot.actions import GivenModel
 from dynsolve.robot.model import JointType, Robot
@@ -183,6 +186,7 @@ def _roles_of_questions(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
         yield from ((entry, LENGTH) for entry in load.position.entries)
     for point in asked.points:
         yield from ((entry, LENGTH) for entry in point.position.entries)
+    yield from (found for one in asked.constraints for found in _of_constraint(robot, one.entry))
     task = asked.task
     if task is None:
         return
@@ -191,6 +195,44 @@ def _roles_of_questions(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
         for kind, entry in zip(kinds, values.entries if values is not None else (), strict=False):
             if kind is not None:
                 yield entry, times(kind, dimension(time=-dots))
+
+
+def _of_constraint(robot: Robot, entry: Node) -> Iterator[tuple[Expr, Dimension]]:
+    """What stands in a constraint beside coordinates of points: all its terms have one dimension."""
+    terms = summands(entry)
+    found = {_of_tree(robot, term) for term in terms} - {None}
+    if len(found) == 1:
+        (kind,) = found
+        beside = [term for term in terms if not any(isinstance(part, Reference) for part in walk(term))]
+        assert kind is not None
+        yield value_of(robot.ring, total(beside)), kind
+
+
+def _of_tree(robot: Robot, node: Node) -> Dimension | None:
+    """The dimension of a product of coordinates, rates and numbers; None where a parameter stands in it."""
+    match node:
+        case Number() | Function("sin" | "cos"):
+            return NONE
+        case Reference():
+            return LENGTH
+        case Symbol(name, dots):
+            types = {q.name: q.type for q in robot.coordinates}
+            base = LENGTH if types.get(name) is JointType.PRISMATIC else NONE
+            return times(base, dimension(time=-dots)) if name in types else None
+        case Negative(argument):
+            return _of_tree(robot, argument)
+        case Power(base, Number(p, q)):
+            inner = _of_tree(robot, base)
+            return None if inner is None else times(NONE, inner, Fraction(p, q))
+        case Product(factors):
+            whole = NONE
+            for factor in factors:
+                own = _of_tree(robot, factor)
+                if own is None:
+                    return None
+                whole = times(whole, own)
+            return whole
+    return None
 
 
 def _of_component(robot: Robot, entry: Node) -> Dimension | None:
