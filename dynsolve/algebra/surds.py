@@ -550,5 +550,5 @@ _NEARLY: dict[str, Callable[[Any], Any]] = {
 def decimal(value: float, digits: int = DIGITS) -> Node:
     """A number in floating point, as a decimal."""
     exact = Fraction(f"{value:.{digits}g}")
-    size = Number(abs(exact.numerator), exact.denominator, decimal=True)
+    size = Number(abs(exact.numerator), exact.denominator, decimal=True, rounded=exact != Fraction(value))
     return negated(size) if exact < 0 else size

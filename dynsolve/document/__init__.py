@@ -150,6 +150,34 @@ class Document(Struct, frozen=True):
     blocks: tuple[Block, ...]
 
 
+def rewritten(document: Document, change: Callable[[Node], Node], inline: Callable[[Node], Node]) -> Document:
+    """The document with its formulas changed, those among words by `inline`."""
+
+    def prose(parts: Prose) -> Prose:
+        return tuple(inline(part) if isinstance(part, Node) else part for part in parts)
+
+    def block(old: Block) -> Block:
+        match old:
+            case Text() | Uses() | Note():
+                return replace(old, parts=prose(old.parts))
+            case Formula():
+                return formula(old)
+            case Equations():
+                return replace(old, nodes=tuple(map(change, old.nodes)))
+            case List():
+                return replace(old, items=tuple(map(prose, old.items)))
+            case Table():
+                return replace(old, rows=tuple(map(prose, old.rows)))
+            case Fold():
+                return replace(old, blocks=tuple(map(block, old.blocks)))
+        return old
+
+    def formula(old: Formula) -> Formula:
+        return replace(old, node=change(old.node), otherwise=tuple(map(formula, old.otherwise)))
+
+    return Document(tuple(map(block, document.blocks)))
+
+
 def reworded(document: Document, change: Callable[[str], str]) -> Document:
     """The document with its words and the sources of its formulas changed, everything else as it is."""
 

@@ -53,11 +53,12 @@ _SHORT = 5
 class Forms:
     """forms(name): the compact tree of the value of that name, a `tree.Matrix` for a matrix.
 
-    Names are those of `dynsolve.derivation.graph`.
+    Names are those of `dynsolve.derivation.graph`.  `decimal` says that lengths alone may be decimals, too.
     """
 
-    def __init__(self, robot: Robot, values: Derivation) -> None:
+    def __init__(self, robot: Robot, values: Derivation, *, decimal: bool = False) -> None:
         self.robot = robot
+        self._decimal = decimal or is_numeric(robot)
         self.values = values
         self._made: dict[str, Node] = {}
         self._symbols: dict[tuple[int, int, int], Node] = {}
@@ -65,12 +66,12 @@ class Forms:
     @cached_property
     def compactor(self) -> Compactor:
         """The compactor of this robot's ring."""
-        return Compactor(self.robot.ring, *self.collecting, decimal=is_numeric(self.robot))
+        return Compactor(self.robot.ring, *self.collecting, decimal=self._decimal)
 
     @cached_property
     def _quick(self) -> Compactor:
         """A compactor that tries less: its forms are a hundredth longer, and made in a third of the time."""
-        return Compactor(self.robot.ring, *self.collecting, decimal=is_numeric(self.robot), large=_SHORT)
+        return Compactor(self.robot.ring, *self.collecting, decimal=self._decimal, large=_SHORT)
 
     @property
     def collecting(self) -> tuple[list[str], list[frozenset[str]]]:

@@ -16,6 +16,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Block, Formula, Inline, List, Prose, Text
 from dynsolve.document.sentences import opened, say
@@ -23,7 +24,7 @@ from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inertia import has_link_axes, is_moved, lies_as_drawn, stays_with_base
 from dynsolve.explain.kinematics import turned
-from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
+from dynsolve.explain.mass_centers import Place, ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles
 from dynsolve.explain.set_forms import SetForms
@@ -43,6 +44,7 @@ from dynsolve.notation.tree import (
     Words,
     equation,
     mapped,
+    number,
     walk,
 )
 from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames
@@ -195,8 +197,8 @@ def _called(forms: Forms, name: str) -> Prose:
 def _table(forms: Forms) -> Prose:
     """The table, and what has mass."""
     robot = forms.robot
-    count = len(robot.bodies)
     what = f"the table of the {machine(robot)}{_joints(robot)}"
+    count = len(robot.bodies)
     if not count:
         return (what,)
     if count > MOST_BODIES:
@@ -266,6 +268,14 @@ def _flat(entries: Iterable[Node]) -> Node:
     return Row((Words("("), side_by_side(list(entries)), Words(")")))
 
 
+def _vector(forms: Forms, entries: Sequence[Expr], unit: str) -> Node:
+    """(v_x, v_y), with its unit where all entries are numbers."""
+    vector = _flat(map(forms.of, entries))
+    if all(entry.is_number for entry in entries):
+        return Row((vector, Words(" "), units.node(unit)))
+    return vector
+
+
 def _model(forms: Forms) -> Iterator[Prose]:
     """The bodies by their positions, or the energies, the Lagrangian or the inertia matrix."""
     given = forms.robot.given
@@ -301,7 +311,7 @@ def _position(forms: Forms, body: Body) -> Prose:
 def _body(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
     """body 2 in link 2, a uniform slender rod of mass m₂ and length l₂ along 𝐱₂, its mass centre at 𝐨₁"""
     density, shape = body.density, body.shape
-    center = ("mass centre ", *_center(forms, body, drawn))
+    center = ("mass centre ", *_place(forms, body, drawn))
     what: Prose
     if body.is_point and density is None:
         what = (" a point", *_mass(forms, body), " ", *center[1:])
@@ -361,8 +371,8 @@ def _axis(forms: Forms, body: Body, name: str) -> Prose:
     return (f"its {name}-axis",)
 
 
-def _center(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
-    """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁; at (x, y, 0) from 𝐨₁ along the axes of frame 1"""
+def _place(forms: Forms, body: Body | Place, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
+    """A point of a link: at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁; at (x, y, 0) from 𝐨₁ along the axes of frame 1"""
     if drawn.frames and is_given_by(body, "drawn"):
         seen = drawn.in_world(body.link, [*map(forms.of, body.center.entries)])
         return ("at ", _flat(forms.of(value_of(forms.robot.ring, entry)) for entry in seen))
@@ -494,9 +504,7 @@ def _gravity(forms: Forms) -> Prose:
         told = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
         told = ("Gravity", *told, " acts along ", Negative(unit) if opposite else unit)
     elif along:
-        vector = _flat(map(forms.of, entries))
-        if all(entry.is_number for entry in entries):
-            vector = Row((vector, Words(" "), units.node("m/s^2")))
+        vector = _vector(forms, entries, "m/s^2")
         ground = "the world" if in_world else "frame 0"
         told = ("The acceleration of gravity is ", equation(letters.GRAVITY, vector))
         told += (f" along the axes of {ground}",)
@@ -513,11 +521,16 @@ def _actions(forms: Forms) -> Iterator[Prose]:
         if spring.law is None:
             yield ("A spring has the potential energy ", forms.of(spring.energy), ".")
         else:
-            at_rest = equation(forms.of(spring.law.of), forms.of(spring.law.rest))
-            yield ("A spring of stiffness ", forms.of(spring.law.stiffness), " is at rest at ", at_rest, ".")
+            slides = _slides(forms.robot, spring.law.of)
+            at_rest = equation(
+                forms.of(spring.law.of), measured(forms.of(spring.law.rest), "m" if slides else "rad")
+            )
+            stiffness = measured(forms.of(spring.law.stiffness), "N/m" if slides else "N m/rad")
+            yield ("A spring of stiffness ", stiffness, " is at rest at ", at_rest, ".")
     for damper in actions.dampers:
+        unit = "N s/m" if _slides(forms.robot, damper.of) else "N m s/rad"
         yield (
-            *("A damper of coefficient ", forms.of(damper.damping)),
+            *("A damper of coefficient ", measured(forms.of(damper.damping), unit)),
             *(" acts against changes of ", forms.of(damper.of), "."),
         )
     yield from (_friction(forms, friction) for friction in actions.friction)
@@ -526,11 +539,23 @@ def _actions(forms: Forms) -> Iterator[Prose]:
         yield ("No motor drives ", *listed([names[k] for k in actions.passive]), ".")
 
 
+def _slides(robot: Robot, of: Expr) -> bool:
+    """Whether a form of the coordinates is a length: where one that slides stands in it alone."""
+    slopes = (
+        robot.ring.diff(of, k) for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC
+    )
+    return any(slope.is_number and not slope.is_zero for slope in slopes)
+
+
 def _friction(forms: Forms, friction: JointFriction) -> Prose:
     """On q₁ acts viscous friction of coefficient f_v and Coulomb friction of coefficient f_c."""
-    kinds = (("viscous", friction.viscous), ("Coulomb", friction.coulomb))
+    is_length = forms.robot.coordinates[friction.coordinate].type is JointType.PRISMATIC
+    viscous, coulomb = ("N s/m", "N") if is_length else ("N m s/rad", "N m")
+    kinds = (("viscous", friction.viscous, viscous), ("Coulomb", friction.coulomb, coulomb))
     there = [
-        (f"{kind} friction of coefficient ", forms.of(value)) for kind, value in kinds if not value.is_zero
+        (f"{kind} friction of coefficient ", measured(forms.of(value), unit))
+        for kind, value, unit in kinds
+        if not value.is_zero
     ]
     on = Symbol(forms.robot.coordinates[friction.coordinate].name)
     return ("On ", on, " acts ", *listed(there), ".")
@@ -560,7 +585,10 @@ def _in_letters(entry: Node) -> Node:
 
 def _questions(forms: Forms) -> Iterator[Prose]:
     """Constraints, task, target, state, forces from outside, limits and assumptions."""
-    questions = forms.robot.questions
+    robot, questions = forms.robot, forms.robot.questions
+    for point in questions.points:
+        place = _place(forms, Place(point.link, point.position, point.written))
+        yield (f"Point {point.name} of link {point.link} is ", *place, ".")
     for constraint in questions.constraints:
         yield ("Every motion keeps ", equation(_in_letters(constraint.entry), ZERO), ".")
     task = questions.task
@@ -573,17 +601,30 @@ def _questions(forms: Forms) -> Iterator[Prose]:
             wanted = equation(letters.bold("r", dots=dots), _flat(map(forms.of, value.entries)))
             yield (f"The task is to have the {'velocity' if dots == 1 else 'acceleration'} ", wanted, ".")
     yield from (_load(forms, load) for load in questions.loads)
-    ranges = [Relation((one.low, Symbol(one.coordinate), one.high), ("≤", "≤")) for one in questions.limits]
+    ranges = [
+        Relation((one.low, Symbol(name), measured(one.high, _unit(robot, name))), ("≤", "≤"))
+        for one in questions.limits
+        for name in (one.coordinate,)
+    ]
     if ranges:
         yield ("Limits: ", *listed(ranges), ".")
     given = (("The state: ", questions.state.values), ("The equilibrium: ", questions.model.linearize))
     for what, values in given:
-        shown = [equation(Symbol(name, dots), value) for name, dots, value in values]
+        shown = [_valued(robot, name, dots, value) for name, dots, value in values]
         if shown and not questions.state_is_reached:
             yield (what, side_by_side(shown), ".")
     if questions.state_is_reached:
         within = " within these limits" if questions.limits else ""
         yield (f"The state is the configuration{within} that reaches it.",)
+    steady = [_valued(robot, name, 1, value) for name, value in questions.model.steady]
+    if steady:
+        yield ("The motion keeps ", *listed(steady), ".")
+    if questions.model.inputs_given:
+        yield ("In equilibria motors hold the coordinates that they drive.",)
+    if questions.weights is not None:
+        yield ("The weights are ", equation(letters.WEIGHTS, forms.of(questions.weights)), ".")
+    elif questions.weighs_by_inertia:
+        yield ("The weights are the inertia matrix ", letters.D, ".")
     said: list[tuple[Prose, Sequence[Bound]]] = [((), questions.model.assumed)]
     if questions.candidates and forms.robot.given is None:  # each has its own
         said = [((" of ", Symbol(one.name)), one.assumed) for one in questions.candidates]
@@ -591,6 +632,19 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     for of, assumed in said:
         if assumed:
             yield ("Assumed", *of, ": ", *listed([written.inequality(bound) for bound in assumed]), ".")
+
+
+def _unit(robot: Robot, name: str, dots: int = 0) -> str:
+    """What a coordinate or a rate is measured in."""
+    (kind,) = (q.type for q in robot.coordinates if q.name == name)
+    return ("m" if kind is JointType.PRISMATIC else "rad") + ("", "/s", "/s^2")[dots]
+
+
+def _valued(robot: Robot, name: str, dots: int, value: Node) -> Node:
+    """q₂ = 0.1 m; q̇₁ = 2 rad/s"""
+    exact = rational_value(value)
+    shown = value if exact is None else number(exact)
+    return equation(Symbol(name, dots), measured(shown, _unit(robot, name, dots)))
 
 
 def _target(robot: Robot, target: Target) -> Node:
@@ -606,8 +660,8 @@ def _target(robot: Robot, target: Target) -> Node:
 
 def _load(forms: Forms, load: Load) -> Prose:
     """The force (F, 0, 0) and the moment (0, 0, M) act on link 2 at the tip; or link 2 exerts them."""
-    kinds = (("the force ", load.force), ("the moment ", load.moment))
-    acting = [(what, _flat(map(forms.of, value.entries))) for what, value in kinds if not value.is_zero]
+    kinds = (("the force ", load.force, "N"), ("the moment ", load.moment, "N m"))
+    acting = [(what, _vector(forms, value.entries, unit)) for what, value, unit in kinds if not value.is_zero]
     at: Prose = (" at the tip",) if load.point == TIP else (" at ", load.point)
     if load.force.is_zero:
         at = ()

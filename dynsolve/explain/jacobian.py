@@ -295,7 +295,7 @@ def _whole(context: Context) -> Step:
         else say("The columns of {Jv} from the first to the last, and {Jw}:", Jv=letters.JV, Jw=letters.JW),
         result=(shown or equation(letters.JV, context.form("Jv")), equation(letters.JW, context.form("Jw"))),
         together=n <= BESIDE,
-        also=("Jw",),
+        also=("Jv", "Jw"),
         uses=tuple(f"J{q.index}" for q in context.robot.coordinates),
         detail=Detail.BRIEF,
     )

@@ -167,12 +167,20 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
     return kind, say(words, link=body.link, near=near, far=far, own=own, part=part or "", given=given)
 
 
-def is_given_by(body: Body, key: str) -> bool:
-    """Whether the problem gives the centre as `{near: ...}` or `{along: ...}`."""
+class Place(Struct, frozen=True):
+    """A point of a link that is no body's mass centre, as far as it is told in the same words."""
+
+    link: int
+    center: algebra.Matrix
+    center_written: str
+
+
+def is_given_by(body: Body | Place, key: str) -> bool:
+    """Whether the problem gives the centre as `{near: ...}`, `{along: ...}` or `{drawn: ...}`."""
     return re.match(rf"\W*{key}\b", body.center_written) is not None
 
 
-def part_of_the_way(body: Body) -> Node | None:
+def part_of_the_way(body: Body | Place) -> Node | None:
     """The part of the way, as the problem writes it; None where it cannot be read."""
     try:
         return read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
@@ -180,14 +188,14 @@ def part_of_the_way(body: Body) -> Node | None:
         return None
 
 
-def ends(robot: Robot, body: Body) -> tuple[int, int]:
+def ends(robot: Robot, body: Body | Place) -> tuple[int, int]:
     """The frames at the near and at the far end of a body's link."""
     if robot.convention is Convention.STANDARD:
         return robot.joints[body.link - 1].parent, body.link
     return body.link, next(iter(robot.links_after(body.link)), body.link + 1)
 
 
-def other_end(robot: Robot, body: Body) -> tuple[int, algebra.Matrix] | None:
+def other_end(robot: Robot, body: Body | Place) -> tuple[int, algebra.Matrix] | None:
     """The frame at the other end of a link from which a centre is given, and the vector to it.
 
     The vector is in the link's own frame.

@@ -1,9 +1,9 @@
 """What each parameter of a problem is, in words: length of link 2, from o_1 to o_2.
 
 It is told where the parameter itself is the value: alone, as the entry a of row 2, it is the distance between
-two axes; as a term of that entry it is a length in that row.  In any other expression, m l²/12, the place says
-nothing of it, and it is called by its dimension: a length.  Parameters that are alike, each with its own number,
-are told in one line with i (`told_together`).
+two axes; as a term of that entry it is a length in that row.  In any other expression, m l²/12, the place
+says nothing of it, and it is called by its dimension: a length.  Parameters that are alike, each with its own
+number, are told in one line with i (`told_together`).
 """
 
 from __future__ import annotations
@@ -148,11 +148,11 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
         is_angle = role is Role.REST and dimensions.get(name) == ""
         return "rad" if is_angle or role in (Role.TURN, Role.DOWN) else own
 
-    def role(name: str) -> Role:
+    def told(name: str) -> Role:
         own = found.get(name, Role.OTHER)
         return own if own is not Role.POSITION or dimensions.get(name) == "m" else Role.OTHER
 
-    return {name: (role(name), unit(name, role(name))) for name in robot.parameters}
+    return {name: (told(name), unit(name, told(name))) for name in robot.parameters}
 
 
 def _units_of_values(robot: Robot) -> dict[str, str]:
@@ -181,7 +181,7 @@ def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
 
 
 def _dimensions(robot: Robot) -> dict[str, str]:
-    """Units of the parameters as far as they are known: a torque, or a torsion spring's stiffness, is no energy."""
+    """Units of the parameters, where they are known: a torque, or a torsion spring's stiffness, is no energy."""
     known = Dimensions(robot.ring, robot, with_questions=True)
     units: dict[str, str] = {}
     for generator in robot.ring.generators:
@@ -283,8 +283,9 @@ def _asked(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
     for role, values in of_exact:
         entries = [entry for value in values if value is not None for entry in value.entries]
         yield from _untold(role, *map(_alone, entries))
-    for place in (*questions.loads, *questions.points):
-        for position in (place.position, _from_near_end(robot, place.link, place.position)):
+    places = [(load.link, load.position) for load in questions.loads]
+    for link, place in (*places, *((point.link, point.position) for point in questions.points)):
+        for position in (place, _from_near_end(robot, link, place)):
             yield from _untold(Role.PLACE, *map(_alone, position.entries if position is not None else ()))
     for _, dots, formula in questions.state.values:
         yield from _untold(Role.RATE if dots else Role.STATE, _alone_in_tree(formula))

@@ -74,12 +74,14 @@ class Style(Struct, frozen=True):
         """A number with a decimal point, where the style wants that and a fraction is not as good."""
         if not (self.decimal or node.decimal):
             return None
-        if self.rounds(node):
+        if self.digits and self.rounds(node):
             return rounded_text(Fraction(node.p, node.q), self.digits)
         return decimal_text(node.p, node.q)
 
     def rounds(self, node: Number) -> bool:
-        """Whether a number is shown rounded, having more digits than are shown."""
+        """Whether a number is shown rounded, or was rounded before."""
+        if node.rounded:
+            return True
         if not self.digits or not (self.decimal or node.decimal):
             return False
         text = decimal_text(node.p, node.q)

@@ -55,12 +55,14 @@ class Node(Struct, frozen=True, cache_hash=True):
 class Number(Node, frozen=True):
     """An exact rational p/q; negative numbers are written `Negative(Number(...))`.
 
-    `decimal` asks for a decimal point, whatever the style of the formula.
+    `decimal` asks for a decimal point, whatever the style of the formula; `rounded` says that the number
+    stands for another one, which it is nearest to.
     """
 
     p: int
     q: int = 1
     decimal: bool = False
+    rounded: bool = False
 
 
 class Degrees(Node, frozen=True):

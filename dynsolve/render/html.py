@@ -474,7 +474,7 @@ class _Page(MarkupPage):
         left = node.parts[0] if isinstance(node, Relation) else None
         if isinstance(node, Relation) and len(node.parts) > 2 and not any(map(holds_matrix, node.parts[:-1])):
             yield self.broken(Relation(node.parts[:-1], node.signs[:-1]))
-        chains = list(entry_equations(matrix, left, formula))
+        chains = list(entry_equations(matrix, left, formula, self.ruler.style))
         yield '<div class="columns">' if self.fit_columns(chains) else "<div>"
         yield from map(self.broken, chains)
         yield "</div>"

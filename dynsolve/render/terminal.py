@@ -282,8 +282,8 @@ def _entry_by_entry(
     """`d₁₂ = ...` a line for each entry; equal ones in one chain, those that are 0 last."""
     lines: list[str] = []
     left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
-    for chain in entry_equations(matrix, left, formula):
-        text = " = ".join(map(printer.text, chain.parts))
+    for chain in entry_equations(matrix, left, formula, printer.style):
+        text = printer.text(chain)
         first, *others = break_sum(text, room - indent, room - _HANG - indent)
         lines += [" " * indent + first, *(" " * (indent + _HANG) + other for other in others)]
     return lines

@@ -11,6 +11,8 @@ from itertools import takewhile
 from msgspec import Struct
 
 from dynsolve.document import Formula
+from dynsolve.notation.printing import Style
+from dynsolve.notation.rounding import marked
 from dynsolve.notation.tree import (
     ZERO,
     Cross,
@@ -73,8 +75,8 @@ MOST_ZEROS = 6
 """So many entries that are 0 are named."""
 
 
-def entry_equations(matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[Relation]:
-    """`d_12 = d_21 = ...`: equal entries in one chain, those that are 0 last.
+def entry_equations(matrix: Matrix, left: Node | None, formula: Formula, style: Style) -> Iterator[Relation]:
+    """`d_12 = d_21 = ...`: equal entries in one chain, those that are 0 last; ≈ before what is rounded.
 
     Many zeros are told in words, and so are those of what has no letter of its own, (A - B)_12.
     """
@@ -86,7 +88,9 @@ def entry_equations(matrix: Matrix, left: Node | None, formula: Formula) -> Iter
         many = MOST_ZEROS if has_letter else 1
         if value == ZERO and len(names) > many and len(found) > 1:
             names = [_OTHERS]
-        yield equation(*names, value)
+        chain = marked(equation(*names, value), style)
+        assert isinstance(chain, Relation)
+        yield chain
 
 
 def given_name(i: int, j: int, matrix: Matrix, formula: Formula) -> Node | None:

@@ -154,7 +154,7 @@ class Typesetter:
 
     def _each_entry(self, matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[list[Line]]:
         """`d_12 = ...` for each entry; equal ones in one chain, those that are 0 last."""
-        for chain in entry_equations(matrix, left, formula):
+        for chain in entry_equations(matrix, left, formula, self.ruler.style):
             yield list(self._level(chain))
 
     def equations(self, nodes: Sequence[Node]) -> list[Line]:

@@ -4,10 +4,7 @@ The section that closes a solution: the model, its matrices, the forces row by r
 
 Everything in it is the result of a step, taken from there, so that it cannot differ.
 
-The steps of a model in numbers as they are printed: ≈ before what is rounded, units behind results.
-
-A number that ends within the digits of the report is written whole, and = stands before it.  Any other is
-rounded where it is printed, and ≈ stands between the members of an equation of which one is rounded.
+The steps of a model in numbers as they are printed, with units behind results.
 
 A result that is a number alone has its unit behind it, and so has a matrix whose entries are all measured
 in one.  A formula of several factors or terms has none: the unit is that of its left side in the list of
@@ -17,10 +14,10 @@ notation, which says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import groupby
 from operator import attrgetter
 from types import MappingProxyType
-from typing import Any
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -39,6 +36,7 @@ from dynsolve.document import (
     Table,
     Text,
     reworded,
+    rewritten,
 )
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
@@ -60,6 +58,7 @@ from dynsolve.explain.writing import (
     titled,
 )
 from dynsolve.notation.printing import Style
+from dynsolve.notation.rounding import marked, marked_among_words
 from dynsolve.notation.tree import (
     ZERO,
     Matrix,
@@ -73,7 +72,6 @@ from dynsolve.notation.tree import (
     Words,
     equation,
     walk,
-    with_children,
 )
 from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.quantities import letters
@@ -97,55 +95,13 @@ _WIDEST = 50
 
 
 def measured_steps(steps: Iterable[Step], robot: Robot, style: Style) -> Iterator[Step]:
-    """The steps as they are; in a report with decimals, with ≈ and units."""
+    """The steps as they are; in a report with decimals, with units."""
     if not style.digits:
         yield from steps
         return
     known = _units(robot)
     for step in steps:
-        yield _step(_with_units(step, known, style), style)
-
-
-def marked(node: Node, style: Style) -> Node:
-    """A formula with ≈ for = where a number on either side is rounded.
-
-    >>> from dynsolve.notation.tree import Symbol, equation
-    >>> from dynsolve.notation.unicode import to_unicode
-    >>> style = Style(decimal=True, digits=6)
-    >>> to_unicode(marked(equation(Symbol("I"), Number(5, 96)), style), style)
-    'I ≈ 0.0520833'
-    >>> to_unicode(marked(equation(Symbol("I"), Number(5, 32)), style), style)
-    'I = 0.15625'
-    """
-    if not isinstance(node, Relation):
-        return with_children(node, lambda part: marked(part, style)) if isinstance(node, Row) else node
-    numbers = ([n for n in walk(part) if isinstance(n, Number)] for part in node.parts)
-    is_rounded = [any(map(style.rounds, own)) for own in numbers]
-    signs = (
-        "≈" if sign == "=" and (is_rounded[k] or is_rounded[k + 1]) else sign
-        for k, sign in enumerate(node.signs)
-    )
-    return replace(node, signs=tuple(signs))
-
-
-def _step(step: Step, style: Style) -> Step:
-    """A step with all its formulas marked."""
-
-    def all_of(parts: Iterable[Any]) -> tuple[Any, ...]:
-        return tuple(marked(part, style) if isinstance(part, Node) else part for part in parts)
-
-    table = step.table
-    return replace(
-        step,
-        why=all_of(step.why),
-        further=all_of(step.further),
-        working=all_of(step.working),
-        lines=tuple(replace(line, by=all_of(line.by), formulas=all_of(line.formulas)) for line in step.lines),
-        concluding=all_of(step.concluding),
-        result=all_of(step.result),
-        notes=tuple(map(all_of, step.notes)),
-        table=None if table is None else replace(table, rows=tuple(map(all_of, table.rows))),
-    )
+        yield _with_units(step, known, style)
 
 
 def _units(robot: Robot) -> dict[Node, str]:
@@ -465,6 +421,8 @@ class _Parts(Struct, dict=True):
             *self.closing(),
             *part("the notation", lambda: self.notation((*stated, *derivation))),
         ))  # fmt: skip
+        style = self.solution.style
+        document = rewritten(document, partial(marked, style=style), partial(marked_among_words, style=style))
         return reworded(document, of_second_edition) if self.solution.problem.edition == 2 else document
 
     def opening(self) -> Iterator[Block]:
@@ -503,7 +461,9 @@ class _Parts(Struct, dict=True):
         if self.solution.numbers is not None:
             from dynsolve.solution.numbers.blocks import blocks
 
-            yield from blocks(self.solution.numbers, self.detail, self.solution.problem.find, self.stages)
+            asked = self.solution.problem.find
+            derived = {name for step in self.steps for name in (step.id, *step.also)}
+            yield from blocks(self.solution.numbers, self.detail, asked, derived, self.stages)
 
     def derivation(self) -> Iterator[Block]:
         """Stages and their steps; in a whole derivation what is shown of it is counted."""

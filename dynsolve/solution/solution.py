@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from dynsolve.errors import AlgebraError, UsageError
-from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
@@ -274,12 +274,13 @@ class Solution(Dynamics, frozen=True, dict=True):
         given = parameters(self.problem, values)
         at = None if state is None else read_state(self.problem, state)
         numeric = self._with(given) if given.entries else self
+        decimal = given.decimal or digits is not None or is_numeric(self.robot)
         valued = Valued(
             robot=numeric.robot,
             values=numeric.values,
-            forms=numeric.forms,
+            forms=Forms(numeric.robot, numeric.values, decimal=True) if decimal else numeric.forms,
             given=given,
-            decimal=given.decimal or digits is not None or is_numeric(self.robot),
+            decimal=decimal,
             digits=digits or DIGITS,
         )
         numbers = Numbers(

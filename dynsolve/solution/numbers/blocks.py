@@ -89,21 +89,33 @@ _WIDEST = 50
 
 
 def blocks(
-    numbers: Numbers, detail: Detail, asked: Collection[str] = (), stages: Iterable[str] | None = None
+    numbers: Numbers,
+    detail: Detail,
+    asked: Collection[str] = (),
+    derived: Collection[str] = (),
+    stages: Iterable[str] | None = None,
 ) -> Iterator[Block]:
-    """The values, the results with them, those that are asked for where no other is shown, and the state."""
+    """The values, what is `asked` and what that is `derived` from with them, and at the state.
+
+    Where results alone are shown, only what is asked.
+    """
     chosen = None if stages is None else set(stages)
+    names = {"tau": {f"tau{q.index}" for q in numbers.robot.coordinates}}
+    wanted = set().union(*(names.get(name, {name}) for name in asked))
+
+    def led_to(found: dict[Stage, list[Shown]], known: Collection[str]) -> dict[Stage, list[Shown]]:
+        return {stage: [one for one in shown if one[0] in known] for stage, shown in found.items()}
+
     if numbers.given.entries:
         yield from _values(numbers)
     if numbers.valued is not None:
-        found = main_results(numbers.robot)
-        if detail is Detail.RESULTS:
-            names = {"tau": {f"tau{q.index}" for q in numbers.robot.coordinates}}
-            wanted = set().union(*(names.get(name, {name}) for name in asked))
-            found = {stage: [one for one in shown if one[0] in wanted] for stage, shown in found.items()}
-        yield from _results(numbers.robot, found, numbers.valued.shown, chosen)
+        known = wanted if detail is Detail.RESULTS else {*wanted, *derived}
+        yield from _results(
+            numbers.robot, led_to(main_results(numbers.robot), known), numbers.valued.shown, chosen
+        )
     if numbers.state is not None:
-        yield from _state(numbers, numbers.state, detail, chosen)
+        shown = main_results(numbers.robot) if detail <= Detail.BRIEF else all_results(numbers.robot)
+        yield from _state(numbers, numbers.state, led_to(shown, {*wanted, *derived}), chosen)
 
 
 # -- values ----------------------------------------------------------------------------------------
@@ -218,7 +230,9 @@ def _is_wide(matrix: Matrix) -> bool:
 # -- a state ---------------------------------------------------------------------------------------
 
 
-def _state(numbers: Numbers, state: State, detail: Detail, stages: set[str] | None) -> Iterator[Block]:
+def _state(
+    numbers: Numbers, state: State, shown: dict[Stage, list[Shown]], stages: set[str] | None
+) -> Iterator[Block]:
     robot = numbers.robot
     yield Heading("At a state", 2)
     rows: list[tuple[Node, GivenValue, str]] = []
@@ -242,5 +256,4 @@ def _state(numbers: Numbers, state: State, detail: Detail, stages: set[str] | No
     free = needed(state.robot)
     if free:
         yield Text((*_names("Parameters without a value stay symbols: ", free), "."))
-    shown = main_results(robot) if detail <= Detail.BRIEF else all_results(robot)
     yield from _results(robot, shown, state.shown, stages)

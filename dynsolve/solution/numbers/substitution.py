@@ -238,8 +238,9 @@ def rounded(node: Node, digits: int) -> Node:
     """
     match node:
         case Number(p, q):
-            value = significant(Fraction(p, q), digits)
-            return Number(value.numerator, value.denominator, decimal=True)
+            exact = Fraction(p, q)
+            value = significant(exact, digits)
+            return Number(value.numerator, value.denominator, decimal=True, rounded=value != exact)
         case Quotient(Number(p, q), Number(r, s)):
             return rounded(Number(p * s, q * r), digits)
         case Power(base, exponent):
