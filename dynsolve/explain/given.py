@@ -602,7 +602,7 @@ def _questions(forms: Forms) -> Iterator[Prose]:
             yield (f"The task is to have the {'velocity' if dots == 1 else 'acceleration'} ", wanted, ".")
     yield from (_load(forms, load) for load in questions.loads)
     ranges = [
-        Relation((one.low, Symbol(name), measured(one.high, _unit(robot, name))), ("≤", "≤"))
+        Relation((one.low, Symbol(name), _measured(one.high, _unit(robot, name))), ("≤", "≤"))
         for one in questions.limits
         for name in (one.coordinate,)
     ]
@@ -642,9 +642,13 @@ def _unit(robot: Robot, name: str, dots: int = 0) -> str:
 
 def _valued(robot: Robot, name: str, dots: int, value: Node) -> Node:
     """q₂ = 0.1 m; q̇₁ = 2 rad/s"""
+    return equation(Symbol(name, dots), _measured(value, _unit(robot, name, dots)))
+
+
+def _measured(value: Node, unit: str) -> Node:
+    """A value as the problem writes it with its unit, if it is a number."""
     exact = rational_value(value)
-    shown = value if exact is None else number(exact)
-    return equation(Symbol(name, dots), measured(shown, _unit(robot, name, dots)))
+    return measured(value if exact is None else number(exact), unit)
 
 
 def _target(robot: Robot, target: Target) -> Node:

@@ -47,7 +47,7 @@ def problem_names(robot: Robot) -> Iterator[Line]:
             yield _named(names, f"{of_joint}{what}{many}: generalized coordinate{many}", unit)
     if robot.given is None and robot.questions.candidates:
         yield _named([one.name for one in robot.questions.candidates], "matrices that are to be judged", "")
-    known = meanings(robot)
+    known, has_bodies = meanings(robot), bool(robot.bodies)
     for role in Role:
         units = dict.fromkeys(unit for own, unit, _ in known.values() if own is role)
         for unit in units:
@@ -56,7 +56,8 @@ def problem_names(robot: Robot) -> Iterator[Line]:
                 yield _named(names, words, unit)
             names = [name for name, told in alike if not told.words]
             if names:
-                yield _named(names, role.of(len(names), unit), unit)
+                is_told = unit == "m" or has_bodies  # a₁ (kg) of a given 𝐃 need be no mass
+                yield _named(names, role.of(len(names), unit if is_told else ""), unit)
 
 
 def _named(names: Sequence[str], meaning: str, unit: str) -> Line:

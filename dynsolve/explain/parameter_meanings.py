@@ -181,7 +181,7 @@ def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
 
 
 def _dimensions(robot: Robot) -> dict[str, str]:
-    """Units of the parameters, where they are known: a torque, or a torsion spring's stiffness, is no energy."""
+    """Units of the parameters as far as known: a torque, or a torsion spring's stiffness, is no energy."""
     known = Dimensions(robot.ring, robot, with_questions=True)
     units: dict[str, str] = {}
     for generator in robot.ring.generators:

@@ -172,7 +172,7 @@ def describe(dim: Dimension) -> str:
     return " ".join(u if e == 1 else u + raised(str(e)) for u, e in units)
 
 
-_SQUARE = re.compile(r"([A-Za-z]+)(?:\^|\*\*)?([23²³])")
+_SQUARE = re.compile(r"([A-Za-z]+)(?:\^|\*\*)?([2-9²³])")
 
 
 def node(unit: str) -> Node:

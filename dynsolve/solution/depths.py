@@ -378,7 +378,7 @@ def _listed(one: Formula | Equations, other: Formula, printer: UnicodePrinter) -
     nodes = one.nodes if isinstance(one, Equations) else (one.node,)
     if (isinstance(one, Formula) and (one.source or one.entries)) or other.source or other.entries:
         return None
-    if any(height(node) > 1 for node in (*nodes, other.node)):
+    if one.label.startswith(DEFINITIONS) or any(height(node) > 1 for node in (*nodes, other.node)):
         return None
     labels = [label for label in (one.label, *one.also, other.label, *other.also) if label]
     chain = _chain(nodes[-1], other.node)

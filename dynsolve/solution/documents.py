@@ -222,36 +222,51 @@ def _model(
         yield Text(model.why)
     assert model.formula is not None
     yield Formula(model.formula, source=model.source if detail > Detail.RESULTS else "")
-    if short is not None and short.at_symbols:
-        yield from _names(by_id, short)
     own = [by_id[name] for name in _MATRICES if name in by_id]
+    forces = [by_id[name] for q in robot.coordinates if (name := f"tau{q.index}") in by_id]
+    if short is not None and short.at_symbols:
+        yield from _names(robot, by_id, short, own, () if model.lines else forces)
     matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
     what = "With the matrices" if model.result else "The matrices"
-    yield Text((what, " of this robot", Reference(_MATRICES, ", "), ":"))
+    yield Text((what, f" of the {machine(robot)}", Reference(_MATRICES, ", "), ":"))
     if model.result:
         yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
     else:
         yield from matrices
     yield from _lines(model)
-    forces = [f"tau{q.index}" for q in robot.coordinates]
-    if not model.lines and all(name in by_id for name in forces):
+    if not model.lines and len(forces) == robot.n:
         lead: Prose = ("Row by row" if len(forces) > 1 else "Multiplied out",)
         passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
         lead += (", with ", equation(*passive, ZERO)) if passive else ()
-        yield Text((*lead, Reference(tuple(forces), ", "), ":"))
-        yield Equations(tuple(by_id[name].result[0] for name in forces))
+        yield Text((*lead, Reference(tuple(step.id for step in forces), ", "), ":"))
+        yield Equations(tuple(step.result[0] for step in forces))
 
 
-def _names(by_id: Mapping[str, Step], short: Abbreviated) -> Iterator[Block]:
-    """What the names in C, or in all of the matrices, stand for."""
+def _names(
+    robot: Robot,
+    by_id: Mapping[str, Step],
+    short: Abbreviated,
+    matrices: Sequence[Step],
+    rows: Sequence[Step],
+) -> Iterator[Block]:
+    """What the names in the matrices and in the rows of the forces stand for, where there are any."""
     from dynsolve.explain.named_steps import labels_of_names
 
-    where = "the matrices" if short.inertias.definitions else letters.C
-    below: Prose = ("In ", where, " and in the rows below")
+    def used(steps: Iterable[Step]) -> set[Node]:
+        return set(walk(*(step.result[0] for step in steps))) & short.symbols
+
+    met = used((*matrices, *rows))
+    for one in reversed(short.sums):
+        met |= set(walk(one.meaning)) & short.symbols if one.name in met else set()
+    if not met:
+        return
+    with_names = [quantities(robot)[step.id].letter(robot) for step in matrices if used([step])]
+    where: list[Node | str] = [*with_names, *["the rows below"] * bool(used(rows))]
+    below: Prose = ("In ", *listed(where))
     defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
-    meanings = tuple(equation(one.name, one.meaning) for one in short.sums)
+    meanings = tuple(equation(one.name, one.meaning) for one in short.sums if one.name in met)
     if short.single is not None and len(meanings) == 1:
-        yield Text((*below, " ", *meanings, defined, "."))
+        yield Text((*below, ", ", *meanings, defined, "."))
     else:
         yield Text((*below, defined, ":"))
         yield Equations(meanings)
@@ -421,9 +436,17 @@ class _Parts(Struct, dict=True):
             *self.closing(),
             *part("the notation", lambda: self.notation((*stated, *derivation))),
         ))  # fmt: skip
-        style = self.solution.style
-        document = rewritten(document, partial(marked, style=style), partial(marked_among_words, style=style))
+        if self.may_round():
+            style = self.solution.style
+            document = rewritten(
+                document, partial(marked, style=style), partial(marked_among_words, style=style)
+            )
         return reworded(document, of_second_edition) if self.solution.problem.edition == 2 else document
+
+    def may_round(self) -> bool:
+        """Whether there can be decimals: in a model in numbers, with values, and of what reaches numbers."""
+        is_numeric = self.solution.style.digits or self.solution.numbers is not None
+        return bool(is_numeric) or self.solution.robot.questions.target is not None
 
     def opening(self) -> Iterator[Block]:
         """The title, the source, and how numbers are printed."""

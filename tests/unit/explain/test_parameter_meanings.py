@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import meanings, told_together
+from dynsolve.notation.tree import Symbol
 from tests.support import solved
 
 MASS = "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]"
@@ -76,6 +78,8 @@ BODIES = [
     ("{mass: m, link: 1, center: tip, shape: {disk: {radius: r}}}", "r", "radius of body 1"),
     ("{mass: m, link: 1}, {mass: m, link: 1}", "m", "mass of bodies 1 and 2"),
     ("{mass: M + m, link: 1}", "M m", "part of the mass of body 1"),
+    ("{link: 1, shape: {rod: {length: b, density: rho0 + k*x}}}", "rho0 k",
+     "parameter of the density of body 1"),
 ]  # fmt: skip
 
 
@@ -83,6 +87,51 @@ BODIES = [
 def test_a_parameter_of_a_body(body: str, names: str, meaning: str) -> None:
     found = told(f"gravity: [0, -g, 0]\ndh: [{{theta: q*, a: l}}]\nmasses: [{body}]")
     assert found[names] == meaning
+
+
+# the file, a parameter that is a part of an expression alone, and what is told of it: its dimension
+PARTS = [
+    ("masses: [{mass: m, link: 1, center: tip, inertia: {zz: m*b^2/12}}]", "b", "length (m)"),
+    ("masses: [{mass: m, link: 1, center: tip, inertia: {zz: J + M*l^2}}]", "J",
+     "moment of inertia (kg m^2)"),
+    ("masses: [{mass: m, link: 1, center: tip, inertia: {zz: J + M*l^2}}]", "M", "mass (kg)"),
+    ("masses: [{mass: m, link: 1, center: [b/2 - c, 0, 0]}]", "b", "length (m)"),
+    ("masses: [{mass: 2*m, link: 1}]", "m", "mass (kg)"),
+    ("masses: [{mass: m, link: 1}]\npoints: {P: {link: 1, at: [b + c, 0, 0]}}\nfind: [pP]", "b",
+     "length (m)"),
+    ("masses: [{mass: m, link: 1}]\nforces: [{link: 1, at: [b/3, 0, 0], force: [2*F, 0, 0]}]\nfind: [Q]", "F",
+     "force (N)"),
+    ("masses: [{mass: m, link: 1}]\nconstraints: [tip.x^2 + tip.y^2 - R^2*(1 + k)]\nfind: [Ac]", "R",
+     "constant in the constraints (m)"),
+    ("masses: [{mass: m, link: 1}]\nconstraints: [{rates: r*q'}]\nfind: [Ac]", "r",
+     "constant in the constraints ()"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("rest", "name", "meaning"), PARTS)
+def test_what_is_part_of_an_expression_is_called_by_its_dimension(rest: str, name: str, meaning: str) -> None:
+    robot = solved(f"gravity: [0, -g, 0]\ndh: [{{theta: q*, a: l}}]\n{rest}").robot
+    (line,) = (line for line in problem_names(robot) if Symbol(name) in line.signs)
+    singular = str(line.words).removesuffix("s") if len(line.signs) > 1 else line.words
+    assert f"{singular} ({line.unit})" == meaning
+
+
+def test_a_length_in_positions_is_no_moment_of_inertia() -> None:
+    robot = solved("""
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies:
+    - {mass: M, at: [x, 0, 0]}
+    - mass: m
+      at: [x + l/2*sin(theta), -l/2*cos(theta), 0]
+      turn: theta
+      about: [0, 0, 1]
+      inertia: {zz: m*l^2/12}
+""").robot
+    assert [line.words for line in problem_names(robot) if Symbol("l") in line.signs] == [
+        "length in the given positions"
+    ]
 
 
 def test_in_the_modified_table_a_length_is_that_of_the_link_before() -> None:

@@ -213,3 +213,64 @@ LOADED = "gravity: none\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nfind: [
 )
 def test_a_force_from_outside_is_told_with_who_exerts_it_and_where(load: str, told: str) -> None:
     assert told in stated(solved(LOADED + load))[0]
+
+
+ASKED = """
+gravity: none
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {d: q3*}]
+masses: [{mass: m, link: 3, center: origin}]
+points: {P: {link: 2, at: {near: [lp, 0, 0]}}, E: {link: 1, at: tip}}
+springs: [{stiffness: 30, of: q3, rest: 2}]
+dampers: [{damping: 2, of: q2 - q1}]
+friction: {q1: {viscous: 3, coulomb: 4}}
+forces: [{link: 3, at: tip, force: [0, 0, -10], moment: [0, 0, 5]}]
+state: {q1: 30deg, q3: 1/2, q1': 2, q3': 3}
+limits: {q3: [0, 1/2]}
+task: [P.x, P.y]
+velocity: [0, v]
+weights: {q1: 2}
+find: [Q, qd, pP, pE]
+"""
+
+TOLD = [
+    "Point P of link 2 is at l_p from 𝐨₁ along 𝐱₂. Point E of link 1 is at 𝐨₁.",
+    "A spring of stiffness 30 N/m is at rest at q₃ = 2 m.",
+    "A damper of coefficient 2 N m s/rad acts",
+    "viscous friction of coefficient 3 N m s/rad and Coulomb friction of coefficient 4 N m",
+    "The force (0, 0, -10) N and the moment (0, 0, 5) N m act on link 3 at the tip.",
+    "Limits: 0 ≤ q₃ ≤ ½ m.",
+    "The state: q₁ = 30°, q₃ = ½ m, q̇₁ = 2 rad/s, q̇₃ = 3 m/s.",
+    "The weights are 𝐖 = [[2, 0, 0], [0, 1, 0], [0, 0, 1]]",
+]
+
+
+@pytest.mark.parametrize("told", TOLD)
+def test_points_weights_and_units_are_given(told: str) -> None:
+    solution = solved(ASKED)
+    words = " ".join(
+        part if isinstance(part, str) else to_unicode(part, solution.style)
+        for block in statement(solution.forms, solution.problem)
+        for part in (block.parts if isinstance(block, Text) else getattr(block, "node", ()) and (block.node,))
+    )
+    assert told.replace(" ", "") in words.replace(" ", "")
+
+
+def test_a_rate_that_is_kept_is_given() -> None:
+    hoop = """
+dh: [{theta: phi*, alpha: 90deg}, {theta: theta* - 90deg, a: r}]
+masses: [{mass: m, link: 2}]
+steady: {phi: W}
+find: [equilibria]
+"""
+    assert "The motion keeps φ̇ = W." in stated(solved(hoop))[0]
+
+
+def test_bodies_of_a_drawing_are_given() -> None:
+    drawn = """
+axes: [{turn: q1, about: [0, 0, 1], through: [0, 0, 0]}, {slide: d2, along: [1, 0, 0]}]
+tip: [a + d2, 0, 0]
+zero: drawn
+masses: [{mass: m1, link: 1, center: {drawn: [b/2, 0, 0]}}, {mass: m2, link: 2, center: tip}]
+"""
+    told = "body 1 in link 1, a point of mass m₁ drawn at (b/2, 0, 0); body 2 in link 2, a point of mass m₂"
+    assert told in stated(solved(drawn))[0]

@@ -10,6 +10,7 @@ from dynsolve.document import Heading
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail
 from dynsolve.explain.terms import terms_of, value_of_term
+from dynsolve.notation.rounding import marked
 from dynsolve.notation.tree import equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import TITLE, in_model, measured_steps, solution_document
@@ -97,7 +98,7 @@ def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> Non
         forces = list(line.formulas)
     matrices = by_id["model"].result or tuple(by_id[name].result[0] for name in "DCg")
     wanted = [*matrices, *forces] if solved(problem).is_short else []
-    model = [by_id["model"].formula, *wanted]
+    model = [marked(node, solution.style) for node in (by_id["model"].formula, *wanted)]
     assert shown[: len(model)] == model
     asked = set(solution.problem.find) - in_model(solution.robot)
     assert (len(shown) > len(model)) <= bool(asked)

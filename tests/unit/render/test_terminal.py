@@ -7,6 +7,7 @@ import pytest
 from dynsolve.document import Document, Fold, Formula, Heading, List, Note, Table, Text
 from dynsolve.explain.step import Detail
 from dynsolve.explain.writing import side_by_side
+from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     ZERO,
@@ -208,7 +209,7 @@ def test_zeros_without_a_letter_are_told_in_words() -> None:
     formula = Formula(equation(D, matrix))
 
     def texts(left: Node, of: Matrix = matrix) -> list[str]:
-        return [to_unicode(chain) for chain in entry_equations(of, left, formula)]
+        return [to_unicode(chain) for chain in entry_equations(of, left, formula, PLAIN)]
 
     assert texts(D) == ["D₁₁ = a", "D₁₂ = D₂₁ = D₂₂ = 0"]
     assert texts(Sum((D, Negative(D)))) == ["(D - D)₁₁ = a", "every other entry = 0"]

@@ -341,7 +341,14 @@ def test_significant_digits() -> None:
 
 
 def test_rounding_touches_numbers_and_not_exponents() -> None:
-    assert rounded(tree("x^12/3 + 1/3*y"), 2) == rounded(tree("x^12/3 + 0.33*y"), 2)
+    exact, given = (to_unicode(rounded(tree(text), 2)) for text in ("x^12/3 + 1/3*y", "x^12/3 + 0.33*y"))
+    assert exact == given
+
+
+def test_what_is_rounded_remembers_it() -> None:
+    for text, wanted in (("1/3", True), ("0.33", False), ("0.333", True)):
+        number = rounded(tree(text), 2)
+        assert isinstance(number, Number) and number.rounded is wanted
 
 
 def test_constants_become_decimals_to_forty_digits() -> None:
