@@ -30,7 +30,7 @@ from dynsolve.problem import read_problem
 from dynsolve.render.files import Format
 from dynsolve.solution.documents import solution_documents
 from dynsolve.solution.reports import rendered, report
-from tests.strangers.oracle import Unknown, random_point, relations, untrue
+from tests.strangers.oracle import Point, Unknown, random_point, relations, untrue
 from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
 
 SECONDS, FEW_JOINTS = 30, 4
@@ -98,16 +98,23 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
         raise Refused(str(error)) from None
     report(solution, Format.JSON)
     ways = list(product(Abbreviate, Detail))
-    documents = [one for way in Abbreviate for one in solution_documents(solution, tuple(Detail), None, way)]
+    made: dict[int, tuple[Document, ...]] = {}
+    documents: list[Document] = []
+    for way in Abbreviate:
+        names = id(solution.abbreviated(way))  # one object, or None, where two ways have the same names
+        if names not in made:
+            made[names] = solution_documents(solution, tuple(Detail), None, way)
+        documents += made[names]
+    point = random_point(solution, which)
     for place, ((abbreviate, detail), document) in enumerate(zip(ways, documents, strict=True)):
         if place == which % len(ways):
-            yield from _misread(solution, document, which)
+            yield from _misread(solution, document, point.again())
             format = TEXTS[place % 3]
             page = report(solution, format, detail=detail, abbreviate=abbreviate)
             yield from _program_text(page.decode(), format)
         if document in documents[:place]:  # nothing is long enough to be abbreviated
             continue
-        for one in untrue(document.blocks, random_point(solution, which)):
+        for one in untrue(document.blocks, point.again()):
             yield Fault(
                 "untrue", f"{one.where}: {to_unicode(one.left)} = {to_unicode(one.right)}: {one.numbers}"
             )
@@ -122,12 +129,9 @@ def _program_text(page: str, format: Format) -> Iterator[Fault]:
         yield Fault("program text", f"{format.value}: {_around(words, match)}")
 
 
-def _misread(
-    solution: Solution, document: Document, seed: int, counted: list[int] | None = None
-) -> Iterator[Fault]:
-    """Formulas that read otherwise, as text or as LaTeX, than they are meant; `counted` as [read, all]."""
-    style, point = solution.style, random_point(solution, seed)
-    count = [0, 0] if counted is None else counted
+def _misread(solution: Solution, document: Document, point: Point) -> Iterator[Fault]:
+    """Formulas that read otherwise, as text or as LaTeX, than they are meant."""
+    style = solution.style
     list(untrue(document.blocks, point))  # which defines the letters
     printed = {part for _, relation in relations(document.blocks) for part in walk(relation)}
     for printer, read in ((UnicodePrinter(style), value_of_text), (LatexPrinter(style), value_of_latex)):
@@ -145,14 +149,12 @@ def _misread(
                     continue
                 if meant.is_matrix or isinstance(part, Symbol | Letter | Number):
                     continue
-                count[1] += 1
                 text = printer.text(part)
                 try:
                     found = read(text, signs)
                 except (Unreadable, ZeroDivisionError, OverflowError, ValueError) as error:
                     yield Fault("unreadable", f"{where}: {error}")
                     continue
-                count[0] += 1
                 if not math.isclose(found, meant.value, rel_tol=READ, abs_tol=READ * max(meant.size, 1e-3)):
                     yield Fault("misread", f"{where}: {text} is {found}, and meant is {meant.value}")
 

@@ -78,6 +78,10 @@ class Point:
     known: dict[Node, Value] = field(default_factory=dict)
     free: set[Node] = field(default_factory=set)
 
+    def again(self) -> Point:
+        """The same for another report, whose letters are its own."""
+        return Point(dict(self.known), self.free)
+
     def value(self, node: Node) -> Value:
         """The value of a formula.  Raises Unknown."""
         found = self.known.get(node)

@@ -11,21 +11,17 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.mends import parts
 from dynsolve.answers.diagnosis.own_steps import ChangedDerivation
-from dynsolve.answers.judge import check
-from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
-from tests.unit.answers.hands import key, problem
+from tests.unit.answers.hands import checker, key, problem
 
 STEMS = ["in3140-rp", "planar-2r", "spherical-rrp", "rp-vertical", "elbow-3r", "planar-2r-remote"]
 START = ("rc", "v", "Kv", "Kw", "K", "P", "L", "dLdqd", "ddt", "dLdq", "tau")
 
 
-@lru_cache
 def graph(stem: str) -> AnswerGraph:
-    robot = problem(stem).robot
-    return AnswerGraph(AnswerRing(robot, key(stem)))
+    return checker(stem).graph
 
 
 @lru_cache
@@ -70,7 +66,7 @@ def test_a_slip_is_found_and_what_comes_after_it_follows(seed: int) -> None:
         Answer(g.answer(n), "", forms(stem).of(carried(n)), Place(i + 1, 1), "", occurrence=(i, 0))
         for i, n in enumerate(handed)
     )
-    report = check(problem(stem), Submission("", "", "", answers), key(stem))
+    report = checker(stem)(Submission("", "", "", answers))
     found = {g.node(a.name): a for a in report.answers if a.given}
     constant = start == "P" or (start[0] == "P" and start[1:].isdigit())
     for n in handed:
@@ -99,7 +95,7 @@ def test_the_key_is_correct_in_every_name(stem: str) -> None:
         Answer(g.answer(n), "", forms(stem).of(g.key(n)), Place(i + 1, 1), "", occurrence=(i, 0))
         for i, n in enumerate(nodes(stem))
     )
-    report = check(problem(stem), Submission("", "", "", answers), key(stem))
+    report = checker(stem)(Submission("", "", "", answers))
     assert [a.name for a in report.answers if a.given and (a.verdict != "correct" or a.notes)] == []
 
 
@@ -121,7 +117,7 @@ def test_two_slips_are_two_and_all_else_follows(seed: int) -> None:
         Answer(g.answer(n), "", forms(stem).of(carried(n)), Place(i + 1, 1), "", occurrence=(i, 0))
         for i, n in enumerate(nodes(stem))
     )
-    report = check(problem(stem), Submission("", "", "", answers), key(stem))
+    report = checker(stem)(Submission("", "", "", answers))
     for found in report.answers:
         if not found.given:
             continue

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.own_steps import DerivationSlips
 from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.answers.diagnosis.steps import variants
-from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
@@ -29,10 +25,8 @@ def test_the_example_of_a_slip_shows_it(code: str) -> None:
     assert code in codes(answer)
 
 
-@lru_cache
 def graph(stem: str) -> AnswerGraph:
-    robot = problem(stem).robot
-    return AnswerGraph(AnswerRing(robot, key(stem)))
+    return checker(stem).graph
 
 
 def _equal(a: Expr | Matrix, b: Expr | Matrix) -> bool:
@@ -131,7 +125,8 @@ def test_an_entry_of_an_inertia_matrix_is_no_transposed_matrix() -> None:
 def test_a_slip_long_before_is_named(stem: str, node: str) -> None:
     """Only what comes out at the end is handed in; slips with the same outcome are one to us."""
     g, forms = graph(stem), Forms(problem(stem).robot, key(stem))
-    outcomes = [(v, t) for v, t, _ in DerivationSlips(g).values(node) if not _equal(v, g.key(node))]
+    slips = checker(stem).derivation_slips
+    outcomes = [(v, t) for v, t, _ in slips.values(node) if not _equal(v, g.key(node))]
     for value, told in outcomes:
         answer = Answer(node, "", forms.of(value), Place(1, 1), "")
         report = checker(stem)(Submission("", "", "", (answer,)))

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.judge import check
-from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.verdict import JudgedAnswer
-from dynsolve.problem import read_problem
+from tests.unit.answers.hands import checker
 
 TWO_LINKS = """
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
@@ -27,8 +25,8 @@ find: [singular]
 
 
 def judged(problem: str, name: str, value: str) -> JudgedAnswer:
-    read = read_problem(problem, "own.yaml")
-    report = check(read, FileReader(read)(f"answers:\n  {name}: {value}\n", "answer.yaml"))
+    check = checker(problem)
+    report = check(check.reader(f"answers:\n  {name}: {value}\n", "answer.yaml"))
     return next(answer for answer in report.answers if answer.name == name)
 
 

@@ -10,10 +10,9 @@ import pytest
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.answer_verdict import NOT_FROM_OWN
-from dynsolve.answers.judge import check
 from dynsolve.answers.verdict import Answer, Place, Report, Submission
 from dynsolve.derivation import euler_lagrange
-from tests.unit.answers.hands import key, problem, verdicts
+from tests.unit.answers.hands import checker, key, problem, verdicts
 from tests.unit.answers.test_generated import forms, graph, spoilt
 
 STEMS = ["in3140-rp", "planar-2r", "rp-vertical", "elbow-3r", "spherical-rrp"]
@@ -25,7 +24,7 @@ def hand_in(stem: str, values: Mapping[str, Any]) -> Report:
         Answer(graph(stem).answer(node), "", forms(stem).of(value), Place(i + 1, 1), "", occurrence=(i, 0))
         for i, (node, value) in enumerate(values.items())
     )
-    return check(problem(stem), Submission("", "", "", answers), key(stem))
+    return checker(stem)(Submission("", "", "", answers))
 
 
 def assembled(stem: str, D: Matrix, Cqd: Matrix, g: Matrix) -> Matrix:

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.judge import check
-from dynsolve.answers.reading.files import FileReader
-from dynsolve.problem import read_problem
-from tests.unit.answers.hands import codes, judge, judged, verdicts
+from tests.unit.answers.hands import checker, codes, judge, judged, verdicts
 
 ARM = """
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
@@ -69,8 +66,8 @@ def test_verdicts(problem: str, name: str, vectors: list[list[str]] | str, verdi
     ],
 )
 def test_spaces_as_they_are_written(problem: str, name: str, written: str) -> None:
-    read = read_problem(problem, "own.yaml")
-    report = check(read, FileReader(read)(f"answers:\n  {name}: {written}\n", "answer.yaml"))
+    check = checker(problem)
+    report = check(check.reader(f"answers:\n  {name}: {written}\n", "answer.yaml"))
     assert next(found.verdict for found in report.answers if found.name == name) == "correct"
 
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.judge import check
-from dynsolve.answers.reading.files import FileReader
-from dynsolve.problem import read_problem
+from tests.unit.answers.hands import checker
 
 TWO_LINKS = """
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
@@ -104,16 +102,16 @@ SENTENCES = [(TWO_LINKS, text, {name: verdict}) for name, verdict, text in [
 
 @pytest.mark.parametrize(("problem", "text", "verdicts"), [*REPORTS, *SENTENCES])
 def test_sets_of_a_report(problem: str, text: str, verdicts: dict[str, str]) -> None:
-    read = read_problem(problem, "own.yaml")
+    check = checker(problem)
     for ending in (".md", ".tex"):
-        report = check(read, FileReader(read)(text + "\n", f"answer{ending}"))
+        report = check(check.reader(text + "\n", f"answer{ending}"))
         found = {answer.name: answer.verdict for answer in report.answers}
         assert {name: found.get(name) for name in verdicts} == verdicts, report.answers
 
 
 def test_both_signs_in_words_are_two_branches() -> None:
-    problem = read_problem(TWO_LINKS, "own.yaml")
+    check = checker(TWO_LINKS)
     c2 = "(px^2 + py^2 - l1^2 - l2^2)/(2*l1*l2)"
     text = f"q2 = +acos({c2}) or -acos({c2})\nq1 = atan2(py, px) - atan2(l2*sin(q2), l1 + l2*cos(q2))\n"
-    report = check(problem, FileReader(problem)(text, "answer.txt"))
+    report = check(check.reader(text, "answer.txt"))
     assert {a.name: a.verdict for a in report.answers}["inverse"] == "correct"
