@@ -19,6 +19,9 @@ from typing import Any
 import numpy as np
 
 import dynsolve
+from dynsolve.document import Document
+from dynsolve.explain.step import Detail
+from dynsolve.solution.documents import solution_documents
 
 ROOT = Path(__file__).parent.parent
 ALL_PROBLEMS = sorted((ROOT / "problems").glob("*.yaml"))
@@ -73,8 +76,24 @@ def solved(problem: Path | str) -> dynsolve.Solution:
 
     What it has derived and written once, no other test waits for.
     """
+    return _solved(_source(problem))
+
+
+def document(problem: Path | str, detail: Detail = Detail.FULL) -> Document:
+    """Its worked solution in a depth, one for all tests of a process, too."""
+    return _documents(_source(problem))[detail]
+
+
+def _source(problem: Path | str) -> Path | str:
     by_name = isinstance(problem, str) and "\n" not in problem
-    return _solved(problem_file(str(problem)) if by_name else problem)
+    return problem_file(str(problem)) if by_name else problem
+
+
+@cache
+def _documents(problem: Path | str) -> dict[Detail, Document]:
+    """In every depth: most of the work is that of the steps, which all of them have."""
+    depths = tuple(Detail)
+    return dict(zip(depths, solution_documents(_solved(problem), depths), strict=True))
 
 
 @cache

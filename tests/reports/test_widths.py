@@ -7,13 +7,11 @@ from pathlib import Path
 
 import pytest
 
-import dynsolve
-from dynsolve.explain.step import Detail
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.markup import LatexPrinter
 from dynsolve.render.line_breaking import formulas
-from dynsolve.solution.documents import solution_document
 from tests.reports.tools import typeset
+from tests.support import document, solved
 
 pytestmark = pytest.mark.latex
 
@@ -25,9 +23,9 @@ LONGEST = 300  # what TeX can still measure as one box
     "name", ["in3140-rp", "elbow-3r", "numeric-2r", "planar-2r-remote", "puma560-first3"]
 )
 def test_nothing_is_wider_than_it_is_thought_to_be(name: str, tmp_path: Path) -> None:
-    solution = dynsolve.solve(name)
-    nodes = [formula.node for formula in formulas(solution_document(solution, Detail.FULL).blocks)]
-    ruler, printer = Ruler(solution.style), LatexPrinter(solution.style)
+    style = solved(name).style
+    nodes = [formula.node for formula in formulas(document(name).blocks)]
+    ruler, printer = Ruler(style), LatexPrinter(style)
     nodes = [node for node in nodes if ruler.width(node) < LONGEST]
     boxes = "\n".join(
         f"\\setbox0\\hbox{{$\\displaystyle {printer.text(node)}$}}\\typeout{{WIDTH \\the\\wd0}}"

@@ -31,7 +31,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import definition_blocks, solution_document
-from tests.support import ROOT, solved
+from tests.support import ROOT, document, solved
 from tests.unit.explain.in_names import (
     assert_means_the_same,
     assert_same,
@@ -196,7 +196,7 @@ def displayed(blocks: Sequence[Any]) -> Iterator[Node]:
 @pytest.mark.slow
 def test_nothing_fills_pages() -> None:
     style = solved("puma560").style
-    for node in displayed(solution_document(solved("puma560")).blocks):
+    for node in displayed(document("puma560", Detail.NORMAL).blocks):
         value = node.parts[-1] if isinstance(node, Relation) else node
         rows = value.rows if isinstance(value, Matrix) else ((value,),)
         for row in rows:

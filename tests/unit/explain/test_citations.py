@@ -15,8 +15,7 @@ from dynsolve.document import Document, Text
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import BOOKS, CRAIG, GEOMETRY, GIVEN, LYNCH_PARK, SPONG, spong
 from dynsolve.render.line_breaking import formulas
-from dynsolve.solution.documents import solution_document
-from tests.support import STEMS, solved
+from tests.support import STEMS, document, solved
 
 LONG = {"puma560", "panda-7r", "stanford-6"}
 SHORT = sorted(STEMS - LONG)
@@ -94,21 +93,21 @@ def test_a_section_that_nobody_checked_is_an_error() -> None:
     ],
 )
 def test_each_book_that_is_cited_is_named_once_in_full(problem: str, books: list[object]) -> None:
-    document = solution_document(solved(problem))
-    told = words(document)
+    page = document(problem, Detail.NORMAL)
+    told = words(page)
     assert [book for book in BOOKS if book.full in told] == books
     assert all(told.count(book.full) == 1 for book in BOOKS if book in books)
-    shown = [formula.source for formula in formulas(document.blocks)]
+    shown = [formula.source for formula in formulas(page.blocks)]
     assert not any("2006" in source or "Spong" in source for source in shown)
 
 
 @pytest.mark.parametrize("detail", Detail)
 def test_a_book_is_named_where_it_is_cited_and_no_other(detail: Detail) -> None:
-    document = solution_document(solved("planar-2r"), detail)
-    sources = {formula.source for formula in formulas(document.blocks) if formula.source}
+    page = document("planar-2r", detail)
+    sources = {formula.source for formula in formulas(page.blocks) if formula.source}
     assert bool(sources) == (detail > Detail.RESULTS)
     assert all(source.removeprefix("from ").startswith("§") for source in sources)
-    assert [book for book in BOOKS if book.full in words(document)] == [SPONG] * bool(sources)
+    assert [book for book in BOOKS if book.full in words(page)] == [SPONG] * bool(sources)
 
 
 def test_json_names_the_book_with_each_section() -> None:

@@ -9,7 +9,7 @@ from functools import cache
 import pytest
 from msgspec.structs import replace
 
-from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text
+from dynsolve.document import Block, Fold, Formula, Heading, Note, Table, Text
 from dynsolve.explain.context import style_of
 from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
@@ -19,9 +19,8 @@ from dynsolve.notation.markup import LatexPrinter, MathMLPrinter, TypstPrinter
 from dynsolve.notation.tree import Function, Letter, Node, Sum, Symbol
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.render import latex, markdown
-from dynsolve.solution.documents import solution_document
 from tests.strangers.held import signs_in
-from tests.support import ALL_PROBLEMS, solved
+from tests.support import ALL_PROBLEMS, document, solved
 
 TOLD_IN_WORDS = {TRANSPOSED, *(("", "name", name) for name in COUNTING)}
 LONG = ["puma560", "stanford-6"]
@@ -45,11 +44,6 @@ masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
 """
 
 PRINTERS = (UnicodePrinter, LatexPrinter, MathMLPrinter, TypstPrinter)
-
-
-@cache
-def document(problem: str, detail: Detail = Detail.FULL) -> Document:
-    return solution_document(solved(problem), detail)
 
 
 @cache

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Iterator
+from functools import cache
 from typing import Any
 
 import pytest
@@ -24,7 +25,7 @@ from dynsolve.robot.questions import Method
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.dynamics import by_method
 from dynsolve.solution.solution import Solution
-from tests.support import solved
+from tests.support import document, solved
 from tests.unit.explain.test_abbreviated_steps import displayed
 
 NAMED = ("elbow-3r", "box-cylinder-rod-sphere", "spherical-rrp")
@@ -37,8 +38,9 @@ def named(problem: str) -> Abbreviated:
     return short
 
 
+@cache
 def steps(problem: str) -> dict[str, Step]:
-    return {step.id: step for step in solved(problem).explain(["vectorized"], named(problem))}
+    return {step.id: step for step in solved(problem).explain(short=named(problem))}
 
 
 def known(problem: str) -> dict[str, float]:
@@ -90,7 +92,7 @@ def test_the_rows_of_the_summary_are_in_the_names(problem: str) -> None:
     n = solution.robot.n
     for i in range(n):
         values |= {f"d{i + 1}{j + 1}": D[i][j] for j in range(n)} | {f"g{i + 1}": g[i][0]}
-    found = {step.id: step for step in solution.explain(["torque", "vectorized"], named(problem))}
+    found = steps(problem)
     own = [row for line in found["model"].lines for row in line.formulas]
     assert bool(own) == (problem in WITH_H)
     rows = own or [found[f"tau{q.index}"].result[0] for q in solution.robot.coordinates]
@@ -165,7 +167,7 @@ def told(blocks: Iterable[Block]) -> Iterator[Node]:
 @pytest.mark.parametrize("detail", list(Detail))
 @pytest.mark.parametrize("problem", ["elbow-3r", "planar-2r", "puma560-first3"])
 def test_names_are_defined_before_they_are_used(detail: Detail, problem: str) -> None:
-    shown = list(told(solution_document(solved(problem), detail).blocks))
+    shown = list(told(document(problem, detail).blocks))
     for one in named(problem).definitions:
         first = next(node for node in shown if one.name in set(walk(node)))
         assert isinstance(first, Relation)
@@ -197,7 +199,7 @@ def test_each_name_is_introduced_once_where_it_first_comes_up(
 ) -> None:
     style, names = solved(problem).style, {one.name for one in named(problem).definitions}
     found: dict[str, list[str]] = {}
-    for step in solved(problem).explain(short=named(problem)):
+    for step in steps(problem).values():
         for line in step.lines:
             for node in line.formulas:
                 if isinstance(node, Relation) and node.parts[0] in names:
@@ -208,7 +210,7 @@ def test_each_name_is_introduced_once_where_it_first_comes_up(
 @pytest.mark.parametrize("problem", ["elbow-3r", "puma560-first3"])
 @pytest.mark.parametrize("name", ["tau1", "tau2", "tau3", "ddt1", "ddt2", "ddt3", "dLdq2", "dLdq3", "Cqd"])
 def test_forces_in_names_mean_the_same(problem: str, name: str) -> None:
-    found = {step.id: step for step in solved(problem).explain(short=named(problem))}[name]
+    found = steps(problem)[name]
     values, wanted = known(problem), solved(problem).forms(name)
     ours, theirs = evaluate(last(found.result[0]), values), evaluate(wanted, values)
     assert_same(ours, theirs) if isinstance(ours, list) else assert_same([ours], [theirs])

@@ -15,7 +15,7 @@ from dynsolve.notation.tree import equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import TITLE, in_model, measured_steps, solution_document
 from tests.robots import robots
-from tests.support import STEMS, solved
+from tests.support import STEMS, document, solved
 from tests.unit.explain.test_abbreviated_steps import displayed
 
 
@@ -82,7 +82,7 @@ CLOSED = [
 @pytest.mark.parametrize(("problem", "detail"), CLOSED)
 def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> None:
     short = solved(problem).abbreviated("auto")
-    blocks = solution_document(solved(problem), detail).blocks
+    blocks = document(problem, detail).blocks
     headings = [place for place, block in enumerate(blocks) if isinstance(block, Heading)]
     last = headings[-3 if detail is Detail.FULL else -1]  # before the verification and the notation
     assert blocks[last] == Heading(TITLE, closing=True)

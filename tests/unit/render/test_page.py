@@ -18,7 +18,7 @@ from dynsolve.render.markdown import escaped
 from dynsolve.render.page import before_closing, closing, introduces
 from dynsolve.render.prose import visible, with_formulas
 from dynsolve.solution.documents import solution_document
-from tests.support import solved
+from tests.support import document, solved
 
 # -- which blocks stay on one page, and what closes a document ---------------------------------------
 
@@ -79,10 +79,10 @@ def test_a_list_of_equations_has_one_number() -> None:
 
 
 def test_the_lists_of_a_long_model_are_referred_to() -> None:
-    document = solution_document(solved("stanford-6"), Detail.FULL, stages=["vectorized"])
+    page = solution_document(solved("stanford-6"), Detail.FULL, stages=["vectorized"])
     for name in ("constants", "recurring", "christoffel"):
-        assert name in numbered(document)
-    assert "With (1) and (2):" in markdown.render(document)
+        assert name in numbered(page)
+    assert "With (1) and (2):" in markdown.render(page)
 
 
 REFERRED = Document((
@@ -107,8 +107,8 @@ def test_each_of_several_documents_on_a_page_refers_to_its_own_numbers() -> None
 
 
 def test_both_ways_and_the_summary_say_which_equations_they_speak_of() -> None:
-    document = solution_document(solved("in3140-rp"), Detail.FULL)
-    number, text = numbered(document), markdown.render(document)
+    page = document("in3140-rp")
+    number, text = numbered(page), markdown.render(page)
     for one, other in (("D", "D_sum"), ("Cqd", "Cqd-rows"), ("Cqd-2", "g")):
         assert f" in ({number[one]}) and ({number[other]})" in text
     assert f"With the matrices of the arm, ({number['D']}), ({number['C']}) and ({number['g']}):" in text
@@ -116,15 +116,15 @@ def test_both_ways_and_the_summary_say_which_equations_they_speak_of() -> None:
 
 
 def test_the_summary_of_a_long_model_refers_to_its_matrices() -> None:
-    document = solution_document(solved("stanford-6"), Detail.FULL)
-    number, text = numbered(document), markdown.render(document)
+    page = document("stanford-6")
+    number, text = numbered(page), markdown.render(page)
     for id, before in (("D", "$"), ("christoffel", "symbols"), ("g", "$")):
         assert f"{before} ({number[id]})" in text.split("Summary")[-1]
     assert f"from the Christoffel symbols ({number['christoffel']}), $" in text  # no entry of C
 
 
 def test_in_brief_the_summary_of_a_long_model_speaks_of_no_symbols_for_there_are_none() -> None:
-    said = markdown.render(solution_document(solved("stanford-6"), Detail.BRIEF)).split("Summary")[-1]
+    said = markdown.render(document("stanford-6", Detail.BRIEF)).split("Summary")[-1]
     assert (
         "Christoffel" not in said and r"$\mathbf{C}$ follows from $\mathbf{D}$ as it is told there." in said
     )

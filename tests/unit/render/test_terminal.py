@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.document import Document, Fold, Formula, Heading, List, Note, Table, Text
-from dynsolve.explain.step import Detail
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.text import read
@@ -29,8 +28,7 @@ from dynsolve.render.latex import LatexPrinter
 from dynsolve.render.page import in_line
 from dynsolve.render.terminal import break_sum, render
 from dynsolve.render.terminal_boxes import entry_equations
-from dynsolve.solution.documents import solution_document
-from tests.support import solved
+from tests.support import document, solved
 
 # -- documents in a terminal: nothing runs over, nothing is broken inside a matrix -------------------
 
@@ -159,8 +157,7 @@ def test_escape_codes_do_not_reach_the_terminal() -> None:
 @pytest.mark.parametrize("columns", [60, 80, 132])
 @pytest.mark.parametrize("stem", LIBRARY)
 def test_no_line_of_a_solution_runs_over_and_no_matrix_is_text(stem: str, columns: int) -> None:
-    document = solution_document(solved(stem), Detail.FULL)
-    shown = [line.text for line in render(document, columns, solved(stem).style)]
+    shown = [line.text for line in render(document(stem), columns, solved(stem).style)]
     assert not [text for text in shown if width(text) > columns]
     assert not [text for text in shown if "[[" in text]
 

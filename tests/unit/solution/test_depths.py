@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from functools import cache
 from itertools import pairwise
 
 import pytest
@@ -20,10 +19,9 @@ from dynsolve.notation.unicode import to_unicode, width
 from dynsolve.render.files import Format
 from dynsolve.render.page import leads_on
 from dynsolve.solution.depths import condensed
-from dynsolve.solution.documents import solution_document
-from dynsolve.solution.reports import report
+from dynsolve.solution.reports import rendered
 from tests.strangers.generator import stranger, written
-from tests.support import solved
+from tests.support import document, solved
 
 PROBLEMS = [
     "in3140-rp", "planar-2r", "elbow-3r", "spherical-rrp", "cartesian-pp", "numeric-2r",
@@ -34,9 +32,12 @@ SHOWN = [(problem, detail) for problem in PROBLEMS for detail in Detail]
 WIDEST = 100
 
 
-@cache
 def blocks_of(problem: str, detail: Detail) -> tuple[Block, ...]:
-    return solution_document(solved(problem), detail).blocks
+    return document(problem, detail).blocks
+
+
+def page_of(problem: str, detail: Detail) -> str:
+    return rendered(document(problem, detail), solved(problem).style, Format.TEXT, fragment=False).decode()
 
 
 def flat(blocks: Iterable[Block]) -> Iterator[Block]:
@@ -151,7 +152,7 @@ def test_no_equation_stands_twice_in_a_row(problem: str, detail: Detail) -> None
 
 @pytest.mark.parametrize(("problem", "detail"), SHOWN)
 def test_no_line_is_wider_than_the_page(problem: str, detail: Detail) -> None:
-    page = report(solved(problem), Format.TEXT, detail=detail).decode()
+    page = page_of(problem, detail)
     assert [line for line in page.splitlines() if width(line) > WIDEST] == []
 
 
@@ -187,7 +188,7 @@ LINES = {
 @pytest.mark.parametrize("problem", LINES)
 def test_a_depth_is_as_long_as_it_is_meant_to_be(problem: str) -> None:
     depths = (Detail.RESULTS, Detail.BRIEF, Detail.NORMAL)
-    pages = [report(solved(problem), Format.TEXT, detail=detail).decode() for detail in depths]
+    pages = [page_of(problem, detail) for detail in depths]
     lengths = [len(page.splitlines()) for page in pages]
     assert all(length <= most for length, most in zip(lengths, LINES[problem], strict=True)), lengths
 

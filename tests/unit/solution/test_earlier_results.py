@@ -9,14 +9,13 @@ from functools import lru_cache
 import pytest
 
 from dynsolve.document import Block, Equations, Fold, Formula, Note, Prose, Reference, Text, Uses
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Row, Sum, Symbol, children
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.render import markdown
 from dynsolve.render.line_breaking import numbered
 from dynsolve.solution.depths import labelled_results
-from dynsolve.solution.documents import solution_document
-from tests.support import ALL_PROBLEMS, solved
+from tests.support import ALL_PROBLEMS, document, solved
 
 LONG = ["puma560", "stanford-6"]
 SHORT = sorted({path.stem for path in ALL_PROBLEMS} - {*LONG, "panda-7r"})
@@ -25,7 +24,7 @@ PROBLEMS = [*SHORT, *(pytest.param(name, marks=pytest.mark.slow) for name in LON
 
 @lru_cache
 def folds(problem: str) -> tuple[Fold, ...]:
-    return tuple(steps_in(solution_document(solved(problem), Detail.FULL).blocks))
+    return tuple(steps_in(document(problem).blocks))
 
 
 def steps_in(blocks: tuple[Block, ...]) -> Iterator[Fold]:
@@ -90,8 +89,8 @@ def test_c_is_made_of_all_christoffel_symbols_that_stand_in_it() -> None:
 
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
-    document = solution_document(solved(problem), Detail.FULL)
-    numbers = numbered(document)
+    page = document(problem)
+    numbers = numbered(page)
     seen: set[str] = set()
     for fold in folds(problem):
         for block in fold.blocks:
@@ -100,7 +99,7 @@ def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
                 assert set(shown) <= seen, fold.title
             elif isinstance(block, Formula | Equations) and block.label:
                 seen.add(block.label)
-    text = markdown.render(document)
+    text = markdown.render(page)
     tags = {int(number) for number in re.findall(r"\\tag\{(\d+)\}", text)}
     cited_numbers = {
         int(n) for line in re.findall(r"^With .*", text, re.M) for n in re.findall(r"\((\d+)\)", line)
