@@ -22,6 +22,7 @@ import dynsolve
 from dynsolve.document import Document
 from dynsolve.explain.step import Detail
 from dynsolve.solution.documents import solution_documents
+from dynsolve.solution.json_export import to_json
 
 ROOT = Path(__file__).parent.parent
 ALL_PROBLEMS = sorted((ROOT / "problems").glob("*.yaml"))
@@ -102,7 +103,7 @@ def _solved(problem: Path | str) -> dynsolve.Solution:
 
 
 def solve_json(problem: Path | str) -> dict[str, Any]:
-    """The JSON of a solution; `problem` is a path, or the text of a problem file."""
+    """The JSON of a solution without its steps; `problem` is a path, or the text of a problem file."""
     return _json_of(problem) if isinstance(problem, Path) else _plain(dynsolve.solve(problem))
 
 
@@ -112,7 +113,19 @@ def _json_of(problem: Path) -> dict[str, Any]:
 
 
 def _plain(solution: dynsolve.Solution) -> dict[str, Any]:
-    return json.loads(json.dumps(solution.to_json()))
+    return json.loads(json.dumps(to_json(_Unexplained(solution))))
+
+
+class _Unexplained:
+    """A solution of which no step is told: to explain the results takes longer than to find them."""
+
+    steps = ()
+
+    def __init__(self, solution: dynsolve.Solution) -> None:
+        self._solution = solution
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._solution, name)
 
 
 def numbers(entries: Any, values: Mapping[str, float]) -> Any:

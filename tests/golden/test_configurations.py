@@ -117,7 +117,7 @@ dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, a: L2}, {theta: q3*, a: L3}
 gravity: none
 find: [singular]
 """
-    steps = {step["id"]: step for step in solve_json(text)["steps"]}
+    steps = {step["id"]: step for step in dynsolve.solve(text).to_json()["steps"]}
     # where both hold, the arm being stretched along its first axis, the rank is 1
     assert all(
         "the rank is in general 2 instead of 3" in steps[name]["why"] for name in ("singular_1", "singular_2")
