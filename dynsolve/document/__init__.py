@@ -149,6 +149,11 @@ class Document(Struct, frozen=True):
 
     blocks: tuple[Block, ...]
 
+    @property
+    def is_titled(self) -> bool:
+        """Whether it begins with a title."""
+        return any(isinstance(block, Heading) and block.level == 1 for block in self.blocks[:1])
+
 
 def rewritten(document: Document, change: Callable[[Node], Node], inline: Callable[[Node], Node]) -> Document:
     """The document with its formulas changed, those among words by `inline`."""

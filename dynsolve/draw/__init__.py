@@ -102,17 +102,17 @@ def is_drawn(robot: Robot) -> bool:
     return robot.has_table or bool(robot.bodies)
 
 
-def _scene(problem: Problem, star: bool) -> Scene:
+def _scene(problem: Problem, star: bool, frames: bool = True) -> Scene:
     from dynsolve.draw.placed_bodies import placed_scene
     from dynsolve.draw.scene import scene
 
-    return (scene if problem.robot.has_table else placed_scene)(problem, star)
+    return scene(problem, star, frames) if problem.robot.has_table else placed_scene(problem, star)
 
 
-def picture(problem: Problem, *, star: bool = True) -> Picture:
-    """The picture as a block of a document."""
+def picture(problem: Problem, *, star: bool = True, frames: bool = True) -> Picture:
+    """The picture as a block of a document, of an arm with its `frames` or without them."""
     from dynsolve.document import Picture
     from dynsolve.draw.figure import to_latex_picture, to_svg
 
-    drawn = _scene(problem, star)
+    drawn = _scene(problem, star, frames)
     return Picture(to_svg(drawn), drawn.caption, to_latex_picture(drawn))

@@ -130,6 +130,7 @@ SLIDE = 0.9
 """How far out a slide is drawn whose letter stands in a drawing."""
 
 CAPTION = "The manipulator with its frames; not to scale. 𝐱ᵢ and 𝐳ᵢ begin at the origin 𝐨ᵢ, and 𝐲ᵢ = 𝐳ᵢ × 𝐱ᵢ."
+WITHOUT_FRAMES = "The manipulator; not to scale."
 PARALLELS = "Dashed grey lines at a joint are parallel to the directions between which its angle is measured."
 """Said where one of them is parallel to no x axis, since degrees are added to its angle."""
 
@@ -161,8 +162,11 @@ class Scene(Struct, frozen=True):
     style: Style
 
 
-def scene(problem: Problem, star: bool = True) -> Scene:
-    """The picture of a problem's robot, drawn from its table at a pose where it shows best."""
+def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
+    """The picture of a problem's robot, drawn from its table at a pose where it shows best.
+
+    Without `frames` nothing tells where these are: the angles are shown by their senses alone.
+    """
     robot = problem.robot
     values = numbers(problem)
     world = orientation(robot, values, problem.normals is not None)
@@ -171,7 +175,8 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     notes = poses.Notes(_STAR if star else PLAIN, Taken())
     notes.taken.add([*under, *body])
     notes.solid.add(body)
-    poses.frames(pose, world.gravity, notes)
+    if frames:
+        poses.frames(pose, world.gravity, notes)
     if has_world(robot, values):
         under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
@@ -187,7 +192,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        _caption(robot, values, pose, labels),
+        _caption(robot, values, pose, labels, frames),
         _description(problem),
         paths,
         labels,
@@ -204,7 +209,7 @@ def allowed_pose(robot: Robot, values: RobotNumbers, world: Orientation) -> Pose
     return found and dressed(robot, values, found[0])
 
 
-def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[Label]) -> str:
+def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[Label], frames: bool) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
     pushed = [load for load, *_ in drawn_forces(robot, values, pose)]
@@ -226,7 +231,8 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (NOT_DRAWN, any(not load.moment.is_zero or load not in pushed for load in robot.questions.loads)),
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
-    return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])
+    opening = CAPTION if frames else WITHOUT_FRAMES
+    return " ".join([opening, *(sentence for sentence, holds in said if holds)])
 
 
 def _is_number(label: Label) -> bool:

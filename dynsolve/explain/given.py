@@ -102,18 +102,24 @@ CALLED = {
 """What whole answers are called; others are told by their letters."""
 
 
-def statement(forms: Forms, problem: Problem, sines: Iterable[Line] = ()) -> Iterator[Block]:
-    """Given: the arm or the mechanism, what acts on it, what is asked of it; its symbols; To be found."""
+def statement(
+    forms: Forms, problem: Problem, sines: Iterable[Line] = (), *, frames: bool = True
+) -> Iterator[Block]:
+    """Given: the arm or the mechanism, what acts on it; its symbols, without `frames` by no frame."""
     given = [sentence for sentence in _sentences(forms, problem) if sentence]
     if given:
         yield from displayed(("Given: ", *sentences(given)))
     names: list[Prose] = []
-    for line in problem_names(forms.robot):  # l₁, l₂: length of link i (m)
+    for line in problem_names(forms.robot, frames=frames):  # l₁, l₂: length of link i (m)
         unit: Prose = (" (", units.node(line.unit), ")") if line.unit else ()
         names.append((line.sign, f": {line.meaning}", *unit))
     names += [(line.words,) for line in sines]
     if names:
         yield List(tuple(names))
+
+
+def to_be_found(forms: Forms, problem: Problem) -> Iterator[Text]:
+    """What is asked, in a sentence."""
     found = [called for name in problem.find if (called := _called(forms, name))]
     if found:
         yield Text(("To be found: ", *listed(found), "."))

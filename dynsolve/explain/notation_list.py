@@ -34,8 +34,8 @@ COUNTING = ("i", "j", "k", "n", "t")
 # -- the names of the problem ----------------------------------------------------------------------
 
 
-def problem_names(robot: Robot) -> Iterator[Line]:
-    """The coordinates, and the parameters by what they are."""
+def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
+    """The coordinates, and the parameters by what they are; without `frames` by no frame."""
     of_joint = "joint " if robot.has_table else ""
     for kind, what, unit in (
         (JointType.REVOLUTE, "angle", "rad"),
@@ -52,12 +52,17 @@ def problem_names(robot: Robot) -> Iterator[Line]:
         units = dict.fromkeys(unit for own, unit, _ in known.values() if own is role)
         for unit in units:
             alike = [(name, told) for name, (own, its, told) in known.items() if (own, its) == (role, unit)]
-            for names, words in told_together([(name, told) for name, told in alike if told.words]):
+            for names, words in told_together(
+                [(name, told) for name, told in alike if frames and told.words]
+            ):
                 yield _named(names, words, unit)
-            names = [name for name, told in alike if not told.words]
+            names = [name for name, told in alike if not (frames and told.words)]
             if names:
                 is_told = unit == "m" or has_bodies  # a₁ (kg) of a given 𝐃 need be no mass
-                yield _named(names, role.of(len(names), unit if is_told else ""), unit)
+                meaning = role.of(len(names), unit if is_told else "")
+                if role is Role.LENGTH and not frames:
+                    meaning = agreeing("length|lengths in the figure", len(names))
+                yield _named(names, meaning, unit)
 
 
 def _named(names: Sequence[str], meaning: str, unit: str) -> Line:

@@ -216,9 +216,21 @@ _DOUBLE_NAME = re.compile(r"\b[A-Z][a-z]+-[A-Z][a-z]+\b")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>(?:[.,:;)]+|-\w+)")
 
 
-def render(document: Document, style: Style = PLAIN, ruler: Ruler | None = None) -> str:
-    """A page that is complete in itself; `ruler` knows widths of its formulas already."""
-    return _file(document, f"<main>\n{_Page(_Formulas(style, ruler), document).all()}</main>")
+def render(
+    document: Document,
+    style: Style = PLAIN,
+    ruler: Ruler | None = None,
+    further: Sequence[tuple[Document, Style]] = (),
+) -> str:
+    """A page that is complete in itself; `ruler` knows widths of its formulas already.
+
+    `further` documents stand behind it, each in its own style.
+    """
+    behind = "".join(
+        f"<hr>\n{_Page(_Formulas(its), other, f'behind-{k}-').all()}"
+        for k, (other, its) in enumerate(further)
+    )
+    return _file(document, f"<main>\n{_Page(_Formulas(style, ruler), document).all()}{behind}</main>")
 
 
 def render_choice(documents: Mapping[str, Document], style: Style, chosen: str) -> str:

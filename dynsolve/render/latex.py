@@ -251,12 +251,12 @@ _ROW_SPACES = ((r"\left", r"\\[12pt]"), (r"\dfrac", r"\\[9pt]"))
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
 
-def render(document: Document, style: Style = PLAIN) -> str:
-    """A complete document."""
+def render(document: Document, style: Style = PLAIN, *further: tuple[Document, Style]) -> str:
+    """A complete document, and `further` ones behind it, each in its own style."""
     page = _Page(style, PAGE, document, contents=is_long(document))
     title = next((block.text for block in document.blocks if isinstance(block, Heading)), "")
     below = [block for block in document.blocks if not (isinstance(block, Heading) and block.level == 1)]
-    body = "\n".join(page.all(below))
+    body = "\n".join((*page.all(below), *(render_blocks(*each) for each in further)))
     words = page.words(title)
     return (
         f"{PREAMBLE}{MACROS}\\begin{{document}}\n\\markright{{{page.words(running_title(title))}}}\\thispagestyle{{plain}}\n"
@@ -264,12 +264,28 @@ def render(document: Document, style: Style = PLAIN) -> str:
     )
 
 
-def render_fragment(document: Document, style: Style = PLAIN) -> str:
+def render_blocks(document: Document, style: Style) -> str:
+    """The blocks of a document alone, after which others follow; one that has a title begins a page."""
+    page = _Page(style, FRAGMENT_PAGE, document)
+    page.closing = ()
+    begin = ["\\newpage"] if document.is_titled else []
+    return "\n".join((*begin, *page.all(document.blocks)))
+
+
+def render_fragment(document: Document, style: Style = PLAIN, *further: tuple[Document, Style]) -> str:
     r"""A fragment for \input into another document; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
-    body = "\n".join(page.all(document.blocks))
+    body = "\n".join((*page.all(document.blocks), *(render_blocks(*each) for each in further)))
     begin = "\\begingroup\\emergencystretch=6em\\renewcommand{\\arraystretch}{1.12}"
     return f"{NEEDS}{MACROS}{begin}\n{body}\n\\par\\endgroup\n"
+
+
+def of_class(name: str, body: str) -> str:
+    """A complete document of another class, whose page and headings it has."""
+    return (
+        f"\\documentclass[a4paper]{{{name}}}\n\\usepackage{{amsmath}}\n\\setcounter{{MaxMatrixCols}}{{30}}\n"
+        f"{MACROS}\\begin{{document}}\n{body}\n\\end{{document}}\n"
+    )
 
 
 def _fence(sign: str, height: float) -> str:

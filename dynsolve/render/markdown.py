@@ -7,6 +7,7 @@ keep, where Markdown takes a backslash away from `\\`.
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Iterator, Sequence
 
 from dynsolve.document import (
@@ -35,6 +36,9 @@ from dynsolve.render.typesetting import Line
 
 PAGE = 40.0
 """The width of a page on GitHub, in em."""
+
+PICTURE_DATA = "data:image/svg+xml;base64,"
+"""What stands before the picture's data."""
 
 _NUMBER = 3.0
 _MOST_LINES = 40  # a display that MathJax and KaTeX still set
@@ -111,6 +115,9 @@ class _Page(TypesetPage):
         return self.part(cell).replace("|", "\\|") if isinstance(cell, Verbatim) else self.part(cell)
 
     def picture(self, picture: Picture) -> Iterator[str]:
+        """The picture in the page itself, which then needs no file beside it."""
+        data = b64encode(picture.svg.encode()).decode()
+        yield f"![]({PICTURE_DATA}{data})\n"
         yield f"*{self.words(picture.caption)}*\n" if picture.caption else ""
 
     def escaped(self, text: str) -> str:

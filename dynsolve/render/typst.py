@@ -123,8 +123,8 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 """
 
 
-def render(document: Document, style: Style = PLAIN) -> bytes:
-    """A PDF, the same bytes for the same document.
+def render(document: Document, style: Style = PLAIN, *further: tuple[Document, Style]) -> bytes:
+    """A PDF, the same bytes for the same document; `further` ones stand behind it, each in its own style.
 
     Raises UsageError where the extra `pdf` is not installed.
     """
@@ -132,19 +132,25 @@ def render(document: Document, style: Style = PLAIN) -> bytes:
         import typst
     except ImportError:
         raise UsageError("PDF needs the extra [pdf]: pip install 'dynsolve[pdf]'") from None
-    source = to_typst_document(document, style).encode()
+    source = to_typst_document(document, style, *further).encode()
     pdf: bytes = typst.compile(source, format="pdf", ignore_system_fonts=True, timestamp=0)
     return pdf
 
 
-def to_typst_document(document: Document, style: Style = PLAIN) -> str:
-    """The source of a complete Typst document."""
+def to_typst_document(document: Document, style: Style = PLAIN, *further: tuple[Document, Style]) -> str:
+    """The source of a complete Typst document; of those behind it one that has a title begins a page."""
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
     page = _Page(style, document)
     texts = {"{title}": quoted(title), "{header}": quoted(_known(running_title(title)))}
     texts["{face}"] = quoted(_FACE)
     preamble = re.sub("|".join(texts), lambda found: texts[found[0]], _PREAMBLE)
-    return preamble + "\n".join(page.all(document)) + "\n"
+    body = [*page.all(document)]
+    for other, its in further:
+        body += ["#pagebreak()"] if other.is_titled else []
+        page = _Page(its, other)
+        page.closing = () if other is not further[-1][0] else page.closing
+        body += page.all(other)
+    return preamble + "\n".join(body) + "\n"
 
 
 def _fence(sign: str, height: float) -> str:

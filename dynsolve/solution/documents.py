@@ -41,7 +41,7 @@ from dynsolve.document import (
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.given import CALLED, statement
+from dynsolve.explain.given import CALLED, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID
@@ -462,6 +462,7 @@ class _Parts(Struct, dict=True):
         if self.stages is None:
             sines = shorthands_in(derivation, self.solution.robot, self.solution.style)
             yield from statement(self.solution.forms, self.solution.problem, sines)
+            yield from to_be_found(self.solution.forms, self.solution.problem)
 
     def letters(self, stated: tuple[Block, ...], shown: tuple[Block, ...]) -> Iterator[Block]:
         """In brief the letters that go beyond the course and are not defined where they occur."""

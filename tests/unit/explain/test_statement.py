@@ -7,7 +7,7 @@ from typing import TypeGuard
 import pytest
 
 from dynsolve.document import Block, Text
-from dynsolve.explain.given import statement
+from dynsolve.explain.given import statement, to_be_found
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.dynamics import Dynamics
@@ -67,7 +67,10 @@ def stated(solution: Dynamics) -> list[str]:
                 part if isinstance(part, str) else to_unicode(part, solution.style) for part in block.parts
             ).split()
         )
-        for block in statement(solution.forms, solution.problem)
+        for block in (
+            *statement(solution.forms, solution.problem),
+            *to_be_found(solution.forms, solution.problem),
+        )
         if isinstance(block, Text)
     ]
 

@@ -1,0 +1,76 @@
+"""`dynsolve sheet`: the exercise without its solution, or with the key behind it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from dynsolve.cli.output import format_of, refuse_on_terminal, write_to_standard_output
+from dynsolve.cli.solve import DetailName
+from dynsolve.errors import ExitCode, UsageError
+from dynsolve.render.files import check_place, write_whole
+
+if TYPE_CHECKING:
+    from dynsolve.grading.set_file import ProblemSet
+
+ProblemsArgument = Annotated[
+    list[str],
+    typer.Argument(metavar="PROBLEM...", help="Problem files, bundled stems, or a folder with its set.yaml."),
+]
+
+
+def sheet(
+    problem: ProblemsArgument,
+    output: Annotated[
+        str,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="The file: .pdf, .tex, .html, .md, .docx or .txt."
+        ),
+    ] = "-",
+    key: Annotated[bool, typer.Option("--key", help="The solutions behind the exercises.")] = False,
+    detail: Annotated[DetailName, typer.Option(help="The depth of these.")] = DetailName.NORMAL,
+    title: Annotated[str, typer.Option(help="Default: that of the set, or of the problem.")] = "",
+    date: Annotated[str, typer.Option(help="Words under the title.")] = "",
+    fragment: Annotated[
+        bool, typer.Option("--fragment", help="LaTeX for another document's \\input.")
+    ] = False,
+    exam: Annotated[bool, typer.Option("--exam", help="LaTeX of the class `exam`.")] = False,
+) -> int:
+    """Write the exercise without its solution: a picture, what is given, what is asked, with points."""
+    from dynsolve.exercise.sheet import SUFFIXES, SheetFormat
+    from dynsolve.exercise.sheet import sheet as made
+    from dynsolve.explain.step import Detail
+
+    place = None if output == "-" else Path(output)
+    asked = SheetFormat.LATEX if fragment or exam else None if place else SheetFormat.TEXT
+    form = asked or SheetFormat.TEXT if place is None else format_of(output, place.suffix, SUFFIXES, asked)
+    if place is not None:
+        check_place(place)
+    elif form in (SheetFormat.PDF, SheetFormat.DOCX):
+        refuse_on_terminal(form)
+    problems = _together(problem, title)
+    depth = Detail[detail.name] if key else None
+    data = made(problems, form, date=date, key=depth, fragment=fragment, exam=exam)
+    if place is None:
+        write_to_standard_output(data)
+    else:
+        write_whole(place, data)
+    return ExitCode.DONE
+
+
+def _together(names: list[str], title: str) -> ProblemSet:
+    """The problems of a folder, or those that are named one by one, as one set."""
+    from msgspec.structs import replace
+
+    from dynsolve.grading.set_file import load_set
+
+    sets = [load_set(name) for name in names]
+    items = tuple(item for each in sets for item in each.items)
+    stems = [item.stem for item in items]
+    twice = next((stem for stem in stems if stems.count(stem) > 1), None)
+    if twice:
+        raise UsageError(f"{twice} is named twice")
+    usual = sets[0].title if len(sets) == 1 else "Exercises"
+    return replace(sets[0], title=title or usual, items=items)
