@@ -12,9 +12,10 @@ from itertools import groupby
 
 from msgspec import Struct
 
-from dynsolve.document import Prose
+from dynsolve.document import Inline, Prose
 from dynsolve.explain.given import CALLED
 from dynsolve.explain.writing import agreeing, listed
+from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.family import Kind
@@ -87,18 +88,36 @@ def parts(problem: Problem, marks: dict[str, Fraction]) -> Iterator[Part]:
 
     >>> from dynsolve.solution.solution import load
     >>> problem = load("planar-2r")
-    >>> [(part.words[0], part.names) for part in parts(problem, {})][:2]
+    >>> [(part.words[1], part.names) for part in parts(problem, {})][:2]
     [('the inertia matrix ', ('D',)), ('the matrix of Coriolis and centrifugal terms ', ('C',))]
     """
     known = quantities(problem.robot)
     names = [*dict.fromkeys((*problem.find, *marks))]
-    for family, members in groupby(names, lambda name: known[name].family):
+    own_words = problem.text.asked if problem.text else {}
+
+    def alike(name: str) -> str:
+        return name if name in own_words else known[name].family.name
+
+    for _, members in groupby(names, alike):
         own = tuple(members)
         points = sum((marks.get(name, Fraction(0)) for name in own), Fraction(0))
-        yield Part(_words(problem, [known[name] for name in own], family.stem), own, points)
+        if own[0] in own_words:
+            yield Part(worded(own_words[own[0]]), own, points)
+        else:
+            yield Part(("Find ", *_words(problem, [known[name] for name in own]), "."), own, points)
 
 
-def _words(problem: Problem, own: list[Quantity], stem: str) -> Prose:
+def worded(text: str) -> Prose:
+    """An author's words, formulas between dollar signs.
+
+    >>> worded("Show that $m1*g$ is a weight.")[::2]
+    ('Show that ', ' is a weight.')
+    """
+    pieces: list[Inline] = [read(piece).tree if k % 2 else piece for k, piece in enumerate(text.split("$"))]
+    return tuple(piece for piece in pieces if piece != "")
+
+
+def _words(problem: Problem, own: list[Quantity]) -> Prose:
     """the matrices 𝐀₁ and 𝐀₂ of the rows of the table"""
     first = own[0]
     if first.family.kind is Kind.VERDICTS:
@@ -107,7 +126,7 @@ def _words(problem: Problem, own: list[Quantity], stem: str) -> Prose:
     if not first.index and first.name in CALLED:
         has_letter = letters and first.name != "DH"
         return (f"{CALLED[first.name]} ", letters[0]) if has_letter else (CALLED[first.name],)
-    return _filled(agreeing(MEMBERS[stem], len(own)), letters)
+    return _filled(agreeing(MEMBERS[first.family.stem], len(own)), letters)
 
 
 def _filled(text: str, letters: list[Node]) -> Prose:

@@ -27,7 +27,7 @@ from dynsolve.document import Block, Document, Heading, Inline, Text, Verbatim
 from dynsolve.draw import is_drawn, picture
 from dynsolve.draw.figure import to_png
 from dynsolve.errors import UsageError
-from dynsolve.exercise.asked import Part, parts
+from dynsolve.exercise.asked import Part, parts, worded
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import statement
@@ -36,6 +36,7 @@ from dynsolve.explain.signs import report_style
 from dynsolve.explain.step import Detail
 from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.problem.exercise import Wording
 from dynsolve.problem.model import Problem
 from dynsolve.render.markdown import PICTURE_DATA
 from dynsolve.solution.documents import solution_document
@@ -100,8 +101,13 @@ def _given(problem: Problem) -> Iterator[Block]:
     is_sought = "DH" in problem.find or "DH" in problem.marks
     if is_drawn(robot):
         yield picture(problem, star=False, frames=not is_sought)
-    forms = Forms(robot, derive(robot))
-    yield from statement(forms, problem, frames=not is_sought)
+    forms, own_words = Forms(robot, derive(robot)), problem.text or Wording()
+    if own_words.before:
+        yield Text(worded(own_words.before))
+    if own_words.given:
+        yield Text(worded(own_words.given))
+    else:
+        yield from statement(forms, problem, frames=not is_sought)
     if robot.has_table and problem.normals is None and not is_sought:
         yield table_of(Context(robot, forms.values, forms))
 
@@ -135,11 +141,9 @@ def _points(points: Fraction) -> str:
 
 def _asked(exercise: Exercise) -> Iterator[Block]:
     """What is to be found: a), b), c), each with its points, and how its answer is called."""
-    yield Text(("Find",))
     for letter, part in zip(_letters(), exercise.parts, strict=False):
-        end = "," if part is not exercise.parts[-1] else "."
         points = f" ({_points(part.points)})" if part.points else ""
-        yield Text((f"{letter}) ", *part.words, f"{points}{end}"))
+        yield Text((f"{letter}) ", *part.words, points))
 
 
 def _letters() -> Iterator[str]:
@@ -152,8 +156,8 @@ def _handing_in(problems: ProblemSet) -> Iterator[Block]:
     """The names under which the answers are handed in."""
     yield Heading("Handing in", 3)
     yield Text((
-        "Hand in one file for each exercise: YAML, Markdown, LaTeX, a notebook or a Word document. Each answer "
-        "has a line of its own: its name, an equals sign, the result. The answers are called",
+        "Hand in one file for each exercise: YAML, Markdown, LaTeX, a notebook or a Word document. Each "
+        "answer has a line of its own: its name, an equals sign, the result. The answers are called",
     ))  # fmt: skip
     for item in problems.items:
         names = [name for part in parts(item.problem, dict(item.problem.marks)) for name in part.names]
@@ -220,7 +224,7 @@ def exam_source(problems: ProblemSet, date: str, key: Detail | None) -> str:
         lines.append(latex.render_blocks(Document(exercise.given), exercise.style))
         lines.append(r"\begin{parts}")
         for part in exercise.parts:
-            text = latex.render_blocks(Document((Text(("Find ", *part.words, ".")),)), exercise.style)
+            text = latex.render_blocks(Document((Text(part.words),)), exercise.style)
             lines.append(
                 rf"\part[{shown(part.points)}] {text.strip()}" if part.points else rf"\part {text.strip()}"
             )

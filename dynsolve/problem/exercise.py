@@ -1,4 +1,4 @@
-"""The exercise in a problem file: numbers, units, marks, remarks, the answers asked for and their names."""
+"""The exercise in a problem file: numbers, units, marks, words, the answers asked for and their names."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from difflib import get_close_matches
 from fractions import Fraction
 from math import radians
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, ReadError
 from dynsolve.notation.characters import normalize
+from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node as Tree
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem.cells import Cell, read_cell
@@ -141,6 +142,56 @@ def _texts(faults: Faults, node: YamlNode, of: str) -> tuple[str, ...]:
     return tuple(" ".join(line.decoded.split()) for line in lines if isinstance(line, ScalarNode))
 
 
+# The words of an exercise sheet
+
+BEFORE, GIVEN = "before", "given"
+"""What `text` may have beside the names of answers."""
+
+
+class Wording(Struct, frozen=True):
+    """An author's words on a sheet: before what is given, in its place, and in the place of what is asked.
+
+    Formulas stand between dollar signs, in the syntax of the file.
+    """
+
+    before: str = ""
+    given: str = ""
+    asked: Mapping[str, str] = field(default_factory=dict)
+
+
+def read_text(faults: Faults, node: YamlNode | None, names: Quantities | None) -> Wording:
+    """What `text` says: words that stand before, or words by `before`, `given` and the names of answers."""
+    if not isinstance(node, MappingNode):
+        return Wording(_worded(faults, node, "text") if node is not None else "")
+    found: dict[str, str] = {}
+    for key, value in node.entries:
+        name = key.decoded if key.decoded in (BEFORE, GIVEN) else _answer(faults, key, names)
+        if name in found:
+            faults.error(key.span, f"{name} has words already", "keep one of them")
+        elif name:
+            found[name] = _worded(faults, value, f"the text on {key.decoded}")
+    return Wording(found.pop(BEFORE, ""), found.pop(GIVEN, ""), found)
+
+
+def _worded(faults: Faults, node: YamlNode, what: str) -> str:
+    """Words on one line; those between dollar signs are formulas."""
+    if isinstance(node, FaultyNode):
+        return ""
+    if not (isinstance(node, ScalarNode) and node.decoded.strip()):
+        faults.error(node.span, f"{what} is words, not {describe(node)}", PROBLEM["text"].help)
+        return ""
+    words, *pieces = node.decoded.split("$")
+    if len(pieces) % 2:
+        faults.error(node.span, f"{what}: a formula has no closing $", "write $m1*g$, or leave the sign out")
+        return ""
+    for formula in pieces[::2]:
+        try:
+            read(formula)
+        except ReadError as error:
+            faults.error(node.span, f"{what}: ${formula[:40]}$: {error.message}", error.help)
+    return " ".join("$".join((words, *pieces)).split())
+
+
 # Numbers, units, marks, the answers asked for
 
 _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9²³⁻¹·*/^ .()-]{1,30}")
@@ -156,6 +207,7 @@ class Exercise(Struct, frozen=True):
     written: Mapping[str, str]
     units: Mapping[str, str]
     remarks: tuple[Remark, ...] = ()
+    text: Wording = field(default_factory=Wording)
     asked: frozenset[str] = frozenset()
     """The answers asked for that a derivation has only where they are."""
 
@@ -163,7 +215,7 @@ class Exercise(Struct, frozen=True):
 def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercise:
     """The values, units, marks and answers asked for; everything wrong with them is reported."""
     names = None  # as long as the table or a body is faulty, which answers there are is not known
-    if parsed.sound and not {"find", "marks", "remarks"}.isdisjoint(fields):
+    if parsed.sound and not {"find", "marks", "remarks", "text"}.isdisjoint(fields):
         names = Quantities(parsed.owners)
     values, written = _read_values(faults, fields.get("values"))
     find = _read_find(faults, fields.get("find"), names)
@@ -175,6 +227,7 @@ def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercis
         written=written,
         units=_read_units(faults, fields.get("units")),
         remarks=read_remarks(faults, fields.get("remarks"), names),
+        text=read_text(faults, fields.get("text"), names),
         asked=frozenset(
             name for name in (*find, *marks) if names is not None and names[name].family.stage.asked_for
         )

@@ -34,7 +34,7 @@ from dynsolve.robot.model import Convention, Coordinate, JointType, Robot
 
 if TYPE_CHECKING:
     from dynsolve.problem.acting import Acting
-    from dynsolve.problem.exercise import Remark
+    from dynsolve.problem.exercise import Remark, Wording
     from dynsolve.problem.mechanism import Candidates, Model
     from dynsolve.robot.drawing.normals import Normals
 
@@ -87,7 +87,7 @@ def _read_row(faults: Faults, node: YamlNode, index: int) -> tuple[Node, ...] | 
 Path = tuple[str | int, ...]
 """The way to a part of a file: ("masses", 0, "axes"), list items from 0."""
 
-_WORDS = (("title",), ("source",), ("remarks",))
+_WORDS = (("title",), ("source",), ("remarks",), ("text",))
 """The parts of a file that are words, whatever numbers stand in them."""
 
 FIND = ("tau", "D", "C", "g")
@@ -118,7 +118,7 @@ class Problem(Struct, frozen=True):
     (`D`, never `M`).  `values` are the numbers for numeric results, angles in radians;
     `written` are the same as they stand in the file, which is exact.
     `accepted` is what else counts as a Denavit-Hartenberg table that is handed in.
-    `remarks` are its author's words on results.
+    `remarks` are its author's words on results, `text` those of an exercise sheet.
     `edition` is that of Spong, Hutchinson, Vidyasagar by which sections are counted.
     `normals` are those of a drawing, where the file has one in the place of a table.
     `places` tells where each part of the file stands; `warnings` are what deserves
@@ -136,6 +136,7 @@ class Problem(Struct, frozen=True):
     written: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[Remark, ...] = ()
+    text: Wording | None = None
     edition: int = 1
     normals: Normals | None = None
     accepted: AcceptedTables = field(default_factory=AcceptedTables)

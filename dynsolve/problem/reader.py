@@ -127,6 +127,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         written=exercise.written,
         units=exercise.units,
         remarks=exercise.remarks,
+        text=exercise.text,
         normals=parsed.normals,
         accepted=accepted,
         edition=int(edition or 1),

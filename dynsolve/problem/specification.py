@@ -420,6 +420,13 @@ PROBLEM = Keyed(
             "{Kv2: The squares add up.}",
         ),
         Key(
+            "text",
+            OneOf((TEXT, MapOf(TEXT, "words by `before`, `given` or answer"))),
+            "Words of an exercise sheet: before what is given, or {before: ..., given: ..., D: ...}, in the place "
+            "of what it says itself. Formulas stand between dollar signs: $m1*g$.",
+            "{before: The arm is at rest at first., D: Show that $D$ is constant.}",
+        ),
+        Key(
             "find",
             OneOf((NAME, ListOf(NAME, "a list of answers"))),
             "What the exercise asks for. Default [tau, D, C, g].",
