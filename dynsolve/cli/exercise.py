@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from dynsolve.cli.numbers import read
 from dynsolve.cli.output import format_of, refuse_on_terminal, write_to_standard_output
 from dynsolve.cli.solve import DetailName
 from dynsolve.errors import ExitCode, UsageError
@@ -74,3 +75,21 @@ def _together(names: list[str], title: str) -> ProblemSet:
         raise UsageError(f"{twice} is named twice")
     usual = sets[0].title if len(sets) == 1 else "Exercises"
     return replace(sets[0], title=title or usual, items=items)
+
+
+def template(
+    problem: Annotated[str, typer.Argument(metavar="PROBLEM", help="A problem file, or a bundled stem.")],
+    output: Annotated[
+        str,
+        typer.Option("--output", "-o", metavar="FILE", help="The file: .yaml, .md, .tex, .ipynb or .docx."),
+    ],
+) -> int:
+    """Write the hand-in with empty answers: their names, the letters, how results are typed."""
+    from dynsolve.exercise.template import SUFFIXES
+    from dynsolve.exercise.template import template as made
+
+    place = Path(output)
+    form = format_of(output, place.suffix, SUFFIXES, None)
+    check_place(place)
+    write_whole(place, made(read(problem), form))
+    return ExitCode.DONE

@@ -28,6 +28,7 @@ COMMANDS = {
     "solve": "solve",
     "draw": "check",
     "sheet": "exercise",
+    "template": "exercise",
     "check": "check",
     "grade": "grade",
     "override": "check",

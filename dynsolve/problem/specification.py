@@ -422,8 +422,8 @@ PROBLEM = Keyed(
         Key(
             "text",
             OneOf((TEXT, MapOf(TEXT, "words by `before`, `given` or answer"))),
-            "Words of an exercise sheet: before what is given, or {before: ..., given: ..., D: ...}, in the place "
-            "of what it says itself. Formulas stand between dollar signs: $m1*g$.",
+            "Words of an exercise sheet: before what is given, or {before: ..., given: ..., D: ...}, in the "
+            "place of what it says itself. Formulas stand between dollar signs: $m1*g$.",
             "{before: The arm is at rest at first., D: Show that $D$ is constant.}",
         ),
         Key(

@@ -295,11 +295,11 @@ def _cells(text: str, start: int, end: int, separator: re.Pattern[str]) -> Row:
 
 
 def _table(text: str, span: Cell, rows: list[Row], variables: Sequence[str]) -> Iterator[FoundTable]:
-    """The table of these rows, one of whose first two is a head, or whose first column is."""
+    """The table of these rows, one of whose first two is a head, or whose first column is; no empty one."""
     filled = [row for row in rows if any(without_rules(text, cell).strip() for cell in row)]
     filled = filled[: MOST_ROWS + 2]
     body = _below_head(text, filled) or _beside_head(text, filled)
-    if body:
+    if any(without_rules(text, cell).strip() for row in body for cell in row):
         yield FoundTable(*span, placed(_rows(text, body, variables_of(variables))))
 
 

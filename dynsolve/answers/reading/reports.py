@@ -79,6 +79,9 @@ _BESIDE = re.compile(
 _BRACE = re.compile(r"\\(?:under|over)brace[ \t]*\{")
 _UNDER = re.compile(r"[ \t]*[_^][ \t]*\{?[ \t]*([KTPVU])[ \t]*(?:\}|(?![A-Za-z_]))")
 
+_LEFT_EMPTY = re.compile(r"[^=]{1,60}=\s*")
+"""A display in which nothing stands behind the sign: an answer of a template that was not filled in."""
+
 _MARGIN = 400
 """So far from an equation it is seen whether it stands alone on its line."""
 
@@ -123,6 +126,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         displays = sorted([*displays, *lines], key=itemgetter(0))
     read = [(start, start + len(display.text)) for start, display in displays]
     displays, unread = continued(displays[:MAX_EQUATIONS]), displays[MAX_EQUATIONS:]
+    displays = [each for each in displays if not _LEFT_EMPTY.fullmatch(each[1].text)]
     while True:
         waiting = list(reversed(macros))
         sets = DisplayedSets(reader, source, text, {one.name for one in headed})
