@@ -252,6 +252,7 @@ AXES_LIST = ListOf(
 BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES, "a list of bodies; ")
 BASE = Keyed((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
 
+VARIED = Plain("alternatives", {"type": ["array", "object", "string", "number"]})
 PROBLEM = Keyed(
     (
         Key(
@@ -425,6 +426,13 @@ PROBLEM = Keyed(
             "Words of an exercise sheet: before what is given, or {before: ..., given: ..., D: ...}, in the "
             "place of what it says itself. Formulas stand between dollar signs: $m1*g$.",
             "{before: The arm is at rest at first., D: Show that $D$ is constant.}",
+        ),
+        Key(
+            "vary",
+            MapOf(VARIED, "alternatives by part of the file"),
+            "What may differ from student to student: parts of the file with alternatives, or ranges of "
+            "numbers; `letters`; and how far `within` the median the work may be (0.1).",
+            "{values.l1: [0.3, 0.4], dh.1.alpha: [90deg, -90deg], letters: {l1: [l1, a1]}}",
         ),
         Key(
             "find",
