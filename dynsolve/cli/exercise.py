@@ -1,20 +1,49 @@
-"""`dynsolve sheet`: the exercise without its solution, or with the key behind it."""
+"""`dynsolve sheet`: the exercise without its solution, or with the key behind it.
+
+`dynsolve template`: the hand-in with empty answers.
+
+`dynsolve vary`: a variant for each student.
+"""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from dynsolve.cli.numbers import read
-from dynsolve.cli.output import format_of, refuse_on_terminal, write_to_standard_output
+from dynsolve.cli.grade import FolderOption, JobsOption
+from dynsolve.cli.grade import ProblemsArgument as SetArgument
+from dynsolve.cli.numbers import Quiet, read
+from dynsolve.cli.output import bar_or_lines, format_of, refuse_on_terminal, write_to_standard_output
 from dynsolve.cli.solve import DetailName
 from dynsolve.errors import ExitCode, UsageError
 from dynsolve.render.files import check_place, write_whole
 
 if TYPE_CHECKING:
     from dynsolve.grading.set_file import ProblemSet
+
+
+class VariedFormat(StrEnum):
+    """The forms of sheets that `vary` writes: some of `exercise.sheet.SheetFormat`."""
+
+    HTML = "html"
+    PDF = "pdf"
+    LATEX = "latex"
+    MARKDOWN = "markdown"
+    DOCX = "docx"
+
+
+class TemplateName(StrEnum):
+    """The forms of templates: the names of `exercise.template.TemplateFormat`."""
+
+    YAML = "yaml"
+    MARKDOWN = "markdown"
+    LATEX = "latex"
+    NOTEBOOK = "notebook"
+    DOCX = "docx"
+
 
 ProblemsArgument = Annotated[
     list[str],
@@ -40,7 +69,7 @@ def sheet(
     exam: Annotated[bool, typer.Option("--exam", help="LaTeX of the class `exam`.")] = False,
 ) -> int:
     """Write the exercise without its solution: a picture, what is given, what is asked, with points."""
-    from dynsolve.exercise.sheet import SUFFIXES, SheetFormat
+    from dynsolve.exercise.sheet import SUFFIXES, SheetFormat, exam_source
     from dynsolve.exercise.sheet import sheet as made
     from dynsolve.explain.step import Detail
 
@@ -53,7 +82,12 @@ def sheet(
         refuse_on_terminal(form)
     problems = _together(problem, title)
     depth = Detail[detail.name] if key else None
-    data = made(problems, form, date=date, key=depth, fragment=fragment, exam=exam)
+    if exam and (key or fragment):
+        raise UsageError("--exam is a document without a key", "leave out --key and --fragment")
+    if exam:
+        data = exam_source(problems, date).encode()
+    else:
+        data = made(problems, form, date=date, key=depth, fragment=fragment)
     if place is None:
         write_to_standard_output(data)
     else:
@@ -92,4 +126,40 @@ def template(
     form = format_of(output, place.suffix, SUFFIXES, None)
     check_place(place)
     write_whole(place, made(read(problem), form))
+    return ExitCode.DONE
+
+
+def vary(
+    problems: SetArgument,
+    roster: Annotated[
+        Path,
+        typer.Option("--roster", metavar="CSV", help="A column `student`, or the list of a platform."),
+    ],
+    seed: Annotated[str, typer.Option(help="Another seed draws other variants.")],
+    output: FolderOption,
+    format: Annotated[VariedFormat, typer.Option(help="The form of sheets and keys.")] = VariedFormat.HTML,
+    template: Annotated[TemplateName, typer.Option(help="The form of the templates.")] = TemplateName.YAML,
+    detail: Annotated[DetailName, typer.Option(help="The depth of the keys.")] = DetailName.RESULTS,
+    jobs: JobsOption = 0,
+    quiet: Quiet = False,
+) -> int:
+    """Draw a variant of each problem for every student: sheet, template and key, equally hard."""
+    from dynsolve.exercise.sheet import SheetFormat
+    from dynsolve.exercise.template import TemplateFormat
+    from dynsolve.exercise.variants import Forms, students_of
+    from dynsolve.exercise.variants import vary as made
+    from dynsolve.explain.step import Detail
+    from dynsolve.grading.set_file import load_set
+
+    chosen, students = load_set(problems), students_of(roster)
+    if output.is_file():
+        raise UsageError(f"{output} is a file", "give a folder")
+    forms = Forms(SheetFormat(format), TemplateFormat(template), Detail[detail.name])
+    with bar_or_lines("drawing", quiet) as advance:
+        families = made(chosen, students, seed, output, forms, jobs, advance)
+    if not quiet:
+        for family in families:
+            count, structures = family.size, len(family.structures)
+            typer.echo(f"{family.item.stem}: {count} variants of {structures} structures", err=True)
+        typer.echo(f"{len(students)} students: see {output / 'variants.csv'}", err=True)
     return ExitCode.DONE

@@ -71,6 +71,10 @@ RosterOption = Annotated[
 DiffOption = Annotated[
     bool, typer.Option("--diff", help="List whose marks are not those of the last run, and why.")
 ]
+VariantsOption = Annotated[
+    Path | None,
+    typer.Option("--variants", metavar="FOLDER", help="What `vary` wrote: each student by his own variant."),
+]
 TimeoutOption = Annotated[
     float, typer.Option("--timeout", min=0.1, help="Seconds of processor time that one hand-in may take.")
 ]
@@ -88,6 +92,7 @@ def grade(
     lms: PlatformOption = None,
     roster: RosterOption = None,
     diff: DiffOption = False,
+    variants: VariantsOption = None,
     timeout: TimeoutOption = 20.0,
     memory: MemoryOption = 1024,
     quiet: Quiet = False,
@@ -106,7 +111,7 @@ def grade(
                 problems, submissions, output,
                 lms=str(lms) if lms else None, roster=roster, diff=diff,
                 jobs=jobs, cluster=cluster, timeout=timeout, memory=memory, progress=advance,
-                warn=None if quiet else _warn,
+                variants=variants, warn=None if quiet else _warn,
             )  # fmt: skip
     except KeyboardInterrupt:
         typer.echo(f"stopped: what is done is kept in {output}; the same command goes on", err=True)

@@ -29,6 +29,7 @@ COMMANDS = {
     "draw": "check",
     "sheet": "exercise",
     "template": "exercise",
+    "vary": "exercise",
     "check": "check",
     "grade": "grade",
     "override": "check",

@@ -107,23 +107,35 @@ Variant = TypeVar("Variant", bound=Hashable)
 def equally_hard(
     found: Mapping[Variant, Mapping[str, Hardness]], within: Fraction
 ) -> dict[Variant, Mapping[str, Hardness]]:
-    """The variants that are near the median of those that are left, until none has to go.
+    """The largest family of variants that are as hard as each other; the first of several that are as large.
 
     >>> easy, hard = Hardness(4, 9, 12, 0, 30), Hardness(4, 15, 22, 0, 33)
-    >>> sorted(equally_hard({1: {"D": easy}, 2: {"D": easy}, 3: {"D": hard}}, Fraction(1, 10)))
-    [1, 2]
+    >>> sorted(equally_hard({1: {"D": easy}, 2: {"D": hard}, 3: {"D": hard}}, Fraction(1, 10)))
+    [2, 3]
     """
-    left = dict(found)
-    while left:
+    families: dict[tuple[Variant, ...], dict[Variant, Mapping[str, Hardness]]] = {}
+    for each in found.values():
+        middle = {name: own.counts for name, own in each.items()}
+        begun = {variant: own for variant, own in found.items() if _is_near(own, middle, within)}
+        family = _around_its_median(begun, within)
+        families[tuple(family)] = family
+    return max(families.values(), key=len, default={})
+
+
+def _around_its_median(
+    family: dict[Variant, Mapping[str, Hardness]], within: Fraction
+) -> dict[Variant, Mapping[str, Hardness]]:
+    """The variants that are near the median of those that are left, until none has to go."""
+    while family:
         middle = {
-            name: [median(each[name].counts[k] for each in left.values()) for k in range(len(COUNTS))]
-            for name in next(iter(left.values()))
+            name: [median(each[name].counts[k] for each in family.values()) for k in range(len(COUNTS))]
+            for name in next(iter(family.values()))
         }
-        near = {variant: each for variant, each in left.items() if _is_near(each, middle, within)}
-        if len(near) == len(left):
+        near = {variant: each for variant, each in family.items() if _is_near(each, middle, within)}
+        if len(near) == len(family):
             break
-        left = near
-    return left
+        family = near
+    return family
 
 
 def _is_near(own: Mapping[str, Hardness], middle: Mapping[str, Sequence[float]], within: Fraction) -> bool:

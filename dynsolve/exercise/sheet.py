@@ -115,8 +115,8 @@ def _given(problem: Problem) -> Iterator[Block]:
 # -- as documents ----------------------------------------------------------------------------------
 
 
-def sheet_documents(problems: ProblemSet, date: str = "", key: Detail | None = None) -> list[Styled]:
-    """The title, the exercises, and with a key their solutions at a depth."""
+def sheet_documents(problems: ProblemSet, date: str = "") -> list[Styled]:
+    """The title, the exercises, and how to hand in."""
     is_one = len(problems.items) == 1
     exercises = [exercise_of(item, 0 if is_one else k) for k, item in enumerate(problems.items, 1)]
     total = sum((exercise.points for exercise in exercises), Fraction(0))
@@ -126,12 +126,17 @@ def sheet_documents(problems: ProblemSet, date: str = "", key: Detail | None = N
         heading = [] if is_one else [Heading(f"{exercise.title} ({_points(exercise.points)})")]
         found.append((Document((*heading, *exercise.given, *_asked(exercise))), exercise.style))
     found.append((Document(tuple(_handing_in(problems))), PLAIN))
-    if key is not None:
-        for exercise in exercises:
-            solution = solve(exercise.problem)
-            document = solution_document(solution, key)
-            titled = Heading(f"Key: {exercise.title}", 1)
-            found.append((Document((titled, *document.blocks[1:])), solution.style))
+    return found
+
+
+def key_documents(problems: ProblemSet, detail: Detail) -> list[Styled]:
+    """The solutions at a depth, each under the title of its problem."""
+    found = []
+    for item in problems.items:
+        solution = solve(item.problem)
+        document = solution_document(solution, detail)
+        titled = Heading(f"Key: {item.problem.title}", 1)
+        found.append((Document((titled, *document.blocks[1:])), solution.style))
     return found
 
 
@@ -178,12 +183,15 @@ def sheet(
     date: str = "",
     key: Detail | None = None,
     fragment: bool = False,
-    exam: bool = False,
 ) -> bytes:
-    """A sheet in a form; `fragment` gives LaTeX that another document takes in, `exam` one of that class."""
-    if exam:
-        return exam_source(problems, date, key).encode()
-    (first, style), *further = sheet_documents(problems, date, key)
+    """A sheet in a form, with a `key` at that depth; `fragment` gives LaTeX that another document takes in."""
+    keys = [] if key is None else key_documents(problems, key)
+    return written([*sheet_documents(problems, date), *keys], format, fragment)
+
+
+def written(documents: Sequence[Styled], format: SheetFormat, fragment: bool = False) -> bytes:
+    """Documents one behind the other in a form."""
+    (first, style), *further = documents
     match format:
         case SheetFormat.LATEX:
             from dynsolve.render import latex
@@ -199,19 +207,16 @@ def sheet(
 
             return html.render(first, style, further=further).encode()
         case SheetFormat.MARKDOWN:
-            return _markdown([(first, style), *further]).encode()
+            return _markdown(documents).encode()
         case SheetFormat.DOCX:
-            return to_docx(_markdown([(first, style), *further]))
+            return to_docx(_markdown(documents))
     from dynsolve.render import terminal
 
-    return "".join(
-        f"{line.text}\n"
-        for each, its in ((first, style), *further)
-        for line in terminal.render(each, style=its)
-    ).encode()
+    lines = (line for each, its in documents for line in terminal.render(each, style=its))
+    return "".join(f"{line.text}\n" for line in lines).encode()
 
 
-def exam_source(problems: ProblemSet, date: str, key: Detail | None) -> str:
+def exam_source(problems: ProblemSet, date: str = "") -> str:
     r"""LaTeX of the class `exam`: a \question each exercise, a \part what is asked, with points."""
     from dynsolve.render import latex
 

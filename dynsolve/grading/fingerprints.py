@@ -44,7 +44,7 @@ def causes(problems: ProblemSet, hand_in: HandIn, bounds: Bounds | None = None) 
 
     The `bounds` are one where the hand-in, or an answer of it, went over them.
     """
-    item = problems.item(hand_in.problem)
+    item = problems.item(hand_in.problem, hand_in.student)
     files = [[file.name, file.digest, *file.others] for file in hand_in.files]
     found = {
         "hand-in": short([files, hand_in.late, list(hand_in.left), hand_in.group]),

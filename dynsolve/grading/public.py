@@ -36,7 +36,7 @@ from dynsolve.grading.platforms.registry import (
 from dynsolve.grading.pool import Bounds, ClusterPool, LocalPool
 from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all, keep_keys
-from dynsolve.grading.set_file import ProblemSet, load_set, store_set, stored_set
+from dynsolve.grading.set_file import ProblemSet, load_set, store_set, stored_set, with_variants
 from dynsolve.grading.uploads import Refused, Uploads, write_copies
 from dynsolve.problem.kinds import did_you_mean
 
@@ -116,6 +116,7 @@ def grade(
     cluster: str = "",
     timeout: float = 20.0,
     memory: int = 1024,
+    variants: str | os.PathLike[str] | None = None,
     progress: Callable[[int, int], None] | None = None,
     warn: Callable[[str], None] | None = None,
 ) -> Grades:
@@ -125,6 +126,7 @@ def grade(
     bundled problem; `submissions` a folder or a zip.  With `lms` ("canvas", "moodle" or
     "gradescope") and its `roster` the file that the platform imports is written too,
     and from then on by every run and override.
+    `variants` is the folder that `vary` wrote: each student is graded by his own variant.
     `jobs` processes (0: one a core) of this machine do the work, or those of the Dask
     scheduler `cluster`; each hand-in may take `timeout` seconds and `memory` MiB.
     `progress` is told how many are done, and of how many; `warn` what is to be known before.
@@ -170,9 +172,11 @@ def grade(
             intake = take_in(chosen, uploads, delays, Groups(chosen.groups, people(record)))
             keep_names(record, intake.names)
             store_set(record, chosen)
-            done = grade_all(chosen, uploads, intake, record, pool, progress)
+            own = with_variants(chosen, Path(variants), intake.students) if variants is not None else chosen
+            done = grade_all(own, uploads, intake, record, pool, progress)
             waiting = {entry.problem for entry in queue(record, chosen.stems)}
-            keep_keys(record, chosen, waiting.intersection(chosen.stems), pool)
+            if variants is None:  # else each student has another key
+                keep_keys(record, chosen, waiting.intersection(chosen.stems), pool)
         write_copies(folder, uploads, intake.files)
         waits = write_outputs(folder, chosen, record, names(record))
         warnings = (*export(folder, chosen, record), *filter(None, (unknown,)))

@@ -142,6 +142,10 @@ def _is_rescored(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: 
 
 
 def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Future[Data]:
+    if problems.lacks_variant(hand_in.problem, hand_in.student):
+        unknown: Future[Data] = Future()
+        unknown.set_result({"reason": "no variant was drawn for this student", "again": True})
+        return unknown
     try:
         return pool.submit(payload(problems, uploads, hand_in))
     except InputError as error:  # a file that was there, or was another, a moment ago
@@ -153,7 +157,7 @@ def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: Hand
 def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
     """What a worker needs, independent of this machine."""
     return {
-        **payload_of_problem(problems.item(hand_in.problem)),
+        **payload_of_problem(problems.item(hand_in.problem, hand_in.student)),
         "policy": to_data(problems.policy),
         "files": [
             {"name": name, "content": base64.b64encode(content).decode()}

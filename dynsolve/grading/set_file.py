@@ -29,7 +29,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path, PurePath
 
@@ -39,6 +39,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.answers.marks import Policy, from_data, shown, to_data
 from dynsolve.errors import Finding, ProblemError, UsageError
+from dynsolve.grading.files import folder_name
 from dynsolve.grading.record import Record
 from dynsolve.grading.uploads import Extension, Fault, read_extensions, read_list
 from dynsolve.problem.cells import read_cell
@@ -117,22 +118,32 @@ class Item(Struct, frozen=True):
 
 
 class ProblemSet(Struct, frozen=True):
-    """The problems of a course's assignment, in order, and how they are marked."""
+    """The problems of a course's assignment, in order, and how they are marked.
+
+    With `variants` every student has problem files of his own: their texts, by student and problem.
+    """
 
     title: str
     items: tuple[Item, ...]
     policy: Policy = field(default_factory=Policy)
     extensions: tuple[Extension, ...] = ()
     groups: tuple[Membership, ...] = ()
+    variants: Mapping[tuple[str, str], str] | None = None
 
     @property
     def stems(self) -> tuple[str, ...]:
         """The problems by the name that hand-ins call them."""
         return tuple(item.stem for item in self.items)
 
-    def item(self, stem: str) -> Item:
-        """The problem of this name."""
-        return next(item for item in self.items if item.stem == stem)
+    def item(self, stem: str, student: str = "") -> Item:
+        """The problem of this name, that of a student as the student's variant has it."""
+        found = next(item for item in self.items if item.stem == stem)
+        text = (self.variants or {}).get((student, stem))
+        return found if text is None else replace(found, text=text)
+
+    def lacks_variant(self, stem: str, student: str) -> bool:
+        """Whether a student has no variant where there are some."""
+        return self.variants is not None and (student, stem) not in self.variants
 
 
 # -- in the record -----------------------------------------------------------------------------------
@@ -259,6 +270,25 @@ def set_schema() -> Schema:
 
 
 SET_FILE = "set.yaml"
+
+VARIANT_KEYS = "keys"
+"""The folder of a student's own problem files, in the folder that `vary` writes."""
+
+
+def with_variants(problems: ProblemSet, folder: Path, students: Iterable[str]) -> ProblemSet:
+    """The problems with the variants of these students that `vary` wrote into a folder.
+
+    Raises UsageError for a folder that it did not write.
+    """
+    if not (folder / VARIANT_KEYS).is_dir():
+        raise UsageError(f"{folder} is no folder of variants", "give the folder that `dynsolve vary` wrote")
+    found = {}
+    for student in students:
+        for stem in problems.stems:
+            file = folder / VARIANT_KEYS / folder_name(student) / f"{stem}.yaml"
+            if file.is_file():
+                found[student, stem] = file.read_text(encoding="utf-8")
+    return replace(problems, variants=found)
 
 
 def load_set(name: str) -> ProblemSet:

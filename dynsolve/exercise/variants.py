@@ -1,0 +1,254 @@
+"""A variant for each student: drawn by a hash, as hard as the others, each key verified.
+
+    OUT/<student>/              sheet and templates, for the student
+    OUT/keys/<student>/         the key, and <problem>.yaml, the variant as a problem file of its own
+    OUT/variants.csv            a row an asked result: what was drawn, and how hard it is
+
+Structures are measured once, whatever letters and numbers they are dressed in.  No two students have the same
+variant of a problem.  The problem files of a student are written last: what is there needs no second time.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import suppress
+from fractions import Fraction
+from functools import partial
+from hashlib import sha256
+from multiprocessing import get_context
+from pathlib import Path
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from dynsolve.errors import InputError, UsageError
+from dynsolve.exercise.hardness import COUNTS, Hardness, equally_hard, hardness
+from dynsolve.exercise.sheet import SUFFIXES as SHEETS
+from dynsolve.exercise.sheet import SheetFormat, sheet
+from dynsolve.exercise.template import SUFFIXES as TEMPLATES
+from dynsolve.exercise.template import TemplateFormat, template
+from dynsolve.explain.step import Detail
+from dynsolve.grading.files import folder_name
+from dynsolve.grading.platforms.registry import PLATFORMS
+from dynsolve.grading.platforms.roster import read_roster
+from dynsolve.grading.set_file import VARIANT_KEYS, Item, ProblemSet
+from dynsolve.problem.reader import read_problem
+from dynsolve.problem.variation import Variation, read_variation
+from dynsolve.render.files import write_changed
+
+MOST_STRUCTURES = 300
+"""So many structures of a problem are measured; of more these are chosen by the seed."""
+
+Progress = Callable[[int, int], None]
+
+
+class Family(Struct, frozen=True):
+    """The variants of a problem that are equally hard: its structures, each with what was counted."""
+
+    item: Item
+    variation: Variation | None
+    structures: tuple[Mapping[str, str], ...]
+    hardness: tuple[Mapping[str, Hardness], ...]
+
+    @property
+    def size(self) -> int:
+        """How many variants there are."""
+        return len(self.structures) * (self.variation.dressings if self.variation else 1)
+
+    def variant(self, number: int) -> Variant:
+        """One of them, counted from 0."""
+        place, dressing = number % len(self.structures), number // len(self.structures)
+        structure = self.structures[place]
+        if self.variation is None:
+            return Variant(self.item.stem, number, {}, self.item.text, self.hardness[place])
+        values, letters = self.variation.dressing(dressing)
+        text = self.variation.choose({**structure, **values}, letters)
+        return Variant(self.item.stem, number, {**structure, **values, **letters}, text, self.hardness[place])
+
+
+class Variant(Struct, frozen=True):
+    """A variant: its number in the family, what was drawn, its problem file, what was counted."""
+
+    stem: str
+    number: int
+    drawn: Mapping[str, str]
+    text: str
+    hardness: Mapping[str, Hardness]
+
+
+# -- the family --------------------------------------------------------------------------------------
+
+
+def families(problems: ProblemSet, seed: str, jobs: int = 0) -> list[Family]:
+    """The family of each problem; raises ProblemError for a variant that is no problem."""
+    with _workers(jobs) as pool:
+        return [_family(item, seed, pool) for item in problems.items]
+
+
+def _family(item: Item, seed: str, pool: ProcessPoolExecutor) -> Family:
+    variation = read_variation(item.text, item.problem.file)
+    structures = list(variation.structures()) if variation else [{}]
+    if len(structures) > MOST_STRUCTURES:
+        structures = sorted(structures, key=lambda one: _hash(seed, *one.values()))[:MOST_STRUCTURES]
+    texts = [variation.choose(one) if variation else item.text for one in structures]
+    names = tuple(item.problem.marks)
+    counted = dict(enumerate(pool.map(partial(_counted, item.problem.file, names), texts)))
+    left = equally_hard(counted, variation.within) if variation else counted
+    return Family(item, variation, tuple(structures[k] for k in left), tuple(left.values()))
+
+
+def _counted(file: str, names: Sequence[str], text: str) -> Mapping[str, Hardness]:
+    return hardness(read_problem(text, file), names)
+
+
+def _hash(*words: str) -> int:
+    return int.from_bytes(sha256("\0".join(words).encode()).digest()[:8])
+
+
+def _workers(jobs: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(jobs or os.cpu_count() or 1, mp_context=get_context("spawn"))
+
+
+# -- the draw ----------------------------------------------------------------------------------------
+
+
+def students_of(roster: Path) -> list[str]:
+    """The students of a roster, as their hand-ins are called: a column `student`, or a platform's list.
+
+    Raises InputError for a table in which no students are found.
+    """
+    table = read_roster(roster)
+    header = [cell.strip().lower() for cell in table.header]
+    found: list[str] = []
+    if "student" in header and "id" not in header:
+        place = header.index("student")
+        found = [row[place].strip() for row in table.rows[1:] if len(row) > place]
+    for platform in () if found else PLATFORMS.values():
+        with suppress(InputError):
+            found = found or [person.student for person in platform.people(table)]
+    found = [student for student in dict.fromkeys(found) if student]
+    if not found:
+        raise table.fault("no students are found in it", "a column `student`, or a platform's own list")
+    return found
+
+
+def draw(family: Family, students: Sequence[str], seed: str) -> dict[str, Variant]:
+    """A variant for each student, no two the same; a student who is added at the end changes no other's.
+
+    Raises UsageError for a family that has too few.
+    """
+    stem = family.item.stem
+    if family.variation is not None and family.size < len(students):
+        message = f"{stem} has {family.size} variants that are equally hard, for {len(students)} students"
+        raise UsageError(message, "let more vary, or widen `within`; nothing was written")
+    taken: set[int] = set()
+    found = {}
+    for student in students:
+        number = _hash(seed, stem, student) % family.size
+        while number in taken and family.variation is not None:
+            number = (number + 1) % family.size
+        taken.add(number)
+        found[student] = family.variant(number)
+    return found
+
+
+# -- the folder --------------------------------------------------------------------------------------
+
+
+class Forms(Struct, frozen=True):
+    """In which forms sheets, templates and keys are written."""
+
+    sheet: SheetFormat = SheetFormat.HTML
+    template: TemplateFormat = TemplateFormat.YAML
+    key: Detail = Detail.RESULTS
+
+
+def vary(
+    problems: ProblemSet,
+    students: Sequence[str],
+    seed: str,
+    folder: Path,
+    forms: Forms | None = None,
+    jobs: int = 0,
+    progress: Progress | None = None,
+) -> list[Family]:
+    """Draw each student's variants, and write the folder; returns the families.
+
+    Raises UsageError for a family that is too poor, ProblemError for a faulty variant, before anything is
+    written.
+    """
+    forms = forms or Forms()
+    found = families(problems, seed, jobs)
+    drawn = [draw(family, students, seed) for family in found]
+    own = {student: [each[student] for each in drawn] for student in students}
+    (folder / VARIANT_KEYS).mkdir(parents=True, exist_ok=True)
+    due = [student for student in students if not _is_there(folder, student, own[student], forms)]
+    with _workers(jobs) as pool:
+        marks = {item.stem: dict(item.problem.marks) for item in problems.items}
+        write = partial(_write, problems.title, marks, folder, forms)
+        for done, _ in enumerate(pool.map(write, due, [own[student] for student in due]), 1):
+            if progress is not None:
+                progress(done, len(due))
+    write_changed(folder / "variants.csv", _table(own).encode())
+    return found
+
+
+def _is_there(folder: Path, student: str, variants: Sequence[Variant], forms: Forms) -> bool:
+    """Whether everything of a student was written, of these variants."""
+    keys = folder / VARIANT_KEYS / folder_name(student)
+    files = [folder / folder_name(student) / f"sheet{_ending(forms.sheet)}"]
+    files += [keys / f"key{_ending(forms.sheet)}"]
+    try:
+        same = all((keys / f"{one.stem}.yaml").read_text("utf-8") == one.text for one in variants)
+    except OSError:
+        return False
+    return same and all(file.is_file() for file in files)
+
+
+def _ending(form: SheetFormat) -> str:
+    return next(suffix for suffix, named in SHEETS.items() if named is form)
+
+
+def _write(
+    title: str,
+    marks: Mapping[str, dict[str, Fraction]],
+    folder: Path,
+    forms: Forms,
+    student: str,
+    variants: Sequence[Variant],
+) -> None:
+    """The files of one student, the problem files last."""
+    items = []
+    for variant in variants:
+        problem = read_problem(variant.text, f"{variant.stem}.yaml")
+        items.append(Item(replace(problem, marks=marks[variant.stem]), variant.text))
+    own = ProblemSet(title, tuple(items))
+    place, keys = folder / folder_name(student), folder / VARIANT_KEYS / folder_name(student)
+    write_changed(place / f"sheet{_ending(forms.sheet)}", sheet(own, forms.sheet, date=student))
+    suffix = next(ending for ending, form in TEMPLATES.items() if form is forms.template)
+    for item in items:
+        write_changed(place / f"{item.stem}{suffix}", template(item.problem, forms.template))
+    write_changed(keys / f"key{_ending(forms.sheet)}", sheet(own, forms.sheet, date=student, key=forms.key))
+    for variant in variants:
+        write_changed(keys / f"{variant.stem}.yaml", variant.text.encode())
+
+
+def _table(own: Mapping[str, Sequence[Variant]]) -> str:
+    """`variants.csv`."""
+    out = io.StringIO(newline="")
+    write = csv.writer(out, lineterminator="\n")
+    write.writerow(("student", "problem", "variant", "drawn", "answer", *COUNTS))
+    write.writerows(_rows(own))
+    return out.getvalue()
+
+
+def _rows(own: Mapping[str, Sequence[Variant]]) -> Iterator[tuple[object, ...]]:
+    for student, variants in own.items():
+        for variant in variants:
+            drawn = "; ".join(f"{path}: {text}" for path, text in variant.drawn.items())
+            for name, counted in variant.hardness.items():
+                yield (student, variant.stem, variant.number, drawn, name, *counted.counts)
