@@ -184,7 +184,7 @@ def sheet(
     key: Detail | None = None,
     fragment: bool = False,
 ) -> bytes:
-    """A sheet in a form, with a `key` at that depth; `fragment` gives LaTeX that another document takes in."""
+    """A sheet in a form, with a `key` at that depth; `fragment` gives LaTeX for another document."""
     keys = [] if key is None else key_documents(problems, key)
     return written([*sheet_documents(problems, date), *keys], format, fragment)
 

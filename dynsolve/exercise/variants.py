@@ -28,7 +28,7 @@ from msgspec.structs import replace
 from dynsolve.errors import InputError, UsageError
 from dynsolve.exercise.hardness import COUNTS, Hardness, equally_hard, hardness
 from dynsolve.exercise.sheet import SUFFIXES as SHEETS
-from dynsolve.exercise.sheet import SheetFormat, sheet
+from dynsolve.exercise.sheet import SheetFormat, key_documents, sheet_documents, written
 from dynsolve.exercise.template import SUFFIXES as TEMPLATES
 from dynsolve.exercise.template import TemplateFormat, template
 from dynsolve.explain.step import Detail
@@ -83,13 +83,8 @@ class Variant(Struct, frozen=True):
 # -- the family --------------------------------------------------------------------------------------
 
 
-def families(problems: ProblemSet, seed: str, jobs: int = 0) -> list[Family]:
-    """The family of each problem; raises ProblemError for a variant that is no problem."""
-    with _workers(jobs) as pool:
-        return [_family(item, seed, pool) for item in problems.items]
-
-
-def _family(item: Item, seed: str, pool: ProcessPoolExecutor) -> Family:
+def family_of(item: Item, seed: str, pool: ProcessPoolExecutor) -> Family:
+    """The family of a problem; raises ProblemError for a variant that is no problem."""
     variation = read_variation(item.text, item.problem.file)
     structures = list(variation.structures()) if variation else [{}]
     if len(structures) > MOST_STRUCTURES:
@@ -107,10 +102,6 @@ def _counted(file: str, names: Sequence[str], text: str) -> Mapping[str, Hardnes
 
 def _hash(*words: str) -> int:
     return int.from_bytes(sha256("\0".join(words).encode()).digest()[:8])
-
-
-def _workers(jobs: int) -> ProcessPoolExecutor:
-    return ProcessPoolExecutor(jobs or os.cpu_count() or 1, mp_context=get_context("spawn"))
 
 
 # -- the draw ----------------------------------------------------------------------------------------
@@ -182,19 +173,19 @@ def vary(
     written.
     """
     forms = forms or Forms()
-    found = families(problems, seed, jobs)
-    drawn = [draw(family, students, seed) for family in found]
-    own = {student: [each[student] for each in drawn] for student in students}
-    (folder / VARIANT_KEYS).mkdir(parents=True, exist_ok=True)
-    due = [student for student in students if not _is_there(folder, student, own[student], forms)]
-    with _workers(jobs) as pool:
-        marks = {item.stem: dict(item.problem.marks) for item in problems.items}
+    marks = {item.stem: dict(item.problem.marks) for item in problems.items}
+    with ProcessPoolExecutor(jobs or os.cpu_count() or 1, mp_context=get_context("spawn")) as pool:
+        families = [family_of(item, seed, pool) for item in problems.items]
+        drawn = [draw(family, students, seed) for family in families]
+        own = {student: [each[student] for each in drawn] for student in students}
+        (folder / VARIANT_KEYS).mkdir(parents=True, exist_ok=True)
+        due = [student for student in students if not _is_there(folder, student, own[student], forms)]
         write = partial(_write, problems.title, marks, folder, forms)
         for done, _ in enumerate(pool.map(write, due, [own[student] for student in due]), 1):
             if progress is not None:
                 progress(done, len(due))
     write_changed(folder / "variants.csv", _table(own).encode())
-    return found
+    return families
 
 
 def _is_there(folder: Path, student: str, variants: Sequence[Variant], forms: Forms) -> bool:
@@ -228,11 +219,13 @@ def _write(
         items.append(Item(replace(problem, marks=marks[variant.stem]), variant.text))
     own = ProblemSet(title, tuple(items))
     place, keys = folder / folder_name(student), folder / VARIANT_KEYS / folder_name(student)
-    write_changed(place / f"sheet{_ending(forms.sheet)}", sheet(own, forms.sheet, date=student))
+    exercises = sheet_documents(own, student)
+    with_key = [*exercises, *key_documents(own, forms.key)]
+    write_changed(place / f"sheet{_ending(forms.sheet)}", written(exercises, forms.sheet))
     suffix = next(ending for ending, form in TEMPLATES.items() if form is forms.template)
     for item in items:
         write_changed(place / f"{item.stem}{suffix}", template(item.problem, forms.template))
-    write_changed(keys / f"key{_ending(forms.sheet)}", sheet(own, forms.sheet, date=student, key=forms.key))
+    write_changed(keys / f"key{_ending(forms.sheet)}", written(with_key, forms.sheet))
     for variant in variants:
         write_changed(keys / f"{variant.stem}.yaml", variant.text.encode())
 
