@@ -88,18 +88,20 @@ class Exercise(Struct, frozen=True):
         return replace(report_style(self.problem.robot), shorthand={})
 
 
-def exercise_of(item: Item, number: int = 0) -> Exercise:
+def exercise_of(item: Item, number: int = 0, *, pictured: bool = True) -> Exercise:
     """What is given and asked, with the marks of its set; with a number it is one of several."""
     problem = item.problem
     title = f"Exercise {number}: {problem.title}" if number else problem.title
-    return Exercise(problem, title, tuple(_given(problem)), tuple(parts(problem, dict(problem.marks))))
+    return Exercise(
+        problem, title, tuple(_given(problem, pictured)), tuple(parts(problem, dict(problem.marks)))
+    )
 
 
-def _given(problem: Problem) -> Iterator[Block]:
+def _given(problem: Problem, pictured: bool) -> Iterator[Block]:
     """The picture, the table, and what is given in words."""
     robot = problem.robot
     is_sought = "DH" in problem.find or "DH" in problem.marks
-    if is_drawn(robot):
+    if pictured and is_drawn(robot):
         yield picture(problem, star=False, frames=not is_sought)
     forms, own_words = Forms(robot, derive(robot)), problem.text or Wording()
     if own_words.before:
@@ -115,10 +117,11 @@ def _given(problem: Problem) -> Iterator[Block]:
 # -- as documents ----------------------------------------------------------------------------------
 
 
-def sheet_documents(problems: ProblemSet, date: str = "") -> list[Styled]:
+def sheet_documents(problems: ProblemSet, date: str = "", *, pictured: bool = True) -> list[Styled]:
     """The title, the exercises, and how to hand in."""
     is_one = len(problems.items) == 1
-    exercises = [exercise_of(item, 0 if is_one else k) for k, item in enumerate(problems.items, 1)]
+    numbered = enumerate(problems.items, 1)
+    exercises = [exercise_of(item, 0 if is_one else k, pictured=pictured) for k, item in numbered]
     total = sum((exercise.points for exercise in exercises), Fraction(0))
     under = ", ".join(filter(None, (date, _points(total))))
     found: list[Styled] = [(Document((Heading(problems.title, 1), Text((under,)))), PLAIN)]
@@ -186,7 +189,8 @@ def sheet(
 ) -> bytes:
     """A sheet in a form, with a `key` at that depth; `fragment` gives LaTeX for another document."""
     keys = [] if key is None else key_documents(problems, key)
-    return written([*sheet_documents(problems, date), *keys], format, fragment)
+    pictured = format is not SheetFormat.TEXT
+    return written([*sheet_documents(problems, date, pictured=pictured), *keys], format, fragment)
 
 
 def written(documents: Sequence[Styled], format: SheetFormat, fragment: bool = False) -> bytes:

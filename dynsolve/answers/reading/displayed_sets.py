@@ -77,7 +77,7 @@ _ITEM = re.compile(
     r"[ \t]*(?:[-*+•]|\(?[0-9a-z]{1,2}[.)]|\\item\b)[ \t]*(?P<value>[^\n]*)"
 )
 _HEADED_SETS_REMARK = re.compile(
-    r"\((?=[^()=\\]*[^\W\d_]{4})[^()=\\]*\)(?!\s*(?:=|∈|\\in))"
+    r"(?<!\w)\((?=[^()=\\]*[^\W\d_]{4})[^()=\\]*\)(?!\s*(?:=|∈|\\in))"
     rf"|,?[ \t]+(?:both |all |beide |begge )?(?:{STABLE})\b|^[ \t]*(?:{STABLE})[ \t]*:",
     re.IGNORECASE,
 )
