@@ -19,7 +19,7 @@ from dynsolve.notation.characters import split
 from dynsolve.problem.bodies import ParsedTensor
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record
-from dynsolve.problem.reader import Reading, read_file, read_whole
+from dynsolve.problem.reader import Reading, read_file, read_problem, read_whole
 from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.geometry import Links, elementary
 from dynsolve.robot.model import Body, Robot
@@ -155,6 +155,10 @@ def remarks(reading: Reading) -> tuple[Finding, ...]:
         code = check.__name__.replace("_", "-")
         source = reading.faults.source
         found += [source.finding(*span, message, help, code) for span, message, help in check(reading)]
+    if reading.variation is not None:
+        from dynsolve.problem.variation import faulty_alternatives
+
+        found += faulty_alternatives(reading.variation, reading.faults.source, read_problem)
     return tuple(sorted(found, key=lambda finding: (finding.line, finding.column)))
 
 

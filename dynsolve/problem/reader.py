@@ -44,6 +44,7 @@ from dynsolve.robot.model import Convention, Robot
 
 if TYPE_CHECKING:
     from dynsolve.problem.mechanism import Candidates, Model
+    from dynsolve.problem.variation import Variation
 
 _AXES = "delete it, or give the joint axes of a drawing in place of `dh`"
 
@@ -55,6 +56,7 @@ class Reading(Struct, frozen=True):
     parsed: ParsedFile
     fields: Fields
     faults: Faults
+    variation: Variation | None = None
 
 
 def load(path: str | os.PathLike[str]) -> Problem:
@@ -110,6 +112,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
     edition = word(faults, fields.get("edition"), EDITION.choices, "edition", PROBLEM["edition"].help)
     title = free_text(faults, fields.get("title"), "title") or Path(file).stem
     source = free_text(faults, fields.get("source"), "source")
+    variation = _variation(faults, root) if "vary" in fields else None
     robot = build_robot(faults, parsed, exercise.asked, exercise.written)
     if robot is not None:
         _check_task(faults, fields, robot)
@@ -134,7 +137,13 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         places=dict(_places(faults, root)),
         warnings=tuple(faults.warnings),
     )
-    return Reading(problem, parsed, fields, faults)
+    return Reading(problem, parsed, fields, faults, variation)
+
+
+def _variation(faults: Faults, root: YamlNode | None) -> Variation | None:
+    from dynsolve.problem.variation import variation_of
+
+    return variation_of(faults, root) if isinstance(root, MappingNode) else None
 
 
 def _check_task(faults: Faults, fields: Fields, robot: Robot) -> None:

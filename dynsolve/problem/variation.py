@@ -22,6 +22,7 @@ from itertools import product
 from math import prod
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import Finding, ProblemError, ReadError
@@ -34,6 +35,7 @@ from dynsolve.problem.yaml_nodes import (
     FaultyNode,
     ListNode,
     MappingNode,
+    ProblemText,
     ScalarNode,
     Span,
     YamlNode,
@@ -61,6 +63,8 @@ class Part(Struct, frozen=True):
     path: str
     span: Span
     alternatives: tuple[str, ...]
+    places: tuple[Span, ...] = ()
+    """Where the alternatives of a list stand in the file."""
 
     @property
     def is_number(self) -> bool:
@@ -219,7 +223,8 @@ def variation_of(faults: Faults, root: MappingNode) -> Variation | None:
             span = _place(faults, root, name)
             alternatives = _alternatives(faults, value, name.decoded)
             if span is not None and alternatives:
-                parts.append(Part(name.decoded, span, alternatives))
+                places = tuple(item.span for item in value.items) if isinstance(value, ListNode) else ()
+                parts.append(Part(name.decoded, span, alternatives, places))
     if not (parts or letters) and not faults.errors:
         faults.error(key.span, "nothing varies", _HELP)
     moved = [_behind(part, begin, end, len(text)) for part in parts]
@@ -232,7 +237,7 @@ def _behind(part: Part, begin: int, end: int, last: int) -> Part:
     if start == stop:  # it is added at the end
         start = stop = last
     shift = end - begin if start >= end else 0
-    return Part(part.path, (start - shift, stop - shift), part.alternatives)
+    return replace(part, span=(start - shift, stop - shift))
 
 
 def _place(faults: Faults, root: MappingNode, name: ScalarNode) -> Span | None:
@@ -337,15 +342,18 @@ def _letters(faults: Faults, node: YamlNode) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def faulty_alternatives(variation: Variation, read: Callable[[str, str], object]) -> Iterator[Finding]:
-    """What is wrong with the alternatives, each put into the file by itself.
+def faulty_alternatives(
+    variation: Variation, source: ProblemText, read: Callable[[str, str], object]
+) -> Iterator[Finding]:
+    """What is wrong with the alternatives of lists, each put into the file by itself.
 
     `read` reads the text of a problem file and its name, and raises ProblemError.
     """
     for part in variation.parts:
-        for text in part.alternatives:
+        for text, place in zip(part.alternatives, part.places, strict=False):
             try:
                 read(variation.choose({part.path: text}), variation.file)
             except ProblemError as error:
                 first = error.findings[0]
-                yield Finding(f"with {part.path}: {text}: {first.message}", first.help, variation.file)
+                message = f"with {part.path}: {text}: {first.message}"
+                yield source.finding(*place, message, first.help, "faulty-alternative")

@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -80,6 +81,14 @@ def filled(name: str, form: TemplateFormat, wrong: str = "") -> str:
     if form is TemplateFormat.YAML:
         return _listed(page, made, solution, results, wrong)
     return _reported(page, made, solution, results, wrong, latex=form is TemplateFormat.LATEX)
+
+
+def key_in(file: Path) -> str:
+    """The key of a problem file as a hand-in."""
+    solution = solved(file)
+    made = template_of(solution.problem)
+    page = template(solution.problem, TemplateFormat.YAML).decode()
+    return _listed(page, made, solution, {}, "")
 
 
 def _form(solution: Solution, name: str, write: Callable[[Any], str]) -> Any:
