@@ -3,6 +3,7 @@
     solve                 derive a model
     check, grade          judge one hand-in, a course's hand-ins; change marks; the zip that makes
                           Gradescope run dynsolve
+    exercise              sheets, templates of hand-ins, a variant for each student
     draw                  the robot of a problem file drawn
     library               a first draft of a file, a second look at one, its JSON Schema, the library of
                           problems, the formats of files and exit codes

@@ -21,7 +21,8 @@
                      actions        `forces`, `weights`
                      decoder        mappings and lists, by the kinds of their keys and items
                      acting         `friction`, `springs`, `dampers`, `motors`, `passive`, up to the robot
-                     exercise       `find`, `marks`, `values`, `units`, `remarks`
+                     exercise       `find`, `marks`, `values`, `units`, `remarks`, `text`
+                     variation      `vary`, and the text of the file with a choice made
       -> Robot       values         one name is one thing; the ring that holds everything, each cell in it,
                                     points, masses and tensors
                      build          joints and bodies

@@ -432,7 +432,7 @@ PROBLEM = Keyed(
             MapOf(VARIED, "alternatives by part of the file"),
             "What may differ from student to student: parts of the file with alternatives, or ranges of "
             "numbers; `letters`; and how far `within` the median the work may be (0.1).",
-            "{values.l1: [0.3, 0.4], dh.1.alpha: [90deg, -90deg], letters: {l1: [l1, a1]}}",
+            "{values.L1: [0.3, 0.4], dh.1.alpha: [90deg, -90deg], letters: {L1: [L1, a1]}}",
         ),
         Key(
             "find",

@@ -56,10 +56,18 @@ def _folder(folder: Path) -> None:
 def test_there_are_examples() -> None:
     files = (
         "rp drawn cart candidates rrp elbow target wrist rates adaptive hanging balanced held driven line "
-        "answer slips spellings set"
+        "answer slips spellings set varied"
     ).split()
     assert {*(f"{name}.yaml" for name in files), "report.md"} == FILES.keys()
-    sections = {"Problem file", "Solution JSON", "Answer file", "Verdicts", "Grading", "Commands"}
+    sections = {
+        "Problem file",
+        "Solution JSON",
+        "Answer file",
+        "Verdicts",
+        "Grading",
+        "Sheets and variants",
+        "Commands",
+    }
     assert sections == EXAMPLES.keys()
     assert len(PROBLEMS) >= 5
 
@@ -116,7 +124,15 @@ def test_every_unit_that_is_named_is_known() -> None:
 
 def test_docs_prints_every_section() -> None:
     found = topics()
-    assert [*found] == ["problem-file", "solution-json", "answer-file", "verdicts", "grading", "commands"]
+    assert [*found] == [
+        "problem-file",
+        "solution-json",
+        "answer-file",
+        "verdicts",
+        "grading",
+        "sheets-and-variants",
+        "commands",
+    ]
     assert "".join(found.values()) in PAGE
     assert all(f"(#{topic})" in PAGE for topic in found)
     links = re.findall(r"\]\(#([\w-]+)\)", PAGE)
