@@ -26,7 +26,7 @@ from dynsolve.explain.inertia import has_link_axes, is_moved, lies_as_drawn, sta
 from dynsolve.explain.kinematics import turned
 from dynsolve.explain.mass_centers import Place, ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
-from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles
+from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles, units_of_values
 from dynsolve.explain.set_forms import SetForms
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
@@ -589,6 +589,10 @@ def _in_letters(entry: Node) -> Node:
     return mapped(entry, with_letters)
 
 
+AT_STATE = frozenset({"Q", "tau_static", "qd", "qdd", "nullspace", "rangespace", "lost"})
+"""What is computed at the state that a file gives."""
+
+
 def _questions(forms: Forms) -> Iterator[Prose]:
     """Constraints, task, target, state, forces from outside, limits and assumptions."""
     robot, questions = forms.robot, forms.robot.questions
@@ -614,10 +618,17 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     ]
     if ranges:
         yield ("Limits: ", *listed(ranges), ".")
-    given = (("The state: ", questions.state.values), ("The equilibrium: ", questions.model.linearize))
+    at_state = not questions.state_is_reached and any(
+        name.rstrip("0123456789") in AT_STATE for name in questions.asked
+    )
+    is_linear = not questions.asked.isdisjoint(("linear_A", "linear_B"))
+    given = (
+        ("The state: ", questions.state.values if at_state else ()),
+        ("To be linearized at ", questions.model.linearize if is_linear else ()),
+    )
     for what, values in given:
         shown = [_valued(robot, name, dots, value) for name, dots, value in values]
-        if shown and not questions.state_is_reached:
+        if shown:
             yield (what, side_by_side(shown), ".")
     if questions.state_is_reached:
         within = " within these limits" if questions.limits else ""
@@ -696,7 +707,7 @@ _AS_WRITTEN = re.compile(r"[-+0-9./eE]*")
 
 def _values(robot: Robot, written: Mapping[str, str], own_units: Mapping[str, str]) -> Prose:
     """In numbers: a₂ = 0.4318 m; nothing where the problem has no values."""
-    known = {name: unit for name, (_, unit) in roles(robot).items()}
+    known = units_of_values(robot) | {name: unit for name, (_, unit) in roles(robot).items()}
     given: list[Prose] = []
     for name, text in written.items():
         unit = own_units.get(name, known.get(name, ""))

@@ -139,7 +139,7 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
     found: dict[str, Role] = {}
     for role, name, _ in _places(robot):
         found.setdefault(name, role)
-    dimensions, at_state = _dimensions(robot), _units_of_values(robot)
+    dimensions, at_state = _dimensions(robot), units_of_values(robot)
 
     def unit(name: str, role: Role) -> str:
         own = dimensions.get(name) or at_state.get(name, "")
@@ -155,11 +155,12 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
     return {name: (told(name), unit(name, told(name))) for name in robot.parameters}
 
 
-def _units_of_values(robot: Robot) -> dict[str, str]:
+def units_of_values(robot: Robot) -> dict[str, str]:
     """Units of the parameters that are the value of a coordinate or of a rate."""
     base = {q.name: "m" if q.type is JointType.PRISMATIC else "rad" for q in robot.coordinates}
     given = [*robot.questions.state.values, *robot.questions.model.linearize]
     given += [(name, 1, value) for name, value in robot.questions.model.steady]
+    given += [(one.coordinate, 0, end) for one in robot.questions.limits for end in (one.low, one.high)]
     per = ("", "/s", "/s^2")
     return {own: base[name] + per[dots] for name, dots, value in given for own in _alone_in_tree(value)}
 

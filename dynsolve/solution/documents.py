@@ -41,7 +41,7 @@ from dynsolve.document import (
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.given import CALLED, statement, to_be_found
+from dynsolve.explain.given import AT_STATE, CALLED, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID
@@ -165,9 +165,6 @@ def _measured(node: Node, known: Mapping[Node, str], otherwise: str, style: Styl
 TITLE = "Summary"
 
 _MATRICES = ("D", "C", "friction", "g")
-
-_AT_STATE = frozenset({"Q", "tau_static", "qd", "qdd", "nullspace", "rangespace", "lost"})
-"""What is computed at the state that a file gives."""
 
 _ACCELERATIONS = ("qdd", "qdd_forward")
 """Two results of one letter."""
@@ -300,7 +297,7 @@ def _long_model(
 def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
     """What else is asked for: what holds everywhere, then, said so, what holds at the given state alone."""
     state = robot.questions.state.values
-    at_state = [name for name in asked if state and name.rstrip("0123456789") in _AT_STATE]
+    at_state = [name for name in asked if state and name.rstrip("0123456789") in AT_STATE]
     for name in (name for name in asked if name not in at_state):
         yield from _asked_for(name, robot, steps)
     found = [block for name in at_state for block in _asked_for(name, robot, steps)]

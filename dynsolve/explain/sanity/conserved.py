@@ -69,16 +69,17 @@ def _step(context: Context, energy: Line | None) -> Step | None:
 def _of_energy(context: Context) -> Line | None:
     """d/dt (K + P) = q̇ᵀ (D q̈ + ½ Ḋ q̇ + g) = q̇ᵀ (D q̈ + C q̇ + g + ½ N q̇) = q̇ᵀ τ, of energies."""
     asked = context.robot.questions
-    if context.robot.given is not None or asked.method is not Method.LAGRANGE or asked.constraints:
+    if context.robot.given is not None or asked.method is not Method.LAGRANGE:
         return None
-    driving = driving_side(context)
+    driving = driving_side(context, constrained=False)
     terms = driving.terms if isinstance(driving, Sum) else (driving,)
     acting = sum_of([*terms, *([Negative(letters.FRICTION)] if has_friction(context) else [])])
     by = say(
         "The rate of the energy follows from $𝒦 = ½ {square}$ ($𝐃$ is symmetric) and $𝐠 = ∂𝒫/∂𝐪$, with "
-        "$𝐃̇ = 2 𝐂 + 𝐍$, $𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = {acting}$ and $𝐪̇ᵀ 𝐍 𝐪̇ = 0${skew}:",
+        "$𝐃̇ = 2 𝐂 + 𝐍$, $𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = {acting}${held} and $𝐪̇ᵀ 𝐍 𝐪̇ = 0${skew}:",
         square=formula("𝐪̇ᵀ 𝐃 𝐪̇"),
-        acting=acting,
+        acting=sum_of([acting, formula("𝐀_cᵀ 𝛌")]) if asked.constraints else acting,
+        held=say(", $𝐀_c 𝐪̇ = 0$") if asked.constraints else "",
         skew=Reference(("skew-2",), " by "),
     )
     powers = formula(
@@ -91,22 +92,31 @@ def _of_energy(context: Context) -> Line | None:
 
 def _of_power(context: Context) -> Prose:
     """What changes the energy."""
+    driving = driving_side(context, constrained=False)
+    if (
+        driving == letters.TAU
+        and len(context.robot.actions.passive) == context.robot.n
+        and not has_friction(context)
+    ):
+        return ("No motor drives: the energy is conserved. ",)
     rest = " alone: as long as ${driving} = 𝟎$ it is conserved. "
     if has_friction(context):
         rest = " and of friction, which takes energy away. "
-    return say(f"The energy changes by the power of {{driving}}{rest}", driving=driving_side(context))
+    return say(f"The energy changes by the power of {{driving}}{rest}", driving=driving)
 
 
 # -- momenta ---------------------------------------------------------------------------------------
 
 
 def _cyclic(context: Context) -> list[Coordinate]:
-    """The coordinates that stand neither in L nor in friction, on which no friction acts."""
+    """The coordinates that do not stand in L, on which neither friction nor a constraint acts."""
     values = context.values
+    held = context.robot.questions.constraints
     return [
         q
         for q in context.robot.coordinates
         if values[f"dLdq{q.index}"].is_zero
+        and not (held and any(not row[q.index - 1].is_zero for row in values["Ac"].rows))
         and not values[f"dLdqd{q.index}"].is_zero
         and ("friction" not in values.rules or values["friction"][q.index - 1, 0].is_zero)
     ]
@@ -149,7 +159,7 @@ def _acting_on(context: Context, q: Coordinate) -> Node:
         terms.remove(letters.force(q))
     if context.robot.questions.loads and values["Q"][k, 0].is_zero:
         terms.remove(letters.entry("Q", q.index))
-    if context.robot.questions.constraints and all(entry.is_zero for entry in values["Ac"].T.rows[k]):
+    if context.robot.questions.constraints:  # none acts on what is cyclic
         terms.pop()
     return sum_of(terms) if terms else ZERO
 

@@ -20,6 +20,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.terms import Monomial, Rational
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.inequality import Bound
+from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
@@ -411,18 +412,21 @@ def decoupled_step(context: Context) -> Step | None:
     n, D = context.robot.n, context.values["D"]
     coupling = [D[i, j] for i, j in combinations(range(n), 2) if not D[i, j].is_zero]
     factor = _of_parameters(coupling) if coupling else None
-    if factor is None:
+    if factor is None or ParameterSigns(context.robot.questions.model.assumed).open_part(factor).is_number:
         return None
     from dynsolve.explain.set_forms import SetForms
 
     sides = SetForms(context.robot, context.values).inequality(Bound(factor)).parts
     ring = context.robot.ring
-    is_constant = not any(ring.depends_on_coordinates(D[i, i]) for i in range(n))
+    diagonal = [D[i, i] for i in range(n)]
+    is_told = any(map(ring.depends_on_coordinates, coupling)) and not any(
+        map(ring.depends_on_coordinates, diagonal)
+    )
     told = say(
         "Where {relation}, $𝐃$ is diagonal in every configuration: no coordinate is coupled with another by "
         "its acceleration.{constant}",
         relation=equation(*sides),
-        constant=say(" $𝐃$ is then constant, and $𝐂 = 𝟎$.") if is_constant else "",
+        constant=say(" $𝐃$ is then constant, and $𝐂 = 𝟎$.") if is_told else "",
     )
     return Step(
         id="decoupled",

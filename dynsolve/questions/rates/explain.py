@@ -46,13 +46,19 @@ def steps(context: Context) -> Iterator[Step]:
         known = True
 
 
-def state_prose(context: Context) -> Prose:
+def state_prose(context: Context, with_rates: bool = True) -> Prose:
     """The state that something is asked for at, as words: The state is q₁ = 90°, q̇₁ = 1."""
-    values = context.robot.questions.state.values
+    values = [one for one in context.robot.questions.state.values if with_rates or not one[1]]
     if not values:
         return ()
     given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in values])
     return say("The state is {given}.", given=given)
+
+
+def _state_once(context: Context, name: str) -> Prose:
+    """The state, told with the first of the results that are asked for there."""
+    first = next(one for one in ("qd", "qdd", *_SPACES) if one in context.wanted)
+    return state_prose(context) if name == first else ()
 
 
 def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, why: Prose) -> Step:
@@ -95,7 +101,7 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
     return Step(
         id=name,
         title=title,
-        why=(*why, *how, *state_prose(context)),
+        why=(*why, *how, *_state_once(context, name)),
         formula=equation(x, inverse_times),
         source=spong("4.11"),
         working=tuple(working),
@@ -164,7 +170,7 @@ def _space(context: Context, name: str) -> Step:
         what = "Nothing but 𝟎 is orthogonal to all possible velocities: no motion is lost."
     return replace(
         found,
-        why=(f"{what} ", *state_prose(context)) if state else (what,),
+        why=say("{what} {state}", what=what, state=_state_once(context, name)),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
         notes=((f"The rank is {rank}, and the dimension of this space {count}.",),),

@@ -92,7 +92,7 @@ _COUNTED = ("No force acts from outside. ", "There is only one force. ", "The su
 def _total(context: Context) -> Step:
     numbers = range(1, len(context.robot.questions.loads) + 1)
     general = statics.total(context.robot, tuple(context.values[f"load{i}"] for i in numbers))
-    at, several = state_prose(context), len(numbers) > 1
+    at, several = state_prose(context, with_rates=False), len(numbers) > 1
     return Step(
         id="Q",
         title="The generalized forces from outside",
@@ -126,7 +126,7 @@ def _holding(context: Context) -> Step:
             )
             if passive and not beside
             else "",
-            at=state_prose(context),
+            at="" if robot.questions.loads else state_prose(context, with_rates=False),
         ),
         formula=equation(letters.TAU_STATIC, sum_of(terms) if terms else Number(0)),
         source=_FORCES,
