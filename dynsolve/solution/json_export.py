@@ -161,8 +161,8 @@ class _Exporter:
         if quantity.family.kind not in FORMED:
             return quantity.family.stage.part("export").value(self.export, quantity.rule)
         form = self.forms(quantity.rule)
-        if isinstance(form, Words):
-            return {"skipped": form.text}
+        if isinstance(form, Words):  # in brackets, as it stands in a formula
+            return {"skipped": form.text[1:-1]}
         if not isinstance(form, Matrix):
             return self.python.text(form)
         rows = [[self.python.text(entry) for entry in row] for row in form.rows]

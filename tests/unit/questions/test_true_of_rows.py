@@ -43,3 +43,24 @@ def test_a_matrix_has_its_own_assumptions_and_the_conditions_of_its_verdict() ->
     )
     assert "Assumed of A: a > 0 and b > 0. Assumed of B: c > 0." in " ".join(told.split())
     assert "B: it can be an inertia matrix if " in told
+
+
+STATED = f"""{ARM}linearize: {{q1: 0, q2: 90deg}}
+forces: [{{link: 2, at: tip, force: [0, -F, 0]}}]
+velocity: [vx, vy]
+state: {{q1: 30deg, q2: 0, q1': w}}
+"""
+
+
+def test_a_state_is_given_where_something_is_asked_for_there() -> None:
+    without_force = "".join(line for line in STATED.splitlines(keepends=True) if "forces" not in line)
+    alone = " ".join(text(f"{without_force}find: [D]\n").split())
+    assert "linearized" not in alone and "The state" not in alone
+    linear = " ".join(text(f"{STATED}find: [linear_A]\n").split())
+    assert "To be linearized at q₁ = 0, q₂ = 90°." in linear and "The equilibrium:" not in linear
+
+
+def test_a_state_is_told_once_in_a_section_and_without_rates_at_rest() -> None:
+    told = " ".join(text(f"{STATED}find: [Q, tau_static, qd, nullspace]\n").split())
+    assert told.count("The state is") == 2
+    assert "There is only one force. The state is q₁ = 30°, q₂ = 0. " in told

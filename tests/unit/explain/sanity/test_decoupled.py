@@ -35,3 +35,17 @@ def test_the_condition_of_the_book_makes_the_five_bar_two_pendulums() -> None:
 @pytest.mark.parametrize("problem", ["planar-2r", "elbow-3r", "in3140-rp", "furuta-pendulum"])
 def test_nothing_is_said_where_no_relation_of_positive_parameters_does_it(problem: str) -> None:
     assert _told(problem) == ""
+
+
+SLIDERS = """
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic}
+  bodies: [{mass: M, at: [x + y, 0, 0]}, {mass: m, at: [x - y, 0, 0]}]
+"""
+
+
+def test_what_is_assumed_is_not_put_aside_nor_what_is_constant_told_again() -> None:
+    told = _told(SLIDERS)
+    assert told.startswith("Where M = m, D is diagonal") and "constant" not in told
+    assert _told(f"{SLIDERS}assume: [M > m]\n") == ""

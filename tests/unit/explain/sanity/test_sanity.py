@@ -59,6 +59,28 @@ def test_what_is_conserved(problem: str, told: str) -> None:
     assert words((*step.why, *step.concluding)).endswith(told)
 
 
+SKATE = """
+gravity: [-g, 0, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute}
+  bodies: [{mass: m, at: [x, y, 0], turn: phi, about: [0, 0, 1], inertia: {zz: J}}]
+constraints: [{rates: "x'*sin(phi) - y'*cos(phi)"}]
+"""
+"""A skate on a slope: what keeps it on its edge does no work, and pushes along y."""
+
+
+def test_constraints_do_no_work_and_change_momenta() -> None:
+    step = check(SKATE, "conserved")
+    assert step is not None
+    told = words(step.concluding)
+    assert "as long as τ = 0 it is conserved" in told
+    assert "A_c" not in told and "ẏ" not in told and "∂ℒ/∂φ̇" in told
+    alone = check(f"{SKATE}passive: [x, y, phi]\n", "conserved")
+    assert alone is not None and words(alone.concluding).startswith(
+        "No motor drives: the energy is conserved. "
+    )
+
+
 CART = """
 gravity: [0, 0, -g]
 dh: [{theta: 0, d: p1*, alpha: 90deg}, {theta: q2*, a: l}]
