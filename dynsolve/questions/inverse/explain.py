@@ -72,7 +72,7 @@ def steps(context: Context) -> Iterator[Step]:
                 f"{opened(REDUNDANT)}."
                 if is_free
                 else "No equation with one unknown in a known form was found: turned into the frames of the "
-                "joints, squared and added, these equations stay coupled. Such arms are solved numerically.",
+                "joints, squared and added, these equations stay coupled.",
             ),
             detail=Detail.BRIEF,
             notes=tuple(_of_pieper(context.robot)),
@@ -176,7 +176,8 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
     shown = names_in(*results, *(lines[-1].formulas if lines else working))
     starts_anew = any(e.expr not in known for e in first)
     if isinstance(step, Remainder):
-        why: Prose = ("The task gives the sum of the angles; the others are known now.",)
+        gives = "the sum of the angles; the others are known now" if step.others else "this angle"
+        why: Prose = (f"The task gives {gives}.",)
     else:
         why = (*_origin([e.origin for e in step.equations]), *say(_form(step), q=Symbol(step.coordinate)))
     return Step(
@@ -278,12 +279,13 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
             factors = [sine, cosine]
         case OneLine(_, cosine, sine, value) if cosine.is_zero or sine.is_zero:
             there = formula("-1 ≤ {ratio} ≤ 1", ratio=formulas.ratio(value, cosine + sine))
+            yield from _needs(forms, cosine + sine)
         case OneLine():
             there = formulas.boundary(step)
         case RootLength():
             there = formula("{radicand} ≥ 0", radicand=formulas.radicand(step))
-        case Length() if not (is_nonnegative(step.factor) or is_nonnegative(-step.factor)):
-            yield say("This needs ${factor} ≠ 0$.", factor=formulas.form(step.factor))
+        case Length():
+            yield from _needs(forms, step.factor)
         case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
             factors = [factor for factor in (cosine, sine) if not factor.is_zero]
     if there is not None:
@@ -292,6 +294,12 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
     if factors and not any(is_positive(factor * factor) for factor in factors) and _may_vanish(factors):
         zeros = [equation(forms.vanishing(factor), Number(0)) for factor in factors]
         yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
+
+
+def _needs(forms: InverseForms, factor: Expr) -> Iterator[Prose]:
+    """That a factor is not 0, where it may be."""
+    if not (is_nonnegative(factor) or is_nonnegative(-factor)):
+        yield say("This needs ${factor} ≠ 0$.", factor=forms.vanishing(factor))
 
 
 def _may_vanish(factors: Sequence[Expr]) -> bool:
@@ -462,17 +470,23 @@ _OF_A_WRIST = (
 
 def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[Solved]) -> Step:
     """The rotation that is left for some joints."""
-    joints = f"joint {turn.first}" if turn.first == turn.last else f"joints {_joints(turn)}"
+    is_one = turn.first == turn.last
+    joints = f"joint {turn.first}" if is_one else f"joints {_joints(turn)}"
     known, made = (formulas.matrix(pose.block(0, 3, 0, 3)) for pose in (turn.known, turn.made))
-    rotation = formula("𝐔 = {known} = {made}", known=known, made=made)
+    U = letters.bold(turn.definitions[0].name[0].upper() if turn.definitions else "U")
+    rotation = formula("{U} = {known} = {made}", U=U, known=known, made=made)
     values = tuple(equation(Symbol(d.name), formulas.form(d.value)) for d in turn.definitions)
     return Step(
         id=f"inverse_turn_{number}",
         title="The rotation of the wrist" if turn.is_wrist else f"What is left for {joints}",
         why=say(
             "The other joints are known now. Taken off the given pose, they leave to {joints} the rotation "
-            "$𝐔$, which is also the product of the rotations of these joints.{subproblems}",
+            "{U}, which is also {product}.{subproblems}",
             joints=joints,
+            U=U,
+            product="the rotation of the joint itself"
+            if is_one
+            else "the product of the rotations of these joints",
             subproblems=_OF_A_WRIST if turn.is_wrist else "",
         ),
         working=(rotation,),
@@ -530,7 +544,7 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
             task=task,
             same=same if count > 1 else "",
         ),
-        table=None if is_free else _table(forms, choices),
+        table=None if is_free or not choices else _table(forms, choices),
         notes=(*_conditions(forms, task), *_free_coordinates(solving)),
         outcome=together if is_free and choices else (),
         normal=NOTED,
@@ -590,6 +604,8 @@ def _conditions(forms: InverseForms, task: Node) -> Iterator[Prose]:
             which = "Line|Lines {numbers} holds|hold" if len(lines) > 1 else "This|They holds|hold"
             text = " where {conditions} alone: the joints give {task} no other values."
             conditions = listed([equation(*one.sides) for one in when])
+            if len(when) == len(forms.robot.questions.reached):
+                text = " only where {task} is then what is given: the joints give it no other values."
             which = agreeing(which, len(numbers))
             yield say(which + text, numbers=listed(numbers), conditions=conditions, task=task)
 

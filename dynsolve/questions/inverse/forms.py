@@ -71,8 +71,11 @@ def _signed(solutions: tuple[Node, ...]) -> tuple[tuple[Node, ...], Node] | None
     match solutions:
         case (first, second) if second == negated(first):
             return (), first
-        case (Sum((*middle, first)), Sum((*others, second))) if middle == others and second == negated(first):
-            return tuple(middle), first
+        case (Sum(first), Sum(second)):
+            middle = tuple(term for term in first if term in second)
+            either, other = (total([t for t in terms if t not in middle]) for terms in (first, second))
+            if other == negated(either):
+                return middle, either
     return None
 
 
@@ -182,10 +185,14 @@ class InverseFormulas:
         return atan2(self.ratio(y, length), self.ratio(x, length))
 
     def direction(self, y: Expr, x: Expr) -> Node:
-        """atan2(y, x) without a positive factor that both share."""
+        """atan2(y, x) without a positive factor that both share; atan2(sin ψ, cos ψ) is ψ."""
         ways = _without_shared(y, x)
         forms = ([self.form(e) for e in both] for both in (ways, _in_whole_numbers(*ways)))
-        return atan2(*min(forms, key=lambda both: sum(map(cost, both))))
+        sine, cosine = min(forms, key=lambda both: sum(map(cost, both)))
+        match split_sign(sine), cosine:
+            case (sign, Function("sin", angle)), Function("cos", same) if angle == same:
+                return angle if sign > 0 else negated(angle)
+        return atan2(sine, cosine)
 
     def _of_line(self, step: OneLine, value: Node) -> tuple[Node, Node]:
         """Both angles of A cos ψ + B sin ψ = X, with X written as `value`."""

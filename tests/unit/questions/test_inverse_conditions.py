@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 from dynsolve import solve
+from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Number, Symbol
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.support import solve_json
@@ -85,3 +87,55 @@ find: [inverse]
 """
     (step,) = (step for step in solve(redundant).steps if step.title == "No closed form")
     assert step.why == ("The arm can move and keep the task: infinitely many configurations reach it.",)
+
+
+# -- what is told of an unknown, and of the rotation that is left ------------------------------------
+
+
+def steps_of(text: str) -> dict[str, Step]:
+    return {step.id: step for step in solve(f"gravity: none\n{text}\nfind: [inverse]\n").steps}
+
+
+def lines_of(step: Step) -> list[str]:
+    return [to_unicode(node) for node in step.result]
+
+
+ANGLE_GIVEN = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\ntask: [tip.x, tip.y, q1]\n"
+
+
+def test_an_angle_of_the_task_is_no_sum_and_stands_as_itself() -> None:
+    """The direction of (cos r3, sin r3) is r3."""
+    steps = steps_of(ANGLE_GIVEN)
+    assert steps["inverse_q1"].why == ("The task gives this angle.",)
+    assert lines_of(steps["inverse_q2"]) == ["q₂ = atan2(r₂ - l₁ sin(r₃), r₁ - l₁ cos(r₃)) - r₃"]
+
+
+def test_one_solution_has_no_table_of_choices() -> None:
+    steps = steps_of(f"{ANGLE_GIVEN}values: {{l1: 1, l2: 1}}\nreach: [1, 1, 0]")
+    assert steps["inverse_branches"].table is None and steps["inverse"].table is not None
+
+
+def test_two_angles_about_one_that_is_known_are_one_line() -> None:
+    arm = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3, from: 1}]\n"
+    steps = steps_of(f"{arm}points: {{P: {{link: 2}}}}\ntask: [P.x, P.y, tip.x]")
+    assert lines_of(steps["inverse_q3"]) == ["q₃ = -q₁ ± atan2(√(l₃² - (r₃ - l₁ cos(q₁))²), r₃ - l₁ cos(q₁))"]
+
+
+FIVE = """dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2, alpha: 90deg}, {theta: q3*, a: l3},
+  {theta: q4*, alpha: 90deg}, {theta: q5*, d: d5}]
+task: pose"""
+
+
+def test_each_rotation_that_is_left_has_a_letter_of_its_own() -> None:
+    first, second = (step for name, step in steps_of(FIVE).items() if name.startswith("inverse_turn"))
+    assert to_unicode(first.working[0])[0] == "U" and to_unicode(second.working[0])[0] == "V"
+
+
+def test_what_a_cosine_is_divided_by_must_not_be_0() -> None:
+    needs, _ = steps_of(FIVE)["inverse_q2"].notes
+    assert [to_unicode(part) for part in needs if not isinstance(part, str)] == ["l₂ + l₃ cos(q₃) ≠ 0"]
+
+
+def test_conditions_that_are_the_pose_itself_are_not_written_out() -> None:
+    *_, note = steps_of(FIVE)["inverse"].notes
+    assert len(note) < 10 and note[0] == "They hold only where "
