@@ -49,10 +49,7 @@ def examples(text: str) -> list[tuple[str, str]]:
 def run(commands: list[tuple[str, str]], folder: Path) -> None:
     """Run commands one after the other in one folder, and compare what they print."""
     for command, expected in commands:
-        plain = command.startswith("dynsolve ") and not set(command) & _SHELL
-        ran = (
-            dynsolve(*shlex.split(command)[1:], cwd=folder, NO_COLOR="1") if plain else _bash(command, folder)
-        )
+        ran = _ran(command, folder)
         assert ran.code == 0 or "help:" in expected, f"{command}\n{ran.err}"
         printed = ran.out + ran.err
         options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
@@ -64,15 +61,21 @@ _SHELL = set("|&;<>()$`\\*?[]{}~#!")
 
 
 def _ran(command: str, folder: Path) -> Ran:
-    if command.startswith("dynsolve ") and not set(command) & _SHELL:
-        return dynsolve(*shlex.split(command)[1:], cwd=folder, NO_COLOR="1")
-    return _bash(command, folder)
+    first, _, rest = command.partition(" | ")
+    if not first.startswith("dynsolve ") or set(first) & _SHELL:
+        return _bash(command, folder)
+    ran = dynsolve(*shlex.split(first)[1:], cwd=folder, NO_COLOR="1")
+    if not rest:
+        return ran
+    end = _bash(rest, folder, ran.out)
+    return Ran(end.code, end.out, ran.err + end.err)
 
 
-def _bash(command: str, folder: Path) -> Ran:
+def _bash(command: str, folder: Path, stdin: str = "") -> Ran:
     here = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
         ["bash", "-c", command],
-        cwd=folder, env=environment(PATH=here, NO_COLOR="1"), capture_output=True, text=True, check=False,
+        input=stdin, cwd=folder, env=environment(PATH=here, NO_COLOR="1"),
+        capture_output=True, text=True, check=False,
     )  # fmt: skip
     return Ran(done.returncode, done.stdout, done.stderr)
