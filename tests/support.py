@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from contextlib import closing
 from functools import cache
 from pathlib import Path
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -131,8 +132,14 @@ class _Unexplained:
 def numbers(entries: Any, values: Mapping[str, float]) -> Any:
     """A string, or nested lists of strings, as a number or an array."""
     if isinstance(entries, str):
-        return float(eval(compile(entries, "<result>", "eval"), dict(FUNCTIONS), dict(values)))  # noqa: S307
+        return float(eval(_compiled(entries), dict(FUNCTIONS), dict(values)))  # noqa: S307
     return np.array([numbers(entry, values) for entry in entries], dtype=float)
+
+
+@cache
+def _compiled(text: str) -> CodeType:
+    """To compile a result takes longer than to evaluate it, and it is wanted at several states."""
+    return compile(text, "<result>", "eval")
 
 
 def assert_close(ours: Any, theirs: Any, what: str, tolerance: float = 1e-9) -> None:

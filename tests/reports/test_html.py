@@ -50,6 +50,7 @@ def saved(problem: Path | str, folder: Path) -> Path:
 
 ALIKE = {
     "panda-7r",
+    "stanford-6",
     "puma560-first3",
     "spherical-rrp",
     "cartesian-pp",
@@ -59,7 +60,7 @@ ALIKE = {
     "planar-2r-remote",
     "planar-2r-friction",
 }
-"""Pages of what those of puma560, stanford-6, rp-vertical, planar-2r and planar-2r-motors have, or of less.
+"""Pages of what those of puma560, rp-vertical, planar-2r and planar-2r-motors have, or of less.
 
 pdflatex is asked of these too.
 """
@@ -173,6 +174,7 @@ def test_a_matrix_beside_others_stands_on_the_line_of_its_name(page: Page, tmp_p
         page.resize(width)
         assert page.ask("innerWidth") == width
         assert page.ask(parted) == []
+        assert page.ask(OVERFLOWING) == []
 
 
 @pytest.mark.parametrize("letters", ["q", "theta"])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
 import dynsolve
@@ -24,6 +26,7 @@ find: [pP, vP, JvP, JwP, pE, vE, JvE, JwE, J_dot, r, Jr, Jr_dot]
 FREE = "task: [tip.x*E.z, P.y + 2*q1 - q3, sin(q1)*tip.z]\n"
 
 
+@cache
 def forms(text: str) -> tuple[object, dict[str, Node]]:
     robot = read_problem(text).robot
     values = derive(robot)

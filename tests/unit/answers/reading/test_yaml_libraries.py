@@ -121,7 +121,7 @@ def test_right_answers_are_right_by_hand(stem: str, notation: str) -> None:
 
 
 @pytest.mark.parametrize("notation", NOTATIONS)
-@pytest.mark.parametrize("stem", STEMS[:3])
+@pytest.mark.parametrize("stem", STEMS[1:3])
 def test_a_library_writes_the_same(stem: str, notation: str) -> None:
     given = answers(stem, notation)
     wanted = meant(read(stem, by_hand(given)))
@@ -130,7 +130,7 @@ def test_a_library_writes_the_same(stem: str, notation: str) -> None:
 
 
 @pytest.mark.parametrize("notation", ["plain", "latex"])
-@pytest.mark.parametrize("stem", STEMS[:3])
+@pytest.mark.parametrize("stem", STEMS[1:3])
 def test_what_is_wrong_stays_wrong(stem: str, notation: str) -> None:
     given = {name: slipped(value) for name, value in answers(stem, notation).items() if name != "P"}
     wanted = meant(read(stem, by_hand(given)))
