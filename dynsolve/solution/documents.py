@@ -519,17 +519,16 @@ class _Parts(Struct, dict=True):
         if self.detail is Detail.RESULTS:
             return
         verification = self.solution.verification
-        what, how = "the results", verification.method
-        if not self.solution.robot.has_dynamics:
-            if not any(stage.asked_for for stage in stages_of(self.solution.robot)):
-                yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
-            if self.solution.robot.has_table:
-                what, how = "the last frame and the Jacobian", f"the outward half of {how}"
+        robot, what, how = self.solution.robot, "the results", verification.method
+        if not robot.has_dynamics and not any(stage.asked_for for stage in stages_of(robot)):
+            yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
+        if robot.has_table and _KINEMATIC.issuperset(step.stage for step in self.steps):
+            what, how = "the last frame and the Jacobian", "velocities carried outwards from link to link"
         told: Prose = (
             f"Verified: {what} agree with {how} at {verification.states} random states (relative error ",
         )
         told += (*_in_powers_of_ten(verification.max_relative_error), ").")
-        if self.solution.robot.questions.asked:
+        if robot.questions.asked:
             told += (" The other results that are asked for agree with independent computations in numbers.",)
         if self.detail is Detail.FULL:
             yield Heading("Verification", 2)
@@ -551,6 +550,21 @@ class _Parts(Struct, dict=True):
             yield KHALIL_DOMBRE.section("9.4")
         steps = (step for step in self.steps if step.formula is not None and step.detail <= self.detail)
         yield from (step.source for step in steps)
+
+
+_KINEMATIC = frozenset(
+    {
+        Stage.KINEMATICS,
+        Stage.JACOBIAN,
+        Stage.TASK,
+        Stage.SINGULAR,
+        Stage.INVERSE,
+        Stage.RATES,
+        Stage.STATICS,
+        Stage.CONSTRAINTS,
+    }
+)
+"""The stages that can do without masses; a report of these alone has no equations of motion."""
 
 
 def _first_in_names(steps: Iterable[Step], short: Abbreviated | None) -> Stage:

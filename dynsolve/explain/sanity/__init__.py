@@ -4,8 +4,7 @@
                   coordinates on which D cannot depend
     definite      D is positive definite, by its diagonal and its determinants or body by body
     determinant   the determinant of two coupled coordinates, line by line; what makes D diagonal; signs
-    equilibrium   the poses in which g is zero, row by row, hanging and upright among them, or that there are
-                  none; what P has there; the joints that gravity does not load
+    equilibrium   that g is zero in every pose, or in none; the joints that gravity does not load
     poses         D in poses of right angles, and without the moments of inertia of the bodies
 
 Of longer arms those are done that read off a result what its pages hide: a coordinate that is
@@ -44,7 +43,7 @@ CHECKS = (
     Check("definite", "D is seen to be definite for positive masses", definite_step),
     Check("decoupled", "a relation between parameters makes D diagonal", decoupled_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
-    Check("equilibrium", "gravity is balanced everywhere, nowhere, or in some poses", equilibrium_step),
+    Check("equilibrium", "gravity is balanced everywhere, or nowhere", equilibrium_step),
     Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
 )
 """All checks of short arms, in the order in which they are shown."""

@@ -9,33 +9,28 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from functools import reduce
 from itertools import combinations, product
 
 from flint import fmpq_mpoly
 from msgspec import Struct
 
-from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.terms import Monomial, Rational
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
-from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.sanity.poses import Pose, at, degrees, written_pose
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import Identity, are_alike, equals, identities, said
 from dynsolve.explain.working.squares import without_signs
-from dynsolve.explain.writing import as_row, listed, spong
+from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.build import cost, factors_of, negated, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
-    ZERO,
     Function,
     Negative,
     Node,
@@ -289,119 +284,6 @@ def _terms(node: Node) -> Iterator[Node]:
             yield from map(Product, product(*(tuple(_terms(factor)) for factor in factors)))
         case _:
             yield node
-
-
-# -- how g = 0 is solved where a row has two factors: each is 0 in a case of its own, and leaves one angle
-
-_ZEROS = {"sin": (0, 180), "cos": (90, -90)}
-"""Where a sine and a cosine are 0, in degrees."""
-
-_WITH_KNOWN_TANGENT = (30, 45, 60, -30, -45, -60)
-"""The angles in degrees, between -90 and 90, that have a tangent without cosines of further angles."""
-
-
-class Cases(Struct, frozen=True):
-    """Where g = 0 of two angles: the lines that lead there, and all poses up to full turns."""
-
-    lines: tuple[Line, ...]
-    poses: tuple[Pose, ...]
-
-
-def cases(context: Context, names: Sequence[str]) -> Cases | None:
-    """The cases of the first row, from the last on, that has two factors; None where there is none."""
-    g = context.values["g"]
-    rows = [k for k in reversed(range(context.robot.n)) if not g[k, 0].is_zero]
-    found = next(((k, factors) for k in rows if (factors := _factors(context, g[k, 0]))), None)
-    if found is None or len(names) != 2 or len(rows) != 2:
-        return None
-    row, factors = found
-    other = next(k for k in rows if k != row)
-    signs = [context.robot.ring.generator(factor.index) for factor in factors]
-    either = [equation(context.show(sign), ZERO) for sign in signs]
-    value = equation(letters.entry("g", row + 1), context.show(g[row, 0]), ZERO)
-    so = say("{value}, so {either}", value=value, either=listed(either, "or"))
-    lines = [Line((), (as_row(so),))]
-    poses: dict[tuple[int, ...], Pose] = {}
-    for zero, factor in zip(either, factors, strict=True):
-        branch = list(_branch(context, factor, other, names))
-        if len(branch) < 2:
-            return None
-        lines.append(Line(say("Where {zero}:", zero=zero), tuple(shown for shown, _ in branch)))
-        poses |= {tuple(pose[name] for name in names): pose for _, both in branch for pose in both}
-    return Cases(tuple(lines), tuple({name: pose[name] for name in names} for pose in poses.values()))
-
-
-def _factors(context: Context, row: Expr) -> tuple[Generator, Generator] | None:
-    """The sines or cosines of two angles whose product, times what surely has a sign, is a row of g."""
-    ring, used = row.ring, row.poly.degrees()
-    turning = [g for g in ring.generators if g.kind in ("sin", "cos") and used[g.index] > 0]
-    if len(turning) != 2 or turning[0].angle == turning[1].angle:
-        return None
-    first, second = turning
-    beside = Expr(ring, row.poly.derivative(first.index).derivative(second.index))
-    product = beside * ring.generator(first.index) * ring.generator(second.index)
-    is_whole = product == row and sign_of(context, beside) and all(_name(g.angle) for g in turning)
-    return (first, second) if is_whole else None
-
-
-def _branch(
-    context: Context, factor: Generator, row: int, names: Sequence[str]
-) -> Iterator[tuple[Node, list[Pose]]]:
-    """What a row says of the other angle at a zero of a factor, and the poses; nothing where it is free."""
-    name = _name(factor.angle)
-    left = next(each for each in names if each != name)
-    for angle in _ZEROS[factor.kind]:
-        here = {name: angle}
-        value = at(context.robot.ring, context.values["g"][row, 0], here)
-        found = solved(context, value, left)
-        if found is not None:
-            follows, angles = found
-            shown = say(
-                "{pose}: {zero}, so {follows}, {angles}",
-                pose=tuple(written_pose(here)),
-                zero=equation(letters.entry("g", row + 1), context.show(value), ZERO),
-                follows=follows,
-                angles=equation(Symbol(left), as_row(listed([*map(degrees, angles)], "or"))),
-            )
-            yield as_row(shown), [{**here, left: other} for other in angles]
-
-
-def solved(context: Context, value: Expr, name: str) -> tuple[Node, tuple[int, int]] | None:
-    """The angle where a s + b c is 0: what follows for s, c or its tangent, and the two angles."""
-    ring = context.robot.ring
-    pair = next((pair for pair in ring.pairs if _name(pair.angle) == name), None)
-    if pair is None:
-        return None
-    rest, constants = value, list[Expr]()
-    for kind, index in (("sin", pair.sine), ("cos", pair.cosine)):
-        g, beside = ring.generator(index), Expr(ring, value.poly.derivative(index))
-        if value == beside * g and sign_of(context, beside):
-            return equation(context.show(g), ZERO), _ZEROS[kind]
-        constants.append(beside)
-        rest = rest - beside * g
-    if (
-        not rest.is_zero
-        or any(map(ring.depends_on_coordinates, constants))
-        or not sign_of(context, constants[0])
-    ):
-        return None
-    for angle in _WITH_KNOWN_TANGENT:
-        try:
-            s, c = ring.sin(Angle((), Fraction(angle))), ring.cos(Angle((), Fraction(angle)))
-        except AlgebraError:
-            continue
-        if at(ring, value, {name: angle}).is_zero:
-            tangent = formula("tan {q} = {value}", q=Symbol(name), value=context.show(s * ring.inverse(c)))
-            return tangent, (angle, angle - 180 if angle > 0 else angle + 180)
-    return None
-
-
-def _name(angle: Angle) -> str:
-    """The coordinate that an angle is; "" where it is a sum, a multiple or a constant more."""
-    if angle.degrees or len(angle.terms) != 1:
-        return ""
-    ((atom, rate),) = angle.terms
-    return atom[0][0] if rate == 1 and len(atom) == 1 else ""
 
 
 # -- the relation between parameters that makes D diagonal: a factor of all entries beside the diagonal

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import chain, product
+from itertools import chain
 from math import isqrt
 
 from dynsolve.algebra.angles import Angle
@@ -197,12 +197,6 @@ def _stands_bare(ring: Ring, value: Expr, name: str) -> bool:
     inside = [(atom, rate) for pair in ring.pairs for atom, rate in pair.angle.terms if name in dict(atom)]
     odd = any(atom != ((name, 1),) or rate.denominator != 1 for atom, rate in inside)
     return odd or value.poly.degrees()[ring.symbol_indices[(name, 0)]] > 0
-
-
-def poses(names: Iterable[str], values: tuple[int, ...]) -> Iterator[Pose]:
-    """Every choice of values for the angles."""
-    names = list(names)
-    return (dict(zip(names, chosen, strict=True)) for chosen in product(values, repeat=len(names)))
 
 
 def written_pose(pose: Pose) -> list[Node]:
