@@ -201,7 +201,8 @@ def friction_steps(context: Context) -> Iterator[Step]:
         parts.append(formula("∂{R}/∂q̇_k", R=letters.DISSIPATION))
     if sliding:
         coulomb = say(
-            " Coulomb friction, of {which}, has the sign of the rate alone; at rest sgn is 0.",
+            " Coulomb friction, of {which}, has the size of its coefficient, $f_ck$, and the sign of the "
+            "rate; at rest sgn is 0.",
             which=listed([Symbol(robot.ring.names[one.coordinate]) for one in sliding]),
         )
         parts.append(formula("f_ck sgn q̇_k"))

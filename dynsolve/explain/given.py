@@ -31,6 +31,7 @@ from dynsolve.explain.set_forms import SetForms
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
 from dynsolve.notation import tree
+from dynsolve.notation.characters import split
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     ZERO,
@@ -183,6 +184,7 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
         yield _gravity(forms)
     if robot.has_dynamics:
         yield from _actions(forms)
+        yield _indices(robot)
     yield from _questions(forms)
     yield _values(robot, problem.written, problem.units)
 
@@ -419,11 +421,13 @@ def _tensors(forms: Forms) -> Prose:
     told = _moments(forms, plain)
     for body in (body for body in given if body not in plain):
         point: Inline = letters.o(body.link if body.about == "origin" else ends(forms.robot, body)[0])
+        assert body.inertia is not None
         told += say(
-            "The inertia tensor of {body} about {point} along {axes} is given, too. ",
+            "The inertia tensor of {body} about {point} along {axes} is {tensor}. ",
             body=name_of(body),
             point=point if is_moved(body) else "its mass centre",
             axes=f"the axes of frame {body.link}" if has_link_axes(body) else "its own axes",
+            tensor=forms.of(body.inertia),
         )
     return told
 
@@ -551,6 +555,19 @@ def _slides(robot: Robot, of: Expr) -> bool:
         robot.ring.diff(of, k) for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC
     )
     return any(slope.is_number and not slope.is_zero for slope in slopes)
+
+
+def _indices(robot: Robot) -> Prose:
+    """Index 3 stands for q₄: where the number of a coordinate is not its place."""
+    others = [q for q in robot.coordinates if (own := split(q.name)[1]) and own[0] != str(q.index)]
+    if not others or not all(split(q.name)[1][0].isdigit() for q in others):
+        return ()
+    index, stand = ("Indices", "stand") if len(others) > 1 else ("Index", "stands")
+    return (
+        f"{index} {and_joined([str(q.index) for q in others])} {stand} for ",
+        *listed([Symbol(q.name) for q in others]),
+        *(": ", letters.force(others[0]), " belongs to ", Symbol(others[0].name), "."),
+    )
 
 
 def _friction(forms: Forms, friction: JointFriction) -> Prose:

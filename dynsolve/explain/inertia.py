@@ -262,9 +262,10 @@ def _parallel_axis(context: Context, body: Body) -> Step:
     return Step(
         id=f"I_body{b}",
         title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
-        why=(
+        why=say(
             "The given tensor is about another point, but the kinetic energy needs the one about the mass "
-            "centre. d goes from the given point to the mass centre, in the body's axes; E is the identity.",
+            "centre. $𝐝$ goes from the given point to the mass centre, in the body's axes; $𝐄$ is the "
+            "identity.",
         ),
         formula=formula("{I} = 𝐈_({i},'given') - {shift}", I=tensor, i=letters.index_of(b), shift=shift),
         source="parallel-axis theorem; Craig 6.3",

@@ -130,7 +130,7 @@ U, V | any two quantities, in an identity
 * 𝐌_i, M_i | moment from outside, its size | N m
 * 𝐐: generalized forces of what acts from outside; Q_i: their entries | | {force}
 * 𝐡: what the constraints keep at 0; {A_C}: constraint matrix; 𝛌: multipliers
-* {Z}: rates that the constraints leave free; 𝛎: their sizes
+* {Z} | rates that the constraints leave free
 * Δ_k | leading minor k of a matrix: the determinant of its first k rows
 * {TAU_STATIC} | forces and torques that hold the arm at rest | {force}
 m_i | mass of body i | kg

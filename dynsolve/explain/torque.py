@@ -38,7 +38,9 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     if i == 1:
         why = say(
             "In $∂ℒ/∂q̇_i$ and $∂ℒ/∂q_i$ everything else is held fixed; in d/dt all that changes with time is "
-            "differentiated (product and chain rule)."
+            "differentiated (product and chain rule).{outside}{held}",
+            outside=say(" $Q_i$ is what acts from outside.") if context.robot.questions.loads else "",
+            held=say(" $𝐀_cᵀ 𝛌$ is what the constraints do.") if context.robot.questions.constraints else "",
         )
     if i - 1 in context.robot.actions.passive:
         why = say("{why}{gap}{driven}", why=why, gap=" " if why else "", driven=driven)

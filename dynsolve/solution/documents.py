@@ -222,7 +222,8 @@ def _model(
     own = [by_id[name] for name in _MATRICES if name in by_id]
     forces = [by_id[name] for q in robot.coordinates if (name := f"tau{q.index}") in by_id]
     if short is not None and short.at_symbols:
-        yield from _names(robot, by_id, short, own, () if model.lines else forces)
+        rows = [node for line in model.lines for node in line.formulas]
+        yield from _names(robot, by_id, short, own, rows or [step.result[0] for step in forces])
     matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
     what = "With the matrices" if model.result else "The matrices"
     yield Text((what, f" of the {machine(robot)}", Reference(_MATRICES, ", "), ":"))
@@ -244,20 +245,21 @@ def _names(
     by_id: Mapping[str, Step],
     short: Abbreviated,
     matrices: Sequence[Step],
-    rows: Sequence[Step],
+    rows: Sequence[Node],
 ) -> Iterator[Block]:
     """What the names in the matrices and in the rows of the forces stand for, where there are any."""
     from dynsolve.explain.named_steps import labels_of_names
 
-    def used(steps: Iterable[Step]) -> set[Node]:
-        return set(walk(*(step.result[0] for step in steps))) & short.symbols
+    def used(nodes: Iterable[Node]) -> set[Node]:
+        return set(walk(*nodes)) & short.symbols
 
-    met = used((*matrices, *rows))
+    of_matrices = {step.id: used(step.result[:1]) for step in matrices}
+    met = used(rows).union(*of_matrices.values())
     for one in reversed(short.sums):
-        met |= set(walk(one.meaning)) & short.symbols if one.name in met else set()
+        met |= used([one.meaning]) if one.name in met else set()
     if not met:
         return
-    with_names = [quantities(robot)[step.id].letter(robot) for step in matrices if used([step])]
+    with_names = [quantities(robot)[name].letter(robot) for name, found in of_matrices.items() if found]
     where: list[Node | str] = [*with_names, *["the rows below"] * bool(used(rows))]
     below: Prose = ("In ", *listed(where))
     defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")

@@ -152,7 +152,7 @@ def _reduced(context: Context) -> Iterator[Step]:
         id="reduced",
         title="The equations without the multipliers",
         why=say(
-            "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 0$ and $𝐪̇ = 𝐙 𝛎$. "
+            "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 0$. "
             "Multiplied by $𝐙ᵀ$ the equations of motion lose the forces of constraint."
         ),
         formula=formula(

@@ -343,7 +343,8 @@ def _state_matrix(context: Context) -> Step:
             "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
             "inputs are counted from the forces that hold it. {balanced}$𝐂 𝐪̇$ is of second order in the "
             "rates and falls away; so does every change of $𝐃$, which stands beside an acceleration. The "
-            "rest is taken at {rests}.",
+            "rest is taken at {rests}. $𝐄$ is the identity matrix{friction}.",
+            friction=say(", $𝐅$ the factors of the rates in the friction") if has_friction else "",
             balanced=say(balanced, passive=listed(passive), which="it" if len(passive) == 1 else "them")
             if passive
             else "",

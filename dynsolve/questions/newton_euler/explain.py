@@ -425,6 +425,12 @@ def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
             else "The moments about {o}.",
             o=letters.o(joint.parent if context.standard else i),
         )
+        rotors = [name for name, _ in rotor_moments(context, i)]
+        if rotors:
+            takes = "a rotor takes" if len(rotors) == 1 else "rotors take"
+            why = say(
+                "{why} {rotors}: what {takes} from the link.", why=why, rotors=listed(rotors), takes=takes
+            )
         yield _sum(context, f"nl{i}", title, why, letters.in_link("n", i), list(_moments(context, i)))
 
 

@@ -139,7 +139,7 @@ _SPACES = {
     ),
     "lost": (
         "Motions of the task that are lost",
-        "What is orthogonal to all possible velocities. A force along it needs no torque of the joints.",
+        "What is orthogonal to all possible velocities. A force 𝐅 along it needs no torque of the joints.",
         letters.LOST,
         formula("𝐉_rᵀ 𝐅 = 𝟎"),
         spong("4.10"),

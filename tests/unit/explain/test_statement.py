@@ -6,7 +6,7 @@ from typing import TypeGuard
 
 import pytest
 
-from dynsolve.document import Block, Text
+from dynsolve.document import Block, Formula, Text
 from dynsolve.explain.given import statement, to_be_found
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
@@ -277,3 +277,33 @@ masses: [{mass: m1, link: 1, center: {drawn: [b/2, 0, 0]}}, {mass: m2, link: 2, 
 """
     told = "body 1 in link 1, a point of mass m₁ at (b/2, 0, 0); body 2 in link 2, a point of mass m₂"
     assert told in stated(solved(drawn))[0]
+
+
+ORDERS = [
+    ("dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]", ""),
+    ("dh: [{theta: q1*, a: l1}, {theta: q3*, a: l2}]", "Index 2 stands for q₃: τ₂ belongs to q₃."),
+    (
+        "coordinates: [q2, q1]\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]",
+        "Indices 1 and 2 stand for q₂ and q₁: τ₁ belongs to q₂.",
+    ),
+    ("dh: [{theta: phi*, a: l1}, {theta: psi*, a: l2}]", ""),
+]
+
+
+@pytest.mark.parametrize(("table", "told"), ORDERS)
+def test_an_index_that_is_not_the_number_of_its_coordinate_is_told(table: str, told: str) -> None:
+    given = stated(solved(f"gravity: [0, -g, 0]\n{table}\nmasses: [{{mass: m, link: 2}}]"))[0]
+    assert told in given
+    assert ("stand" in given) == bool(told)
+
+
+def test_a_tensor_about_another_point_is_given() -> None:
+    problem = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}]
+masses: [{mass: m, link: 1, center: {near: [c, 0, 0]}, inertia: {zz: J}, about: joint}]
+"""
+    solution = solved(problem)
+    blocks = list(statement(solution.forms, solution.problem))
+    (tensor,) = (block.node for block in blocks if isinstance(block, Formula))
+    assert to_unicode(tensor) == "[[0, 0, 0], [0, 0, 0], [0, 0, J]]"

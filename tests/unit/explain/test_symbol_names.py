@@ -15,11 +15,12 @@ from dynsolve.explain import vectorized
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
-from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Symbol, walk, with_children
+from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation, Row, Symbol, walk, with_children
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load
 from dynsolve.problem.reader import find
+from dynsolve.quantities import letters
 from dynsolve.render.line_breaking import unfolded
 from dynsolve.robot.questions import Method
 from dynsolve.solution.documents import solution_document
@@ -240,3 +241,31 @@ def test_a_stage_that_fails_in_names_is_told_without_them(monkeypatch: pytest.Mo
 
 def test_never_is_never() -> None:
     assert solved("elbow-3r").abbreviated("never") is None
+
+
+@pytest.mark.parametrize("problem", [*NAMED, *WITH_H])
+def test_the_summary_tells_where_names_stand(problem: str) -> None:
+    """Of each matrix and of the rows it is said that names stand there just where some do."""
+    blocks = solution_document(solved(problem), Detail.NORMAL).blocks
+    place, text = next(
+        (place, block)
+        for place, block in enumerate(blocks)
+        if isinstance(block, Text) and block.parts[0] == "In " and block.parts[1] in (letters.C, letters.D)
+    )
+    names, nodes = named(problem).symbols, list(displayed(blocks[place + 1 :]))
+    rows = [node for node in nodes if isinstance(node, Relation) and not has_matrix(node)][len(names) - 1 :]
+    below = [node for node in rows if to_unicode(node.parts[0])[0] in "τf"]
+    assert below
+    assert ("the rows below" in text.parts) == (not names.isdisjoint(walk(*below)))
+    for letter in (letters.D, letters.C, letters.G):
+        (entry,) = (one for one in named_matrices(problem) if one[0] == letter)
+        assert (letter in text.parts) == (not names.isdisjoint(walk(entry[1])))
+
+
+def has_matrix(node: Node) -> bool:
+    return any(isinstance(part, Matrix) for part in walk(node))
+
+
+def named_matrices(problem: str) -> list[tuple[Node, Node]]:
+    short = named(problem)
+    return [(letters.D, short.D), (letters.C, short.C), (letters.G, short.g)]
