@@ -31,6 +31,7 @@ from dynsolve.explain.working.identities import SILENT, Way, are_alike
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import Entry, Letter, Matrix, Node, Relation, Symbol, equation, walk
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Method
 
 DERIVATIVES = "derivatives-of-names"
@@ -60,9 +61,16 @@ def in_names(context: Context, stages: Collection[Stage]) -> Context:
     names = context.names
     if names is None or not names.at_symbols:
         return context
+    return replace(context, introduced=introduced(context.robot, names, stages))
+
+
+def introduced(
+    robot: Robot, names: Abbreviated, stages: Collection[Stage] = tuple(Stage)
+) -> dict[str, tuple[Definition, ...]]:
+    """The names that each step introduces, in the order of the steps; h has its own place."""
     known = set() if names.single is None else {names.single.name}
     found: dict[str, tuple[Definition, ...]] = {}
-    for id, results in _results(context, names, stages):
+    for id, results in _results(robot, names, stages):
         needed = set(_symbols(results)) - known
         for one in reversed(names.sums):
             if one.name in needed:
@@ -72,15 +80,13 @@ def in_names(context: Context, stages: Collection[Stage]) -> Context:
         if met:
             found[id] = met
             known.update(one.name for one in met)
-    return replace(context, introduced=found)
+    return found
 
 
-def _results(
-    context: Context, names: Abbreviated, stages: Collection[Stage]
-) -> Iterator[tuple[str, list[Node]]]:
+def _results(robot: Robot, names: Abbreviated, stages: Collection[Stage]) -> Iterator[tuple[str, list[Node]]]:
     """The ids of the steps in whose results names may be, in their order, and these."""
-    coordinates = [q.index for q in context.robot.coordinates]
-    by_recursions = context.robot.questions.method is Method.NEWTON_EULER
+    coordinates = [q.index for q in robot.coordinates]
+    by_recursions = robot.questions.method is Method.NEWTON_EULER
     of_stages = {
         Stage.ENERGY: ["K"],
         Stage.LAGRANGIAN: ["L"],

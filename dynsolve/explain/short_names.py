@@ -13,6 +13,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from typing import Any
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
@@ -31,6 +34,7 @@ from dynsolve.explain.abbreviations import (
 from dynsolve.explain.context import is_short
 from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.forms import Forms, is_numeric
+from dynsolve.explain.named_steps import introduced
 from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
 from dynsolve.notation.build import cost, negated, split_sign, summands, times, total
@@ -46,10 +50,12 @@ from dynsolve.notation.tree import (
     Symbol,
     children,
     equation,
+    mapped,
     walk,
     with_children,
 )
 from dynsolve.quantities import letters
+from dynsolve.robot.model import Robot
 
 _OF_COORDINATES = ("dLdqd", "ddt", "dLdq", "tau")
 """What the names of the quantities of each coordinate begin with."""
@@ -186,7 +192,41 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
             written[name] = inertias.put(forms(name))
             if WITH_RATES.fullmatch(name):
                 written[name] = _symbols_put_by_rates(definitions, written[name])
-    return Abbreviated((), sums, D, C, g, symbols, inertias=inertias, at_symbols=True, forms=written)
+    found = Abbreviated((), sums, D, C, g, symbols, inertias=inertias, at_symbols=True, forms=written)
+    return _numbered_as_met(robot, found)
+
+
+def _numbered_as_met(robot: Robot, short: Abbreviated) -> Abbreviated:
+    """The same, σ₁ the name that is introduced first, σ₂ the next."""
+    numbered = [one.name for one in short.sums if one != short.single]
+    met = [one.name for names in introduced(robot, short).values() for one in names]
+    met += [name for name in numbered if name not in met]
+    if met == numbered:
+        return short
+    others: dict[Node, Node] = dict(zip(met, numbered, strict=True))
+
+    def put(node: Any) -> Any:
+        return mapped(node, lambda part: others.get(part, part))
+
+    def of(definitions: Iterable[Definition]) -> tuple[Definition, ...]:
+        return tuple(Definition(put(one.name), put(one.meaning)) for one in definitions)
+
+    inertias = short.inertias
+    return replace(
+        short,
+        sums=of(short.sums),
+        D=put(short.D),
+        C=put(short.C),
+        g=put(short.g),
+        christoffel={key: put(node) for key, node in short.christoffel.items()},
+        inertias=InertiaNames(
+            of(inertias.definitions),
+            tuple(map(put, inertias.slopes)),
+            tuple(Exchange(put(one.meaning), put(one.name)) for one in inertias.exchanges),
+            inertias.by,
+        ),
+        forms={name: put(node) for name, node in short.forms.items()},
+    )
 
 
 def _symbols_put_by_rates(symbols: Sequence[Definition], node: Node) -> Node:

@@ -263,7 +263,10 @@ def _names(
     where: list[Node | str] = [*with_names, *["the rows below"] * bool(used(rows))]
     below: Prose = ("In ", *listed(where))
     defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
-    meanings = tuple(equation(one.name, one.meaning) for one in short.sums if one.name in met)
+    told = sorted(
+        (one for one in short.sums if one.name in met), key=lambda one: (len(one.name.name), one.name.name)
+    )
+    meanings = tuple(equation(one.name, one.meaning) for one in told)
     if short.single is not None and len(meanings) == 1:
         yield Text((*below, ", ", *meanings, defined, "."))
     else:

@@ -148,7 +148,10 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
         if coefficient not in parameters.entries
     ]
     if dependent:
-        by = "Some are combinations of the entries that are chosen below, and need none of their own:"
+        by = (
+            "Independent entries are chosen of which all of these are combinations; "
+            "other independent combinations serve as well:"
+        )
         yield Line((by,), tuple(dependent))
 
 

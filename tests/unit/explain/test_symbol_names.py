@@ -269,3 +269,29 @@ def has_matrix(node: Node) -> bool:
 def named_matrices(problem: str) -> list[tuple[Node, Node]]:
     short = named(problem)
     return [(letters.D, short.D), (letters.C, short.C), (letters.G, short.g)]
+
+
+MIDPOINTS = """
+dh:
+  - {theta: q1*, d: L1, alpha: 90deg}
+  - {theta: q2*, a: L2}
+  - {theta: q3*, a: L3}
+masses:
+  - {mass: m1, link: 1, shape: {cylinder: {radius: r, length: L1}}, center: midpoint}
+  - {mass: m2, link: 2, shape: {rod: {length: L2}}, center: midpoint}
+  - {mass: m3, link: 3, shape: {rod: {length: L3}}, center: midpoint}
+"""
+
+
+@pytest.mark.parametrize("problem", [*NAMED, MIDPOINTS])
+def test_names_are_numbered_as_they_are_met(problem: str) -> None:
+    """σ₁ is defined before σ₂, and no name stands in an equation before its own."""
+    met: list[str] = []
+    names = {one.name for one in named(problem).sums}
+    for node in displayed(solution_document(solved(problem), Detail.FULL).blocks):
+        for part in walk(node):
+            if isinstance(part, Relation) and part.parts[0] in names and part.parts[0].name not in met:
+                met.append(part.parts[0].name)
+        used = {part.name for part in walk(node) if part in names}
+        assert used <= {*met}
+    assert met == [f"sigma{k}" for k in range(1, len(names) + 1)]
