@@ -24,6 +24,7 @@ from dynsolve.explain.writing import by_itself
 from dynsolve.notation.build import times
 from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
+from dynsolve.notation.rounding import marked, marked_among_words
 from dynsolve.notation.tree import Degrees, Matrix, Node, Symbol, Words, mapped
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import families, letters
@@ -200,6 +201,7 @@ class _Exporter:
 
     def step(self, step: Step) -> dict[str, Any]:
         formulas = [*([step.formula] if step.formula else []), *step.further, *step.working, *step.result]
+        formulas = [marked(node, self.unicode.style) for node in formulas]
         return {
             "id": step.id,
             "stage": step.stage,
@@ -215,10 +217,11 @@ class _Exporter:
 
     def line(self, line: Line) -> dict[str, str]:
         """A line between the formula and the result, with the operation that leads to it."""
+        formulas = [marked(node, self.unicode.style) for node in line.formulas]
         return {
             "by": self.prose(line.by),
-            "latex": "\n".join(map(self.latex.text, line.formulas)),
-            "text": "\n".join(map(self.unicode.text, line.formulas)),
+            "latex": "\n".join(map(self.latex.text, formulas)),
+            "text": "\n".join(map(self.unicode.text, formulas)),
         }
 
     def prose(self, parts: Prose) -> str:
@@ -232,7 +235,7 @@ class _Exporter:
                 return text
             case Reference():
                 return ""  # equations have names here, and no numbers
-        return self.unicode.text(part)
+        return self.unicode.text(marked_among_words(part, self.unicode.style))
 
 
 def _exported(robot: Robot) -> Iterator[Family]:

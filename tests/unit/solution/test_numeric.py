@@ -349,3 +349,9 @@ def test_a_coordinate_that_is_free_leaves_no_state() -> None:
     text = TARGET.replace("l1: 2", "l1: 1") + "reach: [0, 0]\n"
     with pytest.raises(ProblemError, match="q1 may be anything"):
         dynsolve.solve(text)
+
+
+def test_the_steps_of_the_json_mark_what_is_rounded() -> None:
+    (tensor,) = (step for step in solved("numeric-2r").to_json()["steps"] if step["id"] == "I_body1")
+    assert tensor["text"].endswith("𝐈₁ ≈ [[0, 0, 0], [0, 0.0520833, 0], [0, 0, 0.0520833]]")
+    assert r"\mathbf{I}_{1} \approx" in tensor["latex"]
