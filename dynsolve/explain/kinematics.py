@@ -20,6 +20,7 @@ from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, sp
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,
+    Function,
     Letter,
     Node,
     Number,
@@ -230,9 +231,11 @@ def _folded(context: Context, joint: Joint) -> Iterator[Node]:
     for node, angle in ((joint.written[0], joint.theta), (joint.written[3], joint.alpha)):
         if isinstance(node, Symbol) or not (angle.degrees or angle.terms):
             continue
-        if isinstance(node, Number | Degrees) or angle.degrees:
-            shown.append(formula("cos {x} = {c}", x=node, c=context.show(ring.cos(angle))))
-            shown.append(formula("sin {x} = {s}", x=node, s=context.show(ring.sin(angle))))
+        cosine, sine = context.show(ring.cos(angle)), context.show(ring.sin(angle))
+        stays = isinstance(cosine, Function) and cosine.name == "cos"  # cos(θ₁ + 30°) is itself
+        if (isinstance(node, Number | Degrees) or angle.degrees) and not stays:
+            shown.append(formula("cos {x} = {c}", x=node, c=cosine))
+            shown.append(formula("sin {x} = {s}", x=node, s=sine))
     if shown:
         yield side_by_side(shown)
 

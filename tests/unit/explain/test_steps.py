@@ -360,3 +360,11 @@ def test_a_total_says_what_its_parts_are(problem: str, printed: str) -> None:
     formula = step(problem, "P").formula
     assert formula is not None
     assert to_unicode(formula, solved(problem).style) == printed
+
+
+def test_a_cosine_that_stays_is_no_step() -> None:
+    """cos(q₁ + 30°) is itself; cos(q₂ + 180°) is not."""
+    arm = "dh: [{theta: q1* + 30deg, a: l1}, {theta: q2* + 180deg, a: l2}]\nfind: [J]\n"
+    first, second = (step for step in solved(arm).steps if step.id in ("A1", "A2"))
+    told = [to_unicode(node) for one in (first, second) for node in one.working if "cos" in to_unicode(node)]
+    assert len(told) == 1 and "180°" in told[0]
