@@ -16,7 +16,7 @@ from typing import Annotated
 
 import typer
 
-from dynsolve.cli.numbers import STDIN, STDIN_NAME, Problems, Quiet, described, say, standard_input
+from dynsolve.cli.numbers import STDIN, STDIN_NAME, Problems, Quiet, described, say, standard_input, stems
 from dynsolve.errors import ExitCode, Finding, ProblemError, UsageError
 
 # `dynsolve problems`: the library that comes with dynsolve
@@ -47,23 +47,38 @@ def new(
     file: Annotated[
         str, typer.Argument(help="Where to write it; - for standard output.", show_default=False)
     ],
+    like: Annotated[
+        str | None, typer.Option(metavar="STEM", help="A bundled problem's file.", autocompletion=stems)
+    ] = None,
+    all_: Annotated[bool, typer.Option("--all", help="Every key, with its meaning.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")] = False,
 ) -> None:
-    """Write a commented problem file to start from."""
-    from dynsolve.problem.schema import template
-
+    """Write a problem file to start from: an arm with two joints, in thirty lines."""
+    if like and all_:
+        raise UsageError("--like and --all are two ways to begin", "choose one of them")
+    text = _beginning(like, all_)
     if file == "-":
-        typer.echo(template(), nl=False)
+        typer.echo(text, nl=False)
         return
     path = Path(file)
     try:
         with path.open("w" if force else "x", encoding="utf-8") as stream:
-            stream.write(template())
+            stream.write(text)
     except FileExistsError:
         raise UsageError(f"{file} exists; --force overwrites it") from None
     except OSError as error:
         raise UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
     typer.echo(f"wrote {file}; now: dynsolve solve {file}", err=True)
+
+
+def _beginning(like: str | None, every_key: bool) -> str:
+    """What `new` writes: an arm to change, a bundled problem, or every key with an example."""
+    from dynsolve.problem.reader import find
+    from dynsolve.problem.schema import FIRST, template
+
+    if like:
+        return find(like).read_text(encoding="utf-8")
+    return template() if every_key else FIRST
 
 
 # `dynsolve schema`: the JSON Schema of problem files, for editors
@@ -127,6 +142,9 @@ def _findings(name: str) -> list[Finding]:
 
 # `dynsolve docs`
 
+PAGES = ("students", "teachers", "python")
+"""The pages for readers, beside that of all files."""
+
 
 def docs(
     topic: Annotated[str | None, typer.Argument(help="What to read about.", show_default=False)] = None,
@@ -136,7 +154,8 @@ def docs(
     if topic is None:
         width = max(map(len, known))
         for name, text in known.items():
-            headings = [line.removeprefix("### ") for line in text.splitlines() if line.startswith("### ")]
+            level = "## " if text.startswith("# ") else "### "
+            headings = [line.removeprefix(level) for line in text.splitlines() if line.startswith(level)]
             typer.echo(f"{name:{width}}  {', '.join([_title(text), *headings])}")
     elif topic in known:
         typer.echo(known[topic], nl=False)
@@ -148,15 +167,16 @@ def docs(
 
 
 def topics() -> dict[str, str]:
-    """The sections of the page by the names that links on it have: `problem-file`."""
+    """The pages for readers, and the sections of that of all files by the names of links: `problem-file`."""
     import re
 
     from dynsolve.problem.reader import folder
 
     page = (folder() / "README.md").read_text(encoding="utf-8")
     sections = re.split("^(?=## )", page, flags=re.MULTILINE)[1:]
-    return {_title(section).lower().replace(" ", "-"): section for section in sections}
+    pages = {name: (folder() / f"{name}.md").read_text(encoding="utf-8") for name in PAGES}
+    return pages | {_title(section).lower().replace(" ", "-"): section for section in sections}
 
 
 def _title(section: str) -> str:
-    return section.partition("\n")[0].removeprefix("## ")
+    return section.partition("\n")[0].lstrip("# ")

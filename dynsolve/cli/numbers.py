@@ -69,12 +69,25 @@ def with_numbers(
 STDIN = "-"
 STDIN_NAME = "<stdin>"
 
+
+def stems(incomplete: str) -> list[str]:
+    """The bundled problems that begin so, for a shell that completes words.
+
+    >>> stems("scara")
+    ['scara-rrpr']
+    """
+    from dynsolve.problem.reader import bundled
+
+    return [stem for stem in bundled() if stem.startswith(incomplete)]
+
+
 Problems = Annotated[
     list[str],
     typer.Argument(
         metavar="PROBLEM",
         help="Problem files, stems of bundled problems, or - for standard input.",
         show_default=False,
+        autocompletion=stems,
     ),
 ]
 

@@ -126,8 +126,40 @@ _DEFAULT = re.compile(r" Default.*$")
 _FIXED_BLANK = "\N{NO-BREAK SPACE}"
 
 
+FIRST = """\
+# An arm with two revolute joints in a vertical plane, to be changed into yours.
+# `dynsolve lint FILE` says what is wrong with it, `dynsolve solve FILE` solves it,
+# `dynsolve docs problem-file` has every key.
+title: My arm
+
+# The acceleration of gravity in frame 0: y0 points upwards.
+gravity: [0, -g, 0]
+
+# The Denavit-Hartenberg table, a row a frame; columns that are 0 may be left out.
+# A star marks a joint variable: in theta the joint turns, in d it slides.
+# Angles: 90deg, pi/2, or a letter.
+dh:
+  - {theta: q1*, d: 0, a: l1, alpha: 0}
+  - {theta: q2*, d: 0, a: l2, alpha: 0}
+
+# Every body that has mass. center: tip, origin, midpoint, {along: 1/3}, or
+# {near: [lc1, 0, 0]}, measured from the joint; inertia about the mass centre, or
+# a shape: {rod: {length: l1}}, or neither for a point.
+masses:
+  - {mass: m1, link: 1, center: {near: [lc1, 0, 0]}, inertia: {zz: I1}}
+  - {mass: m2, link: 2, center: midpoint, shape: {rod: {length: l2}}}
+
+# What is asked for: tau, D, C, g, K, P, L, H, J, singular, equilibria, ...
+find: [D, C, g, tau]
+
+# Numbers, for results in numbers and the proportions of the picture.
+values: {l1: 0.4, l2: 0.3, lc1: 0.2, m1: 2, m2: 1, I1: 0.03, g: 9.81}
+"""
+"""What `dynsolve new` writes."""
+
+
 def template() -> str:
-    """A commented, valid example: the manipulator of the README."""
+    """Every key with an example and its meaning, a valid problem file."""
     return "\n".join(map(_entry, PROBLEM.keys))
 
 

@@ -167,6 +167,42 @@ def test_new_writes_a_problem_that_solves(tmp_path: Path) -> None:
     assert dynsolve("new", str(file), "--force").code == 0
 
 
+def test_new_writes_a_few_lines_or_a_bundled_problem_or_every_key() -> None:
+    assert len(dynsolve("new", "-").out.splitlines()) <= 30
+    assert dynsolve("new", "-", "--like", "scara-rrpr").out == dynsolve("problems", "scara-rrpr").out
+    assert "\n# vary: " in dynsolve("new", "-", "--all").out
+    both = dynsolve("new", "-", "--all", "--like", "scara-rrpr")
+    assert both.code == 2 and "choose one of them" in both.err
+
+
+def test_a_shell_completes_the_stems_of_the_library() -> None:
+    asked = {"_DYNSOLVE_COMPLETE": "complete_bash", "COMP_WORDS": "dynsolve solve sca", "COMP_CWORD": "2"}
+    assert dynsolve_afresh(**asked).out.split() == ["scara-rrpr"]
+
+
+def test_a_sheet_a_template_and_variants_are_written(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    assert dynsolve("new", str(file)).code == 0
+    assert "a) Find the inertia matrix" in dynsolve("sheet", str(file)).out
+    assert dynsolve("sheet", str(file), "-o", str(tmp_path / "sheet.tex"), "--key").code == 0
+    assert "Key: My arm" in (tmp_path / "sheet.tex").read_text()
+    ran = dynsolve("sheet", str(file), str(file))
+    assert ran.code == 2 and "mine is named twice" in ran.err
+    ran = dynsolve("sheet", str(file), "-o", str(tmp_path / "sheet.xls"))
+    assert ran.code == 2 and ".docx" in ran.err
+    assert dynsolve("template", str(file), "-o", str(tmp_path / "answer.yaml")).code == 0
+    assert "\n  tau:\n" in (tmp_path / "answer.yaml").read_text()
+    (tmp_path / "students.csv").write_text("student\nada\nben\n")
+    file.write_text(file.read_text() + "vary: {letters: {l1: [l1, a1]}}\n")
+    words = ("vary", str(file), "--roster", str(tmp_path / "students.csv"), "--seed", "1")
+    ran = dynsolve(*words, "-o", str(tmp_path / "out"))
+    assert ran.code == 0 and "2 students" in ran.err
+    (tmp_path / "students.csv").write_text("student\nada\nben\ncarl\n")
+    ran = dynsolve(*words, "-o", str(tmp_path / "other"))
+    assert ran.code == 2 and "2 variants that are equally hard, for 3 students" in ran.err
+    assert not (tmp_path / "other").exists()
+
+
 def test_new_says_why_it_cannot_write(tmp_path: Path) -> None:
     ran = dynsolve("new", str(tmp_path / "no" / "such" / "folder.yaml"))
     assert ran.code == 2 and "cannot be written" in ran.err

@@ -45,7 +45,8 @@ def candidates(path: str, document: str) -> list[Path]:
 DOCUMENTS = [
     name
     for name in (
-        "README.md", "dynsolve/README.md", "problems/README.md", "tests/README.md", ".github/CONTRIBUTING.md"
+        "README.md", "dynsolve/README.md", "problems/README.md", "problems/students.md",
+        "problems/teachers.md", "problems/python.md", "tests/README.md", ".github/CONTRIBUTING.md",
     )
     if located(name).exists()
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""The README's examples do what the README says.
+"""The examples of the README and of the pages for readers do what they say.
 
 The commands of a section run one after the other in one folder.  The blocks marked `sh`
 install and test, and are run by CI.  Python examples are doctests.
@@ -17,15 +17,32 @@ from tests.repository.pages import blocks, examples, files, run, sections
 from tests.support import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-FILES = files(README)
-SECTIONS = sections(README)
+PAGES = {
+    "README": README,
+    **{
+        name: (ROOT / "problems" / f"{name}.md").read_text(encoding="utf-8")
+        for name in ("students", "teachers", "python")
+    },
+}
 SHELL = blocks(README, "sh")
-EXAMPLES = {name: found for name, section in SECTIONS.items() if (found := examples(section))}
+EXAMPLES = [
+    (name, section)
+    for name, page in PAGES.items()
+    for section, text in sections(page).items()
+    if examples(text)
+]
+WORDS = 1200
+"""So long may the front door be."""
 
 
 def test_there_are_examples() -> None:
-    assert {"The beginning", "Commands", "Grade a course"} == EXAMPLES.keys()
-    assert {"rp.yaml", "answer.yaml", "set.yaml"} == FILES.keys()
+    assert {name for name, _ in EXAMPLES} == PAGES.keys()
+    shown = {file for page in PAGES.values() for file in files(page)}
+    assert shown == {"mine.yaml", "rp.yaml", "answer.yaml", "set.yaml"}
+
+
+def test_the_front_door_is_short() -> None:
+    assert len(README.split()) <= WORDS
 
 
 def test_two_lines_install_and_test_and_ci_runs_them() -> None:
@@ -59,11 +76,13 @@ def _course(folder: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("section", EXAMPLES)
-def test_the_examples_print_what_they_say(section: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("page", "section"), EXAMPLES)
+def test_the_examples_print_what_they_say(page: str, section: str, tmp_path: Path) -> None:
     shutil.copytree(ROOT / "problems", tmp_path / "problems")
-    for name, text in FILES.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    if "submissions.zip" in SECTIONS[section]:
+    for shown in (PAGES["students"], PAGES[page]):  # which has the arm that other pages speak of
+        for name, text in files(shown).items():
+            (tmp_path / name).write_text(text, encoding="utf-8")
+    text = sections(PAGES[page])[section]
+    if "set.yaml" in files(PAGES[page]):
         _course(tmp_path)
-    run(EXAMPLES[section], tmp_path)
+    run(examples(text), tmp_path)
