@@ -4,7 +4,8 @@
 written, and how many operations a formula has.
 
 Read: `text` reads plain text and says what is wrong with it; `template` reads the formulas of the textbook
-that steps are written with; `characters` says what names are made of and how they are set.  `size` measures
+that steps are written with; `characters` says what names are made of and how they are set.  `rounding` puts ≈ where a number is printed
+rounded; `size` measures
 a tree before it is multiplied out, and bounds it for problem files.
 
 Printed: `printing` is what all printers share, `formulas` what those of whole formulas share;
