@@ -262,13 +262,15 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
 def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
     """Where sines and cosines of a joint angle leave the square by s² + c² = 1."""
     ring = context.robot.ring
-    left = context.values[f"Kv{body.name}"].poly.degrees()
+    energy = context.values[f"Kv{body.name}"]
     entries = [entry.poly.degrees() for entry in context.values[f"v{body.name}"].entries]
     for pair in ring.pairs:
         if len(pair.angle.terms) != 1 or pair.angle.degrees:
             continue
         ((atom, rate),) = pair.angle.terms
-        if rate != 1 or atom[0][0] not in ring.names or left[pair.sine] > 0 or left[pair.cosine] > 0:
+        if rate != 1 or atom[0][0] not in ring.names:
+            continue
+        if not ring.diff(energy, ring.names.index(atom[0][0])).is_zero:
             continue
         sines, cosines = ([d for d in entries if d[k] > 0] for k in (pair.sine, pair.cosine))  # of 0 -1
         if sines and cosines and (len(sines) > 1 or sines != cosines):

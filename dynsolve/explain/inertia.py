@@ -160,6 +160,8 @@ def _entering(context: Context, body: Body) -> list[str]:
     still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]
     if not still or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
         return []
+    if any(body.inertia[i, i].is_zero for i in range(3) if i not in still):  # a moment that is not given
+        return []
     return [name for i, name in enumerate("xyz") if i not in still]
 
 

@@ -30,6 +30,7 @@ from dynsolve.problem import read_problem
 from dynsolve.render.files import Format
 from dynsolve.solution.documents import solution_documents
 from dynsolve.solution.reports import rendered, report
+from tests.strangers.claims import Mechanism, untrue_sentences
 from tests.strangers.oracle import Point, Unknown, random_point, relations, untrue
 from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
 
@@ -106,6 +107,10 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
             made[names] = solution_documents(solution, tuple(Detail), None, way)
         documents += made[names]
     point = random_point(solution, which)
+    written_out = [one for way, one in zip(ways, documents, strict=True) if way[0] is Abbreviate.NEVER]
+    mechanism = Mechanism(solution, written_out[-1], which)
+    for sentence, why in untrue_sentences(mechanism, *(one.blocks for one in reversed(written_out))):
+        yield Fault("claim", f"{sentence.where}: {why}: {sentence}")
     for place, ((abbreviate, detail), document) in enumerate(zip(ways, documents, strict=True)):
         if place == which % len(ways):
             yield from _misread(solution, document, point.again())

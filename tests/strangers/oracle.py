@@ -10,8 +10,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 from random import Random
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -71,12 +73,16 @@ def _plain(value: Any) -> Any:
 class Point:
     """What symbols and letters are at a random state; those that are `free` are nothing there.
 
+    `names` has the numbers of the symbols, and `results` those of the results, by their names.
+
     The forces of motors are free where something acts from outside, or where there are passive coordinates:
     these are 0 in a motion and not in any state.
     """
 
     known: dict[Node, Value] = field(default_factory=dict)
     free: set[Node] = field(default_factory=set)
+    names: dict[str, float] = field(default_factory=dict)
+    results: dict[str, Any] = field(default_factory=dict)
 
     def again(self) -> Point:
         """The same for another report, whose letters are its own."""
@@ -193,35 +199,47 @@ class Point:
 # -- a state of a robot, and a report held to it ----------------------------------------------------
 
 
-def random_point(solution: Any, seed: int) -> Point:
-    """The symbols at random or as the file gives them, and the letters of all results by the JSON."""
+@lru_cache(maxsize=10_000)
+def _code(form: Node) -> CodeType:
     from dynsolve.notation.python import PythonPrinter
+
+    return compile(PythonPrinter().text(form), "form", "eval")
+
+
+def random_point(solution: Any, seed: int, at: Mapping[str, float] | None = None) -> Point:
+    """The symbols at random or as the file gives them, and the letters of all results by the JSON.
+
+    `at` says what some symbols are there, a rate as q1_dot.
+    """
     from dynsolve.quantities import letters
     from dynsolve.quantities.index import quantities
 
-    random = Random(seed)
-    robot, point, names = solution.robot, Point(), {}
+    random, at = Random(seed), at or {}
+    robot, point = solution.robot, Point()
+    names = point.names
     for g in robot.ring.generators:
         if g.kind == "symbol":
             text = g.name + ("", "_dot", "_ddot")[g.dots]
             names[text] = float(solution.problem.values.get(g.name, random.uniform(0.3, 2.7)))
             if g.name in robot.ring.names:
                 names[text] = random.uniform(-3, 3)
+            if g.name == "pi":
+                names[text] = math.pi
+            names[text] = at.get(text, names[text])
             point.known[tree.Symbol(g.name, g.dots)] = Value(names[text], abs(names[text]))
         elif g.kind in ("sin", "cos"):
             for atom, _ in g.angle.terms:
                 for name, _ in atom:
-                    names.setdefault(name, random.uniform(0.1, 1.4))
+                    names.setdefault(name, at.get(name, random.uniform(0.1, 1.4)))
                     point.known.setdefault(tree.Symbol(name), Value(names[name], abs(names[name])))
-    printer = PythonPrinter()
     functions = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt, "pi": math.pi, "__builtins__": {}}
     functions["sgn"] = lambda x: math.copysign(1.0, x)
 
     def result(form: Node) -> Value:
         if isinstance(form, tree.Matrix):
-            numbers = np.array([[eval(printer.text(e), functions, names) for e in row] for row in form.rows])  # noqa: S307
+            numbers = np.array([[eval(_code(e), functions, names) for e in row] for row in form.rows])  # noqa: S307
             return Value(numbers, np.abs(numbers))
-        number = eval(printer.text(form), functions, names)  # noqa: S307
+        number = eval(_code(form), functions, names)  # noqa: S307
         return Value(number, abs(number))
 
     for quantity in quantities(robot).values():
@@ -244,6 +262,7 @@ def random_point(solution: Any, seed: int) -> Point:
                 place = quantity.entry if len(quantity.entry) == 2 else (quantity.entry[0], 0)
                 value = Value(value.value[place], value.size[place])
         point.known[quantity.letter(robot)] = value
+        point.results[quantity.name] = value.value
     coordinates = [q.name for q in robot.coordinates]
     if robot.questions.loads or robot.questions.constraints or robot.actions.passive:
         point.free = {letters.TAU, *map(letters.force, robot.coordinates)}

@@ -233,9 +233,11 @@ def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
 
 
 def _in_terms(context: Context, form: Node, before: Node) -> Node:
-    """A form as a plain sum, in the order of the line before; as it is where a term would be negative."""
+    """A form as a plain sum, in the order of the line before; as it is where a term could be negative."""
     plain, count, _ = _multiplied_out(context, form)
-    if not isinstance(plain, Sum) or count > MOST_TERMS or any(isinstance(t, Negative) for t in plain.terms):
+    if not isinstance(plain, Sum) or count > MOST_TERMS:
+        return form
+    if not is_nonnegative(plain, with_lengths(context.robot)):
         return form
     known = before.terms if isinstance(before, Sum) else (before,)
     order = {term: place for place, term in enumerate(known)}

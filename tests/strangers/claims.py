@@ -1,0 +1,915 @@
+"""What the sentences of a report say of this mechanism, each held by a computation in numbers.
+
+A sentence with one of `WORDS` in it is a claim.  It is one of `GENERAL`, true of every mechanism, or it has a
+pattern in `CLAIMS` with a function that holds it at random states, by the results of the JSON and by frames,
+finite differences and ranks of its own.  In a pattern {} is a formula, {&} one or several, # a number or the
+name of a body, ... any words, and what stands in [brackets] may be missing.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from dynsolve import document
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Node, walk
+from dynsolve.notation.unicode import to_unicode
+from tests.strangers.mechanism import NEAR, Mechanism, names_of, near, plain, rank
+from tests.strangers.oracle import Point, Unknown
+
+WORDS = re.compile(
+    r"\b(?:ranks?|stretched|bent|folded|constant|mov(?:es?|ing)|depends?|minim(?:um|a)|maxim(?:um|a)|saddle"
+    r"|(?:un)?stable|along|negative|positive|conserved|parallel|perpendicular|always|never|zero|vanish(?:es)?"
+    r"|independent|same|singular|occurs?|appears?|diagonal)\b",
+    re.IGNORECASE,
+)
+
+# -- sentences ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """Words with {} for formulas, these formulas, and where it stands: titles, and the blocks of its step.
+
+    `words` are those that a pattern leaves open.
+    """
+
+    where: str
+    text: str
+    formulas: tuple[Node, ...]
+    step: tuple[document.Block, ...]
+    place: int
+    words: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        formulas = iter(self.formulas)
+        return re.sub(r"\{\}", lambda _: to_unicode(next(formulas)), self.text)
+
+    @property
+    def body(self) -> str:
+        """The name of the body that the title of the step speaks of."""
+        found = re.findall(r"\bbody (\w+)", self.where)
+        if not found:
+            raise Unknown
+        return str(found[-1])
+
+    def matrix(self, point: Point) -> Any:
+        """What stands in the matrix that the step shows."""
+        shown = next(shown for shown in self.shown() if isinstance(shown.parts[-1], tree.Matrix))
+        return point.value(shown.parts[-1]).value
+
+    def jacobian(self, point: Point) -> Any:
+        """The Jacobian that the step shows, at its state."""
+        for shown in self.shown():
+            if isinstance(shown.parts[-1], tree.Matrix) and plain(shown.parts[0]).startswith("J"):
+                return point.value(shown.parts[-1]).value
+        raise Unknown
+
+    def display_before(self) -> tuple[Node, ...]:
+        """The formulas of the display just before this sentence."""
+        for block in reversed(self.step[: self.place]):
+            if isinstance(block, document.Formula):
+                return (block.node,)
+            if isinstance(block, document.Equations):
+                return block.nodes
+        return ()
+
+    def display_after(self) -> tuple[Node, ...]:
+        return next(block.nodes for block in self.step[self.place :] if isinstance(block, document.Equations))
+
+    def before(self) -> Iterator[tuple[str, tuple[Node, ...]]]:
+        """The sentences of the paragraphs up to this one."""
+        for block in self.step[: self.place + 1]:
+            if isinstance(block, document.Text | document.Note):
+                yield from _split(block.parts)
+
+    def shown(self) -> Iterator[tree.Relation]:
+        """The equations in the displays of the step."""
+        for block in self.step:
+            nodes: tuple[Node, ...] = ()
+            match block:
+                case document.Formula(node):
+                    nodes = (node,)
+                case document.Equations(nodes):
+                    pass
+            yield from (node for node in walk(*nodes) if isinstance(node, tree.Relation))
+
+
+def sentences(blocks: tuple[document.Block, ...], where: str = "") -> Iterator[Sentence]:
+    """The sentences of a report, but for what is given and the list of notation; a row of a table is one."""
+    fold = where
+    for place, block in enumerate(blocks):
+        match block:
+            case document.Heading():
+                where = block.text if block.level > 1 else ""
+            case document.Fold():
+                yield from sentences(block.blocks, f"{fold or where} > {block.title}")
+                continue
+        if where in ("", "Notation"):
+            continue
+        pieces: list[tuple[document.Inline, ...]] = []
+        match block:
+            case document.Text() | document.Note() | document.Uses():
+                pieces = [block.parts]
+            case document.List():
+                pieces = list(block.items)
+            case document.Table():
+                pieces = [tuple(p for cell in row for p in (cell, "; "))[:-1] for row in block.rows]
+        for parts in pieces:
+            for text, formulas in _split(parts):
+                yield Sentence(where, text, formulas, blocks, place)
+
+
+def _split(parts: tuple[document.Inline, ...]) -> Iterator[tuple[str, tuple[Node, ...]]]:
+    words = "".join(
+        part if isinstance(part, str) else "{}" if isinstance(part, Node) else getattr(part, "text", "")
+        for part in parts
+    )
+    formulas = iter([part for part in parts if isinstance(part, Node)])
+    for text in re.split(r"(?<=[.?!]) +(?=[A-Z0-9{])", " ".join(words.split())):
+        yield text, tuple(next(formulas) for _ in range(text.count("{}")))
+
+
+# -- the claims ---------------------------------------------------------------------------------------
+
+Claim = Callable[[Mechanism, Sentence], bool]
+CLAIMS: dict[re.Pattern[str], Claim] = {}
+
+SIGNS = {"{&}": r"\{\}(?:(?:, \{\})* and \{\})?", "{}": r"\{\}", "#&": r"(\w+(?:(?:, \w+)* and \w+)?)",
+         "#": r"(\w+)", "...": ".*", "[": "(?:", "]": ")?", "<": "(", "|": "|", ">": ")"}  # fmt: skip
+
+
+def pattern(words: str) -> re.Pattern[str]:
+    parts = re.split(r"(\{&\}|\{\}|#&|#|\.\.\.|[\[\]<|>])", words)
+    return re.compile("".join(SIGNS.get(part, re.escape(part)) for part in parts))
+
+
+def says(*patterns: str) -> Callable[[Claim], Claim]:
+    def put(claim: Claim) -> Claim:
+        CLAIMS.update({pattern(words): claim for words in patterns})
+        return claim
+
+    return put
+
+
+# kinematics, Jacobians, mass centres
+
+
+@says("{} moves everything after it along the axis {}.")
+def _slides(m: Mechanism, s: Sentence) -> bool:
+    here, end = m.point(), len(m.solution.robot.joints)
+    (name,), axis = names_of(s.formulas[:1]), m.value(s.formulas[1], here)
+    change = m.frame(end, m.point({name: here.names[name] + 0.7})) - m.frame(end, here)
+    return near(change[:3, 3:], 0.7 * axis) and near(change[:3, :3], 0)
+
+
+@says(
+    "{} moves the joint[s] of row[s] #&[ at ..., and so its column][ on the way to ...][; its column is ...]."
+)
+def _moves_rows(m: Mechanism, s: Sentence) -> bool:
+    """Of the rows on the way to the last frame."""
+    name, told = names_of(s.formulas[:1]), re.findall(r"\d+", s.words[0])
+    rows = [joint.index for joint in m.solution.robot.path(len(m.solution.robot.joints))]
+    return told == [str(i) for i in rows if m.changes(lambda p, i=i: m.result(f"A{i}", p), name)]
+
+
+@says("{&} <does|do> not move the origin of frame #: <its column is|their columns are> zero.")
+def _origin_stays(m: Mechanism, s: Sentence) -> bool:
+    return not m.changes(lambda p: m.frame(int(s.words[1]), p)[:, 3], names_of(s.formulas))
+
+
+@says("{&} turns a rotor alone and moves no link: its column is zero.")
+def _rotor(m: Mechanism, s: Sentence) -> bool:
+    rows = range(1, len(m.solution.robot.joints) + 1)
+    return not any(m.changes(lambda p, i=i: m.result(f"H{i}", p), names_of(s.formulas)) for i in rows)
+
+
+@says(
+    "As for ...: only the joints up to the body's link can move it, so the column[s] of {&} ... zero.[ ...]"
+)
+def _columns_are_zero(m: Mechanism, s: Sentence) -> bool:
+    still = tuple(node for node in s.formulas if isinstance(node, tree.Symbol))
+    return not m.changes(lambda p: m.pose(s.body, p), names_of(still)) and all(
+        m.changes(lambda p: m.pose(s.body, p), (q,)) or not np.any(m.result(f"Jv{s.body}", m.point())[:, k])
+        for k, q in enumerate(m.coordinates) if q not in names_of(still)
+    )  # fmt: skip
+
+
+@says("[Column by column, ...; ]{&} <does|do> not move its link.")
+def _point_stays(m: Mechanism, s: Sentence) -> bool:
+    point = re.findall(r"Jacobian of (\w+)", s.where)[-1]
+    return not m.changes(lambda p: m.result(f"p{point}", p), names_of(s.formulas))
+
+
+@says("# is fixed in link #: its coordinates in frame # are constant, and it moves with the frame.")
+def _point_is_fixed(m: Mechanism, s: Sentence) -> bool:
+    return not m.changes(
+        lambda p: m.seen_from(int(s.words[2]), m.result(f"p{s.words[0]}", p), p), m.coordinates
+    )
+
+
+@says("{} is parallel to {}, so their cross product is zero.")
+def _parallel(m: Mechanism, s: Sentence) -> bool:
+    vectors = [[np.ravel(m.value(part, p)) for part in s.formulas] for p in m.points()]
+    return all(near(np.cross(a, b), 0) for a, b in vectors)
+
+
+@says(
+    "[The position is given: it][The mass centre][Its rotational part alone: its mass centre] does not move."
+)
+def _center_stays(m: Mechanism, s: Sentence) -> bool:
+    return not m.changes(lambda p: m.result(f"rc{s.body}", p), m.coordinates)
+
+
+@says("The speed does not depend on {&}.")
+def _speed(m: Mechanism, s: Sentence) -> bool:
+    speed = lambda p: np.linalg.norm(m.result(f"v{s.body}", p))  # noqa: E731
+    return all(not m.changes(speed, (name,)) for name in names_of(s.formulas))
+
+
+@says("The angular velocity is the rate of the angle along its axis, which does not move.")
+def _one_turn(m: Mechanism, s: Sentence) -> bool:
+    return not m.changes(lambda p: m.result(f"Jw{s.body}", p), m.coordinates)
+
+
+@says(
+    "The angular velocity is parallel to that axis, so nothing else enters, and ...",
+    "The angular velocity has components along these axes alone, so nothing else enters, and ...",
+)
+def _given_moments_suffice(m: Mechanism, s: Sentence) -> bool:
+    """The entries that are not 0 are on the diagonal: along their axes alone the body turns."""
+    for p in m.points():
+        turned = np.transpose(m.result(f"R{s.body}", p)) @ m.result(f"w{s.body}", p)
+        if not near(turned[np.diag(m.result(f"I_body{s.body}", p)) == 0], 0):
+            return False
+    return True
+
+
+@says("The mass centre of body # is <half-way|{}[ of the way]> along link #, <between|from> {} <and|to> {}.")
+def _part_of_the_way(m: Mechanism, s: Sentence) -> bool:
+    def holds(p: Point) -> bool:
+        start, end = (m.value(node, p) for node in s.formulas[-2:])
+        part = 0.5 if s.words[1] == "half-way" else m.value(s.formulas[0], p)
+        return near(m.result(f"rc{s.words[0]}", p), start + part * (end - start))
+
+    return all(holds(p) for p in m.points())
+
+
+@says(
+    "The mass centre of body # is given by its coordinates in frame #, which are constant.",
+    "The mass centre of body # is given from the near end of link #, {}, along the axes of frame #, ...",
+)
+def _fixed_in_frame(m: Mechanism, s: Sentence) -> bool:
+    return not m.changes(
+        lambda p: m.seen_from(int(s.words[-1]), m.result(f"rc{s.words[0]}", p), p), m.coordinates
+    )
+
+
+# tensors
+
+
+@says("They are not ...: {} lies along the body's <...>, {} along its <...> and {} along its <...>, so ...")
+def _axes(m: Mechanism, s: Sentence) -> bool:
+    for p in m.points():
+        turn = np.transpose(m.result(f"R{s.body}", p))
+        for node, told in zip(s.formulas, s.words, strict=False):
+            axis = (-1 if told.startswith("-") else 1) * np.eye(3)[:, ["xyz".index(told[-1])]]
+            if not near(turn @ m.value(node, p), axis):
+                return False
+    return True
+
+
+@says("The tensor of body # is given, about ..., along <its own axes|the axes of frame #>.")
+def _tensor_in_frame(m: Mechanism, s: Sentence) -> bool:
+    def there(p: Point) -> Any:
+        turn = m.frame(int(s.words[2]), p)[:3, :3] if s.words[2] else m.result(f"R{s.words[0]}", p)
+        return turn.T @ m.result(f"I{s.words[0]}", p) @ turn
+
+    return not m.changes(there, m.coordinates)
+
+
+@says(
+    "Of the tensor of body # about its mass centre the moment about the axis parallel to {}[, ...,] is given."
+)
+def _moment_along(m: Mechanism, s: Sentence) -> bool:
+    axis = lambda p: m.value(s.formulas[0], p)  # noqa: E731
+    return not m.changes(lambda p: axis(p).T @ m.result(f"I{s.words[0]}", p) @ axis(p), m.coordinates)
+
+
+@says("Body # is a uniform <...>, its own axis along <{}|... of the body's frame>.")
+def _own_axis(m: Mechanism, s: Sentence) -> bool:
+    """The axis is principal, and the moments across it are equal."""
+    p = m.point()
+    if s.formulas:
+        axis = m.value(s.formulas[0], p)
+    else:
+        axis = m.result(f"R{s.words[0]}", p)[:, ["xyz".index(s.words[2][0])]]
+    moments = np.linalg.eigvalsh(m.result(f"I{s.words[0]}", p))
+    along = float((axis.T @ m.result(f"I{s.words[0]}", p) @ axis).item())
+    across = (np.sum(moments) - along) / 2
+    return near(m.result(f"I{s.words[0]}", p) @ axis, along * axis) and near(
+        np.sort(moments), np.sort([along, across, across])
+    )
+
+
+@says("The body's axes are parallel to frame 0 at {} and turn with the link: ...")
+def _parallel_at_zero(m: Mechanism, s: Sentence) -> bool:
+    p = m.point(dict.fromkeys(m.coordinates, 0.0))
+    return near(m.result(f"R{s.body}", p), m.frame(0, p)[:3, :3])
+
+
+# energies and the matrix form
+
+
+@says("[It does not depend on any coordinate, so {} is zero.]")
+def _no_gravity_terms(m: Mechanism, s: Sentence) -> bool:
+    return all(near(m.value(s.formulas[0], p), 0) for p in m.points())
+
+
+@says("[...; ]{&} [itself ]do[es] not <occur|appear> in <...>[: [a ]cyclic coordinate[s]][, so {}]<.|:>")
+def _does_not_occur(m: Mechanism, s: Sentence) -> bool:
+    energy = {"ℒ": "L", "𝒦": "K", "𝒫": "P"}
+    symbols = tuple(node for node in s.formulas if isinstance(node, tree.Symbol))
+    letter = s.words[1][0] if s.words[1][0] in energy else to_unicode(s.formulas[len(symbols)])
+    return all(not m.changes(lambda p: m.result(energy[letter], p), (q,)) for q in names_of(symbols))
+
+
+@says("No coordinate occurs in it: each rate becomes an acceleration, and nothing else changes.")
+def _momentum_of_rates(m: Mechanism, s: Sentence) -> bool:
+    k = re.findall(r"Coordinate (\w+)", s.where)[-1]
+    return not m.changes(lambda p: m.result(f"dLdqd{k}", p), m.coordinates)
+
+
+@says(
+    "{} is constant, so every Christoffel symbol is zero.",
+    "{} is constant, and {}: nothing is left to be checked.",
+    "{} is[ then] constant, and {}.",
+    "{} is constant: of all that joint # moves, it is the ....",
+)
+def _constant(m: Mechanism, s: Sentence) -> bool:
+    return not m.changes(lambda p: m.value(s.formulas[0], p), m.coordinates)
+
+
+@says("The rate of {} by the chain rule, entry by entry; <{&} ...|the other entries are> constant; then ...")
+def _constant_entries(m: Mechanism, s: Sentence) -> bool:
+    """Those that are named, or all whose rate is not shown."""
+    rates = {plain(part) for shown in s.shown() for part in shown.parts}
+    n = len(m.coordinates)
+    named = [plain(node) for node in s.formulas[1 : -2 if "then {} with {}" in s.text else None]]
+    others = [f"d{i}{j}" for i, j in product(range(1, n + 1), repeat=2) if f"ḋ{i}{j}" not in rates]
+    return all(not m.changes(lambda p, d=d: m.result(d, p), m.coordinates) for d in named or others)
+
+
+@says("{&} <is|are> zero.[ ...]")
+def _are_zero(m: Mechanism, s: Sentence) -> bool:
+    return all(near(m.value(node, p), 0) for node in s.formulas for p in m.points())
+
+
+@says("All the others are zero.", "Partial derivatives that are zero are left out.",
+      "The derivatives of {} that are not zero, term by term[...]:")  # fmt: skip
+def _others_are_zero(m: Mechanism, s: Sentence) -> bool:
+    """Christoffel symbols of which the step shows nothing."""
+    told = "|".join([plain(part) for shown in s.shown() for part in shown.parts])
+    told += "|".join(plain(node) for block in s.step for part in getattr(block, "parts", ())
+                     if isinstance(part, Node) for node in walk(part))  # fmt: skip
+    symbols = [f"c{i}{j}{k}" for i, j, k in product(range(1, len(m.coordinates) + 1), repeat=3) if i <= j]
+    return all(near(m.result(c, p), 0) for c in symbols if c not in told for p in m.points())
+
+
+@says("The sums, without what is zero:")
+def _sums(m: Mechanism, s: Sentence) -> bool:
+    """Entries of C of which the step shows nothing."""
+    told = {plain(shown.parts[0]).lower() for shown in s.shown()}
+    n = range(1, len(m.coordinates) + 1)
+    return all(
+        near(m.result(f"C{k}{j}", p), 0)
+        for k, j in product(n, n)
+        if f"c{k}{j}" not in told
+        for p in m.points()
+    )
+
+
+@says("Here it is diagonal: no acceleration enters the force of another coordinate.")
+def _diagonal(m: Mechanism, s: Sentence) -> bool:
+    return all(near(D, np.diag(np.diag(D))) for D in (m.result("D", p) for p in m.points()))
+
+
+@says("[So {} at rest alone: ][So ]{} is positive definite[ for positive parameters].")
+def _definite(m: Mechanism, s: Sentence) -> bool:
+    return all(np.min(np.linalg.eigvalsh(m.result("D", p))) > 0 for p in m.points(5))
+
+
+@says("All other entries are zero, so {} is positive definite.")
+def _diagonal_and_definite(m: Mechanism, s: Sentence) -> bool:
+    return _diagonal(m, s) and _definite(m, s)
+
+
+@says("In the last expression[ of each] no term is negative[, and {&}].")
+def _no_term_is_negative(m: Mechanism, s: Sentence) -> bool:
+    def negative(node: Node, p: Point) -> bool:
+        match node:
+            case tree.Sum(parts) | tree.Product(parts):
+                return any(negative(part, p) for part in parts)
+            case tree.Quotient(above, below):
+                return negative(above, p) or negative(below, p)
+            case tree.Parenthesized(inner):
+                return negative(inner, p)
+        return bool(m.value(node, p) < 0)
+
+    last = [node for node in s.display_before() if isinstance(node, tree.Relation)]
+    return bool(last) and all(
+        not any(negative(relation.parts[-1], p) for relation in last)
+        and all(m.holds(told, p) for told in s.formulas) for p in m.points()
+    )  # fmt: skip
+
+
+@says("{} is positive: body # adds {} to {}.")
+def _adds(m: Mechanism, s: Sentence) -> bool:
+    d, part, _ = s.formulas
+    return all(m.value(d, p) >= m.value(part, p) * (1 - NEAR) > 0 for p in m.points())
+
+
+@says(
+    "{&} <is|are> the moment[s] of inertia about {&} of all that joint[s] <...> move[s],...",
+    "{&} <is|are> the moment[s] of inertia of all that joint[s] #& move[s][, ...]: in simple poses the ...",
+)
+def _moments(m: Mechanism, s: Sentence) -> bool:
+    entries = [node for node in s.formulas if plain(node).startswith("d")]
+    axes = [int(plain(node)[1:]) for node in s.formulas[len(entries) :]]
+    joints = [int(joint) for joint in re.findall(r"\d+", s.words[1])]
+    for k, d in enumerate(entries):
+        for p in m.points():
+            z, o = (m.frame(axes[k], p)[:3, 2:] if axes else m.axis(joints[k], p)).T
+            moment = 0.0
+            for body in m.moved_by(m.coordinates[int(plain(d)[1:]) % 10 - 1]):
+                arm = np.cross(z, np.ravel(m.result(f"rc{body.name}", p)) - o)
+                moment += m.mass(body, p) * arm @ arm + z @ m.result(f"I{body.name}", p) @ z
+            if not near(moment, m.value(d, p)) and not ("rotor" in s.text and moment < m.value(d, p)):
+                return False
+    return True
+
+
+@says("So no {} depends on {} where {} and {}.")
+def _lower_coordinates(m: Mechanism, s: Sentence) -> bool:
+    return not any(
+        m.changes(lambda p, i=i: m.result("D", p)[i:, i:], (q,)) for i, q in enumerate(m.coordinates)
+    )
+
+
+# what is conserved
+
+
+@says("The energy changes by the power of {} alone: as long as {} it is conserved.")
+def _energy(m: Mechanism, s: Sentence) -> bool:
+    return m.is_conserved(s.formulas[1:2], lambda p: m.result("K", p) + m.result("P", p))
+
+
+@says("[As long as {&}, the ][The ]Euler-Lagrange equation[s] say[s] that the <...> conserved[:|.]")
+def _momenta(m: Mechanism, s: Sentence) -> bool:
+    conditions = tuple(node for node in s.formulas if isinstance(node, tree.Relation))
+    told = re.findall(
+        r"\{\}(?: \(the (angular|linear|total linear) momentum ?([^()]*)\))?", s.text.split("moment", 1)[1]
+    )
+    formulas = iter(s.formulas[len(conditions) :])
+    for kind, what in told:
+        momentum = next(formulas)
+        axis = next(formulas) if "{}" in what else None
+        if not m.is_conserved(conditions, lambda p, node=momentum: m.value(node, p)):
+            return False
+        if kind and not all(
+            near(m.value(momentum, p), m.momentum(momentum, kind, what, axis, p)) for p in m.points()
+        ):
+            return False
+    return True
+
+
+@says("[As ]{}: sliding along a level axis changes no height.", "On the diagonal of {}, {&}.")
+def _holds(m: Mechanism, s: Sentence) -> bool:
+    return all(m.holds(node, p) for node in s.formulas for p in m.points())
+
+
+# equilibria
+
+
+@says("{}; ...; <minimum|maximum|saddle point>...; <stable|unstable|{}>")
+def _balanced(m: Mechanism, s: Sentence) -> bool:
+    point, (kind, stability) = m.posed(s.formulas[:1]), s.words
+    free = [k for k, q in enumerate(m.coordinates) if m.changes(lambda p: m.result("P", p), (q,))]
+    curved = np.linalg.eigvalsh(m.stiffness(point)[np.ix_(free, free)])
+    told = "minimum" if np.all(curved > NEAR) else "maximum" if np.all(curved < -NEAR) else "saddle point"
+    if told != kind or not near(m.at_rest(point), 0) or (told == "minimum") == (stability == "unstable"):
+        return False
+    named = [part.name for node in s.formulas[1:] for part in walk(node) if isinstance(part, tree.Symbol)]
+    return stability == "unstable" or [m.coordinates[k] for k in free] == (named or list(m.coordinates))
+
+
+@says(
+    "<At {&}|There|In every configuration>: <stable|not stable>[, but for {&}, along which nothing changes]."
+)
+def _stable(m: Mechanism, s: Sentence) -> bool:
+    still = names_of(tuple(node for node in s.formulas if isinstance(node, tree.Symbol)))
+    told = tuple(node for node in s.formulas if not isinstance(node, tree.Symbol))
+    point = m.posed(told) if told else m.solved(m.at_rest, m.coordinates, 0)
+    if point is None:
+        raise Unknown
+    return m.is_stable(point, s.words[1], still) and not any(m.changes(m.at_rest, (q,)) for q in still)
+
+
+@says("In every configuration: the signs of the second derivatives depend on the configuration.")
+def _signs_depend(m: Mechanism, s: Sentence) -> bool:
+    points = [*m.points(10), *map(m.point, m.right_angles())]
+    return len({tuple(np.sign(np.round(np.linalg.eigvalsh(m.stiffness(p)), 6))) for p in points}) > 1
+
+
+@says("Gravity is balanced in # poses ...[, whatever {&} is]; the potential energy has a minimum at {&}.")
+def _minimum_at(m: Mechanism, s: Sentence) -> bool:
+    free = [k for k, q in enumerate(m.coordinates) if m.changes(lambda p: m.result("P", p), (q,))]
+    points = [m.posed((node,)) for node in s.formulas if not isinstance(node, tree.Symbol)]
+    return all(
+        near(m.at_rest(p), 0) and np.all(np.linalg.eigvalsh(m.stiffness(p)[np.ix_(free, free)]) > NEAR)
+        for p in points
+    )
+
+
+@says("Every leading minor is positive in every configuration[ exactly if {&}].")
+def _minors(m: Mechanism, s: Sentence) -> bool:
+    """At parameters that meet the conditions; at others it fails in some pose of right angles."""
+    let = [node for text, nodes in s.before() if text.startswith("Let ") for node in nodes]
+    seen = set()
+    for here in m.points(60):
+        met = all(m.holds(node, here) for node in s.formulas)
+        if not all(m.holds(node, here) for node in let) or not (met or s.formulas):
+            continue
+        matrices = [s.matrix(m.symbols(here.names | pose)) for pose in ({}, *m.right_angles())]
+        if all(np.min(np.linalg.eigvalsh(matrix)) > 0 for matrix in matrices) != met:
+            return False
+        seen.add(met)
+    return True in seen
+
+
+@says("Where {}, {}, which is not positive.")
+def _minor_is_zero(m: Mechanism, s: Sentence) -> bool:
+    (told,) = [shown for shown in s.shown() if shown.parts[0] == s.formulas[1].parts[0]]
+    return near(m.value(told.parts[-1], m.where(s.formulas[0])), 0)
+
+
+@says("It depends on {&}, which no inertia matrix of a chain with relative coordinates does.")
+def _matrix_depends(m: Mechanism, s: Sentence) -> bool:
+    return m.changes(s.matrix, names_of(s.formulas))
+
+
+@says("{} is an angle, and stands outside of sines and cosines in entry (#, #): ...")
+def _full_turn(m: Mechanism, s: Sentence) -> bool:
+    (q,), (i, j), here = names_of(s.formulas), map(int, s.words), m.point()
+    turned = m.point({q: here.names[q] + 2 * np.pi})
+    return not near(s.matrix(here)[i - 1, j - 1], s.matrix(turned)[i - 1, j - 1])
+
+
+@says("The second derivatives of {} with respect to {&}[ (it depends on no other coordinate)]; det is ...:")
+def _no_other(m: Mechanism, s: Sentence) -> bool:
+    others = [q for q in m.coordinates if q not in names_of(s.formulas[1:])]
+    return not m.changes(lambda p: m.result("P", p), tuple(others))
+
+
+@says(
+    "Without the moments of inertia ..., the sum of the linear parts[ (<that|those> of bod<y|ies> #& ...)]."
+)
+def _linear_parts(m: Mechanism, s: Sentence) -> bool:
+    still = [body for body in m.solution.robot.bodies if body.name in re.findall(r"\w+", s.words[2])]
+    return all(near(m.mass(body, p) * m.result(f"Jv{body.name}", p), 0) for body in still for p in m.points())
+
+
+# tasks
+
+
+@says("This is {} without the row of <x|y|z>, zero in every configuration.")
+def _row_is_zero(m: Mechanism, s: Sentence) -> bool:
+    k = "xyz".index(s.words[0])
+    whole = [(m.value(s.formulas[0], p), m.result("Jr", p)) for p in m.points()]
+    return all(near(J[k], 0) and near(np.delete(J, k, 0), Jr) for J, Jr in whole)
+
+
+@says("The task is the position of the tip, of which these are the coordinates that move.")
+def _tip_moves(m: Mechanism, s: Sentence) -> bool:
+    end = len(m.solution.robot.joints)
+    moving = [k for k in range(3) if m.changes(lambda p, k=k: m.frame(end, p)[k, 3], m.coordinates)]
+    return near(m.frame(end, m.point())[moving, 3], np.ravel(m.result("r", m.point())))
+
+
+@says("{} has many solutions, the rank being #: ...", "The rest has many solutions, the rank being #: ...")
+def _many_solutions(m: Mechanism, s: Sentence) -> bool:
+    J = s.jacobian(m.point())
+    return rank(J) == int(s.words[0]) < len(J.T)
+
+
+# drawn axes
+
+
+@says("The axes of joints #, # and # meet in one point, which these joints do not move.")
+def _wrist(m: Mechanism, s: Sentence) -> bool:
+    def meets(p: Point) -> Any:
+        """The point next to the axes, and how far it is from them."""
+        lines = [m.axis(int(i), p) for i in s.words]
+        across = [np.eye(3) - np.outer(line[:, 0], line[:, 0]) for line in lines]
+        feet = np.hstack([part @ line[:, 1] for part, line in zip(across, lines, strict=True)])
+        point = np.linalg.lstsq(np.vstack(across), feet, rcond=None)[0]
+        return np.hstack([point, np.vstack(across) @ point - feet])
+
+    here = m.point()
+    moved = m.point({q: here.names[q] + 1 for q in (m.coordinates[int(i) - 1] for i in s.words)})
+    return near(meets(here)[3:], 0) and near(meets(here), meets(moved))
+
+
+@says("Where {} the first and the last axis of the wrist are one line: the wrist is singular.")
+def _wrist_is_singular(m: Mechanism, s: Sentence) -> bool:
+    p, n = m.where(s.formulas[0]), len(m.coordinates)
+    return near(np.cross(m.axis(n - 2, p)[:, 0], m.axis(n, p)[:, 0]), 0)
+
+
+@says("The hand lies beside the axis of joint #: {} points from the axis across to it, and {} stays ...")
+def _beside_the_axis(m: Mechanism, s: Sentence) -> bool:
+    for p in m.points():
+        (x, z), axis = (np.ravel(m.value(node, p)) for node in s.formulas), m.axis(int(s.words[0]), p)
+        way = m.frame(len(m.solution.robot.joints), p)[:3, 3] - axis[:, 1]
+        across = way - axis[:, 0] * (axis[:, 0] @ way)
+        if not near(np.cross(z, axis[:, 0]), 0) or not near(across, x * np.linalg.norm(across)):
+            return False
+    return True
+
+
+@says("{} lies along it, from the first to the second, and {} is where it meets the axis of joint #.")
+def _common_normal(m: Mechanism, s: Sentence) -> bool:
+    """It is across both axes, and the origin is on the second."""
+    for p in m.points():
+        x, o = (np.ravel(m.value(node, p)) for node in s.formulas)
+        i = int(s.words[0])
+        a, b = m.axis(i - 1, p), m.axis(i, p)
+        if not near(x @ np.stack([a[:, 0], b[:, 0]], 1), 0) or not near(np.cross(o - b[:, 1], b[:, 0]), 0):
+            return False
+        if not near(np.cross(b[:, 0], a[:, 0]), 0) and x @ (o - a[:, 1]) < -NEAR:
+            return False
+    return True
+
+
+@says("The axis of joint # and the axis of joint # <meet|are parallel>[, ...][: ...].")
+def _axes_meet(m: Mechanism, s: Sentence) -> bool:
+    for p in m.points():
+        a, b = (m.axis(int(i), p) for i in s.words[:2])
+        parallel = near(np.cross(a[:, 0], b[:, 0]), 0)
+        meet = near(np.cross(a[:, 0], b[:, 0]) @ (b[:, 1] - a[:, 1]), 0)
+        if parallel != (s.words[2] == "are parallel") or not (parallel or meet):
+            return False
+        for node in s.formulas:
+            if plain(node)[0] == "x" and not near(
+                np.ravel(m.value(node, p)) @ np.stack([a[:, 0], b[:, 0]], 1), 0
+            ):
+                return False
+    return True
+
+
+# ranks
+
+
+@says(
+    "In both {} has a saddle point: ..., which is negative there.",
+    "So they are unstable.",
+    "Gravity is balanced in two poses, with {}: saddle points of the potential energy.",
+)
+def _saddles(m: Mechanism, s: Sentence) -> bool:
+    """At every equilibrium that Newton's method finds."""
+    found = [m.solved(m.at_rest, m.coordinates, seed) for seed in range(4)]
+    curved = [np.linalg.eigvalsh(m.stiffness(point)) for point in found if point]
+    return bool(curved) and all(np.min(values) < -NEAR and np.max(values) > NEAR for values in curved)
+
+
+@says("In case #: <stable|not stable>.")
+def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
+    step = next(told for told in sentences(m.document.blocks) if told.text == "It is 0 in these cases:")
+    return m.is_stable(m.where(step.display_after()[int(s.words[0]) - 1]), s.words[1])
+
+
+@says("At {}: <stable|not stable> where {}, <stable|not stable> where {}.")
+def _stable_where(m: Mechanism, s: Sentence) -> bool:
+    for kind, condition in zip(s.words, s.formulas[1:], strict=True):
+        seeds = [seed for seed in range(20) if m.holds(condition, m.point(seed=seed))]
+        if not seeds or not all(m.is_stable(m.posed(s.formulas[:1], seed), kind) for seed in seeds[:3]):
+            return False
+    return True
+
+
+@says("No motor drives {&}: in the equilibrium ... <does|do> not move <it|them>.")
+def _stays_by_itself(m: Mechanism, s: Sentence) -> bool:
+    point = m.posed(
+        [node for text, nodes in s.before() if text.startswith("The rest is taken at") for node in nodes]
+    )
+    return near(m.at_rest(point)[[m.coordinates.index(q) for q in names_of(s.formulas)]], 0)
+
+
+@says("Where {}, {} is diagonal in every configuration: ...")
+def _decoupled(m: Mechanism, s: Sentence) -> bool:
+    point = m.where(s.formulas[0])
+    D = [m.result("D", m.point(point.names | pose)) for pose in ({}, *m.right_angles())]
+    return all(near(matrix, np.diag(np.diag(matrix))) for matrix in D)
+
+
+@says("Fewer than # entr<y|ies> <is|are> not enough: ...")
+def _entries(m: Mechanism, s: Sentence) -> bool:
+    """The rank of the forces at some motions, one under another, with other parameters in each column."""
+    count = {"one": 1, "two": 2}.get(s.words[0]) or int(s.words[0])
+    known, moving = m.solution.robot.questions.model.known, set(m.coordinates)
+
+    def force(p: Point) -> Any:
+        if "inertia matrix" in s.where:
+            return m.result("D", p) @ np.array([[p.names[f"{q}_ddot"]] for q in m.coordinates])
+        return m.result("g" if "gravity" in s.where else "tau", p)
+
+    def moves(name: str) -> bool:
+        return name.removesuffix("_dot").removesuffix("_ddot") in moving
+
+    fixed = {name: value for name, value in m.point().names.items() if name in known}
+    motions = [
+        {name: value for name, value in m.point(seed=k).names.items() if moves(name)}
+        for k in range(count + 2)
+    ]
+    table = [[force(m.point(motion | fixed, seed)) for seed in range(count + 3)] for motion in motions]
+    return rank(np.block(table)) == count
+
+
+@says("{} is #×#, and its rank is # almost everywhere.")
+def _rank(m: Mechanism, s: Sentence) -> bool:
+    for p in m.points(5):
+        J = m.value(s.formulas[0], p)
+        if J.shape != (int(s.words[0]), int(s.words[1])) or rank(J) != int(s.words[2]):
+            return False
+    return True
+
+
+@says("The rank is # in every configuration[, as the minors are never all 0 at once].")
+def _rank_everywhere(m: Mechanism, s: Sentence) -> bool:
+    """At random states, and where the coordinates are right angles and 0."""
+    at = [m.point(seed=seed) for seed in range(10)]
+    at += [m.point(pose) for pose in m.right_angles()]
+    return all(rank(m.result(m.jacobian, p)) == int(s.words[0]) for p in at)
+
+
+@says("Where {}, the rank is [in general ]# instead of #.")
+def _rank_where(m: Mechanism, s: Sentence) -> bool:
+    point = m.where(s.formulas[0])
+    return rank(m.result(m.jacobian, point)) == int(s.words[0]) and all(
+        rank(m.result(m.jacobian, p)) == int(s.words[1]) for p in m.points()
+    )
+
+
+@says("The rank is #, and the dimension of this space #.")
+def _dimension(m: Mechanism, s: Sentence) -> bool:
+    J = s.jacobian(m.point())
+    told, dimension = map(int, s.words)
+    rows, columns = J.shape
+    left = told if "possible" in s.where else (rows if "lost" in s.where else columns) - told
+    return rank(J) == told and dimension == left
+
+
+@says("But for signs, <these are|one is> not always 0:")
+def _not_zero(m: Mechanism, s: Sentence) -> bool:
+    return all(
+        any(abs(m.value(shown.parts[-1], p)) > 0 for p in m.points())
+        for shown in s.shown()
+        if len(shown.parts) > 1
+    )
+
+
+@says("A force[ and a moment] along it need[s] no ....")
+def _no_torque(m: Mechanism, s: Sentence) -> bool:
+    """The vectors that the step shows, against the Jacobian that it shows."""
+    J = s.jacobian(m.point())
+    columns = [node for shown in s.shown() for node in walk(shown.parts[-1]) if isinstance(node, tree.Matrix)]
+    vectors = [
+        m.value(node, m.point()) for node in columns if (len(node.rows), len(node.rows[0])) == (len(J), 1)
+    ]
+    return bool(vectors) and all(near(J.T @ vector, 0) for vector in vectors if vector is not J)
+
+
+GENERAL = """
+Each {} leads one frame further along the arm, so it multiplies from the right.
+Let all parameters be positive.
+{} is symmetric, and may depend on the coordinates, but on no rate.
+Read off[ from the forces] and assembled directly: the same {&}.
+The tensor along the body's own axes put in:
+In the <standard|modified> convention ...
+Other matrices {} give the same {}, which is all that the equations of motion fix.
+With the square of a rate it is centrifugal: it remains where that coordinate alone moves.
+With the product of two rates it is a Coriolis term: it needs both to move.
+A point mass has no extent, so its tensor about its own mass centre is zero and it has no rotational energy.
+Below the energy is worked out along the body's own axes, where the tensor is {}.
+[Along the body's own axes][From there along the body's own axes, by {}][Along the axes of frame #][, with
+  ...]:
+Along the body's own axes it is {}, and the angular velocity is {}.
+Verified: ...
+The other results that are asked for agree with independent computations in numbers.
+{} is the tensor along the axes of the <base|world>.
+By Sylvester's criterion[, which may start from either end of the diagonal,] it remains to show that the
+  determinant[s] below <is|are> positive.
+The sum is the same {}, entry by entry.
+{}, and no body[ and no rotor] has a negative kinetic energy: where their sum is 0, each of them is 0.
+In each line the rates of the lines before are 0, so that it is 0 only where its own rate is:
+No body adds anything negative to {}, which is {} where {} and the other rates are 0.
+{} has a minimum where ..., a maximum where ...; at a minimum the equilibrium is stable[ in {&}], elsewhere
+  it is not:
+A rotation leaves the <length of {}|products of the columns> unchanged; along the axes of frame #[, with
+  ...]:
+About the mass centre, by the parallel-axis theorem:
+A joint turns about or slides along the {} of <the frame that its row starts from|its own frame>.
+Its parts; the others are zero:
+In the results, how the base is turned matters to the potential energy and the gravity terms alone: a
+  constant rotation leaves lengths unchanged, so it cancels in the kinetic energy.
+Every vector of link i is written along the axes of its own frame i, in which the mass centre and the tensor
+  are constant.
+Entry by entry, by the chain rule: every joint variable in an entry moves.
+Constant lengths are not 0[, so one case is left].
+Frame # is the one to take: in the modified convention it is fixed in link #, and frame # moves with the
+  next link.
+And it is positive definite in every configuration: its leading minors are positive.
+The ... is made of slices dx with the mass {}; {} runs along ... of its frame from the near end, 0, to the
+  far one.
+Multiplied out, {} is a sum of ...
+Those that are combinations of others are left out, and so are factors that are positive, as masses and
+  lengths of the table are.
+A motor gives the component of what its joint holds along the joint's axis; the bearings hold the others.
+Joint i moves the links from {} on like one body.
+The coefficients that occur, ...
+{} lies along each joint axis in the direction that is given.
+#; {}; slides along; {}; {}
+Letters are positive and independent of each other: what vanishes for some of their values alone does not
+  count as 0.
+At random joint values this table moves the hand as the product of the exponentials of the drawn axes does.
+It exists where the rows of the Jacobian are independent.
+Each axis is carried along by the turns before it, so that its matrix stands on the right.
+The angular velocity is the sum over the turns: the rate of each angle along its axis, as the turns before
+  it have carried that.
+What is seen from the world is then written along the axes of frame #.
+A coordinate that stands in a formula is that of the same <solution|line>.
+Its rows may be turned among each other, as by other axes, and multiples of rows and columns added to
+  others: that leaves the rank as it is.
+Where an entry is never 0, its row and column can so be cleared and count 1.
+The singular configurations:
+{} lies along the axis of joint #; the origin may be anywhere on it, and {} may point anywhere across it.
+{} stays along it, and {} may point anywhere across: it is that of frame #, so that nothing is turned in the
+  pose that is drawn.
+Along <row|column> #, each entry times the determinant that is left, signs in turn[, with ...]:
+#; {}; slides along; {}; anywhere
+The axis of joint # may be anywhere along the direction, for a slide has no place.
+{} is kept, and the origin with which {} has no constant part.
+Only the other joints move it to its place, and the wrist then turns the hand: position and rotation are
+  decoupled.
+The last joint does not move its own axis: the first two turn that to where it is to be ...
+Combined, without factors that are never 0:
+The parameters are the same.
+What is left of ℒ where nothing moves, with the opposite sign.
+It is given along axes of its link, and turned into the world.
+Each motion is along or about an axis of the frame that those before it have led to.
+Where the matrix of <the|its> second derivatives[ of the potential energy] is positive definite, the
+  <equilibrium|motion> is stable; where <the energy|it> falls in some direction, it is not.
+"""
+"""What is true of every mechanism, or is a step of a proof whose end is held; indented lines go on."""
+
+IS_GENERAL = re.compile(
+    "|".join(pattern(words).pattern for words in GENERAL.replace("\n  ", " ").split("\n") if words)
+)
+
+
+def untrue_sentences(
+    mechanism: Mechanism, *reports: tuple[document.Block, ...]
+) -> Iterator[tuple[Sentence, str]]:
+    """The claims that are not true, or that nothing holds, each with what is wrong.
+
+    What the first report says, the fullest, is not held again in others, which show less of a step.
+    """
+    remarks = [text for remark in mechanism.solution.problem.remarks for text in remark.texts]
+    held: set[tuple[str, tuple[Node, ...]]] = set()
+    for blocks in reports:
+        claims = [told for told in sentences(blocks) if WORDS.search(told.text)]
+        for sentence in claims:
+            is_held = (sentence.text, sentence.formulas) in held or IS_GENERAL.fullmatch(sentence.text)
+            if is_held or any(sentence.text in remark for remark in remarks):
+                continue
+            if why := _wrong(mechanism, sentence):
+                yield sentence, why
+        held |= {(sentence.text, sentence.formulas) for sentence in claims}
+
+
+def _wrong(mechanism: Mechanism, sentence: Sentence) -> str:
+    """What is wrong with a claim; '' for nothing."""
+    for form, claim in CLAIMS.items():
+        if match := form.fullmatch(sentence.text):
+            words = tuple(word or "" for word in match.groups())
+            try:
+                return "" if claim(mechanism, replace(sentence, words=words)) else "is not true"
+            except Unknown:
+                return "speaks of what has no value"
+    return "a claim that nothing holds"

@@ -1,0 +1,278 @@
+"""A solved mechanism in numbers: frames, finite differences and motions, for what is claimed of it."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from itertools import product
+from random import Random
+from typing import Any
+
+import numpy as np
+
+from dynsolve.document import Document
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Node, walk
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.quantities.letters import TAU, force
+from tests.strangers.oracle import Point, Unknown, Value, random_point, untrue
+
+NEAR = 1e-6
+"""The relative difference up to which numbers are the same: that of finite differences."""
+
+STEP = 1e-4
+"""How far apart the states of a difference are."""
+
+
+@dataclass
+class Mechanism:
+    """A solved mechanism at any state; parameters are positive, as the reports say."""
+
+    solution: Any
+    document: Document
+    seed: int
+    _points: dict[Any, Point] = field(default_factory=dict)
+
+    @cached_property
+    def coordinates(self) -> tuple[str, ...]:
+        return tuple(q.name for q in self.solution.robot.coordinates)
+
+    def point(self, at: dict[str, float] | None = None, seed: int = 0) -> Point:
+        key = (seed, tuple(sorted((at or {}).items())))
+        if key not in self._points:
+            unlike = Random(seed)
+            given = {name: unlike.uniform(0.3, 2.7) for name in self.solution.problem.values} if seed else {}
+            self._points[key] = random_point(self.solution, self.seed + 1000 * seed, given | (at or {}))
+        return self._points[key]
+
+    def points(self, count: int = 3) -> list[Point]:
+        return [self.point(seed=seed) for seed in range(count)]
+
+    def value(self, node: Node, point: Point) -> Any:
+        """A formula at a state.  Raises Unknown."""
+        if isinstance(node, tree.Letter):
+            frame = re.fullmatch(r"([xyzo])(\d+)", plain(node))
+            if frame and node.style == "bold":
+                column = self.frame(int(frame[2]), point)[:3, "xyzo".index(frame[1])]
+                return column.reshape(3, 1)
+        for part in walk(node):
+            if isinstance(part, tree.Letter) and part not in point.known and part.style == "bold":
+                try:
+                    found = self.value(part, point) if part != node else None
+                except Unknown:
+                    continue
+                if found is not None:
+                    point.known[part] = Value(found, np.abs(found))
+        try:
+            return point.value(node).value
+        except Unknown:
+            if "defined" in point.results:
+                raise
+            point.results["defined"] = True
+            list(untrue(self.document.blocks, point))  # which defines the letters of the steps
+            return point.value(node).value
+
+    def result(self, name: str, point: Point) -> Any:
+        if name not in point.results:
+            raise Unknown
+        return point.results[name]
+
+    def frame(self, i: int, point: Point) -> Any:
+        """Frame i, as a 4×4 matrix; frame 0 from a row that starts there."""
+        if i:
+            return self.result(f"H{i}", point)
+        row = next(i for i, joint in enumerate(self.solution.robot.joints, 1) if not joint.parent)
+        return self.result(f"H{row}", point) @ np.linalg.inv(self.result(f"A{row}", point))
+
+    def right_angles(self) -> Iterator[dict[str, float]]:
+        """Poses of right angles, of the first coordinates."""
+        first = self.coordinates[:3]
+        for pose in product((0.0, np.pi / 2, np.pi, -np.pi / 2), repeat=len(first)):
+            yield dict(zip(first, pose, strict=True))
+
+    def symbols(self, names: dict[str, float]) -> Point:
+        """A state of which nothing is known but its symbols."""
+        return Point({tree.Symbol(name): Value(number, abs(number)) for name, number in names.items()})
+
+    def changes(self, what: Callable[[Point], Any], names: tuple[str, ...]) -> bool:
+        """Whether a value changes where the coordinates with these names do, all else being the same."""
+        for seed in range(2):
+            here = self.point(seed=seed)
+            for factor in (0.37, -1.3):
+                there = self.point({name: here.names[name] + factor for name in names}, seed)
+                if not near(what(here), what(there)):
+                    return True
+        return False
+
+    def pose(self, body: str, point: Point) -> Any:
+        return np.hstack([self.result(f"rc{body}", point), self.result(f"R{body}", point)])
+
+    def seen_from(self, i: int, place: Any, point: Point) -> Any:
+        frame = self.frame(i, point)
+        return frame[:3, :3].T @ (place - frame[:3, 3:])
+
+    def mass(self, body: Any, point: Point) -> float:
+        """The polynomial of its parameters."""
+        total, generators = 0.0, self.solution.robot.ring.generators
+        for exponents, factor in body.mass.poly.terms():
+            term = int(factor.p) / int(factor.q)
+            for generator, exponent in zip(generators, exponents, strict=True):
+                if exponent:
+                    term *= point.names[generator.name] ** int(exponent)
+            total += term
+        return total
+
+    def moved_by(self, coordinate: str) -> list[Any]:
+        bodies = self.solution.robot.bodies
+        return [body for body in bodies if self.changes(partial(self.pose, body.name), (coordinate,))]
+
+    def holds(self, node: Node, point: Point) -> bool:
+        """Whether the equations and inequalities in a formula hold."""
+        for relation in (part for part in walk(node) if isinstance(part, tree.Relation)):
+            values = [self.value(part, point) for part in relation.parts]
+            for a, sign, b in zip(values, relation.signs, values[1:], strict=False):
+                if not {"<": a < b, ">": a > b, "≤": a <= b, "≥": a >= b}.get(
+                    sign, sign == "=" and near(a, b)
+                ):
+                    return False
+        return True
+
+    def slope(self, what: Callable[[Point], Any], point: Point, seed: int, along: dict[str, float]) -> Any:
+        """The derivative of a value in a direction of the symbols."""
+
+        def difference(h: float) -> Any:
+            ends = [
+                point.names | {q: point.names[q] + by * rate for q, rate in along.items()} for by in (h, -h)
+            ]
+            return (what(self.point(ends[0], seed)) - what(self.point(ends[1], seed))) / (2 * h)
+
+        return (4 * difference(STEP) - difference(2 * STEP)) / 3
+
+    def is_conserved(self, conditions: tuple[Node, ...], what: Callable[[Point], Any]) -> bool:
+        """Whether the rate of a value is 0 in motions that meet these conditions on forces."""
+        n, letters = len(self.coordinates), {part for node in conditions for part in walk(node)}
+        forces = [force(q) for q in self.solution.robot.coordinates]
+        rows = [k for k in range(n) if forces[k] in letters or TAU in letters]
+        for seed in range(2):
+            moving = [f"{q}_ddot" for q in self.coordinates]
+            tau = [self.result("tau", self.point(dict(zip(moving, row, strict=True)), seed))[rows, 0]
+                   for row in [np.zeros(n), *np.eye(n)]]  # fmt: skip
+            slopes = np.transpose([column - tau[0] for column in tau[1:]]).reshape(len(rows), n)
+            some = np.linspace(-1.0, 1.5, n)
+            qdd = some - np.linalg.pinv(slopes) @ (slopes @ some + tau[0]) if rows else some
+            here = self.point(seed=seed)
+            along = {q: here.names[f"{q}_dot"] for q in self.coordinates}
+            along |= {f"{q}_dot": a for q, a in zip(self.coordinates, qdd, strict=True)}
+            if not near(self.slope(what, here, seed, along), 0, float(np.max(np.abs(qdd))) * 10):
+                return False
+        return True
+
+    @property
+    def steady(self) -> dict[str, Node]:
+        """The rates that motors keep."""
+        return dict(self.solution.robot.questions.model.steady)
+
+    def at_rest(self, point: Point) -> Any:
+        """The forces of the motors at rest, without friction; what a motor keeps turning goes on."""
+        rest = {q + dots: 0.0 for q in self.coordinates for dots in ("_dot", "_ddot")}
+        rest |= {f"{q}_dot": float(self.value(rate, point)) for q, rate in self.steady.items()}
+        there = self.point(point.names | rest)
+        return (self.result("tau", there) - there.results.get("friction", 0.0))[:, 0]
+
+    def stiffness(self, point: Point) -> Any:
+        """The derivatives of these forces by the coordinates."""
+        return np.transpose([self.slope(self.at_rest, point, 0, {q: 1.0}) for q in self.coordinates])
+
+    def is_stable(self, point: Point, kind: str, still: tuple[str, ...] = ()) -> bool:
+        """Whether an equilibrium is of this kind, without what stands still or is kept turning."""
+        free = [k for k, q in enumerate(self.coordinates) if q not in still and q not in self.steady]
+        curved = np.linalg.eigvalsh(self.stiffness(point)[np.ix_(free, free)])
+        right = np.all(curved > NEAR) if kind == "stable" else np.any(curved < -NEAR)
+        return bool(right) and near(self.at_rest(point)[free], 0)
+
+    def posed(self, conditions: tuple[Node, ...], seed: int = 0) -> Point:
+        """The state in which coordinates are what equations say, q₂ = 90°."""
+        here = self.point(seed=seed)
+        told = [part for node in conditions for part in walk(node) if isinstance(part, tree.Relation)]
+        names = names_of(tuple(part.parts[0] for part in told))
+        pose = {q: float(self.value(r.parts[-1], here)) for q, r in zip(names, told, strict=True)}
+        return self.point(here.names | pose, seed)
+
+    def axis(self, joint: int, point: Point) -> Any:
+        """The direction of a joint's axis, and a point on it."""
+        standard = self.solution.robot.convention.value == "standard"
+        return self.frame(joint - standard, point)[:3, 2:]
+
+    @property
+    def jacobian(self) -> str:
+        return "Jr" if "Jr" in self.point().results else "J"
+
+    def momentum(self, of: Node, kind: str, what: str, axis: Node | None, point: Point) -> float:
+        """Of the bodies that a coordinate moves, or of all: along an axis, or about it."""
+        robot, total = self.solution.robot, 0.0
+        (name,) = names_of((of.by,)) if isinstance(of, tree.Derivative) else ("",)
+        if axis is None:
+            direction, origin = np.eye(3)["xyz".index(what[-1])], np.zeros(3)
+        else:
+            frame = self.frame(int(plain(axis)[1:]), point)
+            direction, origin = frame[:3, 2], frame[:3, 3]
+        for body in self.moved_by(name) if "all that" in what else robot.bodies:
+            rc, v = (np.ravel(self.result(f"{letter}{body.name}", point)) for letter in ("rc", "v"))
+            impulse = self.mass(body, point) * v
+            if kind == "angular":
+                impulse = np.cross(rc - origin, impulse) + np.ravel(
+                    self.result(f"I{body.name}", point) @ self.result(f"w{body.name}", point)
+                )
+            total += float(direction @ impulse)
+        return total
+
+    def where(self, condition: Node) -> Point:
+        """A state that meets equations in the coordinates, or in parameters alone."""
+        told = [part for part in walk(condition) if isinstance(part, tree.Relation)]
+        symbols = {part.name for part in walk(condition) if isinstance(part, tree.Symbol)}
+        free = tuple(q for q in self.coordinates if q in symbols) or tuple(sorted(symbols))
+
+        def off(p: Point) -> Any:
+            return np.array([float(self.value(r.parts[0], p) - self.value(r.parts[-1], p)) for r in told])
+
+        found = next(filter(None, (self.solved(off, free, seed) for seed in range(20))), None)
+        if found is None:
+            raise Unknown
+        return found
+
+    def solved(self, off: Callable[[Point], Any], free: tuple[str, ...], seed: int) -> Point | None:
+        """A state in which `off` is 0, by Newton's method."""
+        here = self.point(seed=seed)
+        for _ in range(30):
+            slopes = np.transpose([self.slope(off, here, seed, {q: 1.0}) for q in free])
+            change = np.linalg.lstsq(slopes, off(here), rcond=1e-9)[0]
+            here = self.point(
+                here.names | {q: here.names[q] - d for q, d in zip(free, change, strict=True)}, seed
+            )
+            if np.max(np.abs(off(here))) < 1e-11:
+                return here
+        return None
+
+
+def near(a: Any, b: Any, size: float = 0.0) -> bool:
+    scale = max(float(np.max(np.abs(a))), float(np.max(np.abs(b))), size, 1.0)
+    return bool(np.max(np.abs(np.subtract(a, b))) <= NEAR * scale)
+
+
+def plain(node: Node) -> str:
+    """A formula without fonts and small digits: z0, q̇1."""
+    return unicodedata.normalize("NFKC", to_unicode(node)).replace("⋆", "")
+
+
+def rank(matrix: Any) -> int:
+    return int(np.linalg.matrix_rank(matrix, tol=NEAR * max(1.0, float(np.max(np.abs(matrix))))))
+
+
+def names_of(nodes: tuple[Node, ...]) -> tuple[str, ...]:
+    """The coordinates that formulas are."""
+    if not all(isinstance(node, tree.Symbol) for node in nodes):
+        raise Unknown
+    return tuple(node.name for node in nodes if isinstance(node, tree.Symbol))

@@ -1,0 +1,154 @@
+"""Sentences as claims: true ones pass, planted false ones are found, and none goes unheld."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.document import Block, Fold, Formula, Heading, Table, Text
+from dynsolve.document.sentences import Value, say
+from dynsolve.explain.abbreviations import Abbreviate
+from dynsolve.explain.step import Detail
+from dynsolve.notation.tree import (
+    Degrees,
+    Derivative,
+    Function,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Relation,
+    Row,
+    Sum,
+    Symbol,
+    Words,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.solution.documents import solution_document
+from tests.strangers.claims import untrue_sentences
+from tests.strangers.mechanism import Mechanism
+from tests.strangers.test_strangers import ELBOW
+from tests.support import ROOT, solved
+
+LEVEL = ELBOW.replace("[0, -g, 0]", "[0, 0, -g]")
+NEAR_HALF = ELBOW.replace("{near: [lc1, 0, 0]}", "{near: [l1/3, 0, 0]}")
+TASK = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\ntask: [tip.x, tip.y]\nfind: [Jr, singular]"
+INDEFINITE = "model:\n  {coordinates: {q1: revolute, q2: revolute}, D: [[a, 2*b], [2*b, a]]}"
+
+Q1, Q2, D3 = Symbol("q1"), Symbol("q2"), Symbol("d3")
+MASS, ZERO, L = Symbol("m1"), Number(0), Letter("L", style="script")
+BENT, STRETCHED = (equation(Function(name, Q2), ZERO) for name in ("cos", "sin"))
+TAU_1, TAU_2 = (equation(Letter("tau", Number(i)), ZERO) for i in (1, 2))
+TAU = equation(letters.TAU, letters.bold("0"))
+P_1, J_R = Derivative(L, Symbol("q1", 1)), letters.bold("J", Symbol("r"))
+C_111, C_211 = (letters.entry("c", i, 1, 1) for i in (1, 2))
+D_11, D_33 = (letters.entry("d", i, i) for i in (1, 3))
+
+SLIDES = "{q} moves everything after it along the axis {z}."
+CENTER = (
+    "As for the end of the arm, but for the mass centre: only the joints up to the body's link can move it, "
+    "so the column of {q} is zero."
+)
+HALF_WAY = "The mass centre of body 1 is {part} of the way along link 1, from {o} to {e}."
+MASS_MOVED = "{d} is constant: of all that joint 3 moves, it is the mass."
+ENERGY = "The energy changes by the power of {t} alone: as long as {c} it is conserved."
+MOMENTUM = (
+    "As long as {tau}, the Euler-Lagrange equation says that the momentum {p} (the angular momentum of the "
+    "arm about {z}) is conserved."
+)
+RANK = "{J} is 2×2, and its rank is {i} almost everywhere."
+HANGS = "At {e}: {stable}, but for {q}, along which nothing changes."
+
+PLANTED: list[tuple[str, str, str, dict[str, Value], dict[str, Value]]] = [
+    (ELBOW, "", SLIDES, {"q": D3, "z": letters.z(2)}, {"z": letters.z(3)}),
+    (ELBOW, "", SLIDES, {"q": D3, "z": letters.z(0)}, {"q": Q2}),
+    (ELBOW, "body 2", CENTER, {"q": D3}, {"q": Q2}),
+    (ELBOW, "body 2", "The speed does not depend on {q}.", {"q": Q1}, {"q": Q2}),
+    (
+        NEAR_HALF,
+        "",
+        HALF_WAY,
+        {"part": Number(1, 3), "o": letters.o(0), "e": letters.o(1)},
+        {"part": Number(1, 2)},
+    ),
+    (ELBOW, "", "{c} is zero.", {"c": C_111}, {"c": C_211}),
+    (ELBOW, "", MASS_MOVED, {"d": D_33}, {"d": D_11}),
+    (ELBOW, "", "{q} does not appear in ℒ: a cyclic coordinate.", {"q": D3}, {"q": Q1}),
+    (ELBOW, "", ENERGY, {"t": letters.TAU, "c": TAU}, {"c": TAU_1}),
+    (LEVEL, "", MOMENTUM, {"tau": TAU_1, "p": P_1, "z": letters.z(0)}, {"z": letters.z(1)}),
+    (LEVEL, "", MOMENTUM, {"tau": TAU_1, "p": P_1, "z": letters.z(0)}, {"tau": TAU_2}),
+    (TASK, "", RANK, {"J": J_R, "i": 2}, {"i": 1}),
+    (TASK, "", "Where {c}, the rank is 1 instead of 2.", {"c": STRETCHED}, {"c": BENT}),
+    ("crane", "", HANGS, {"e": equation(Q2, ZERO), "stable": "stable", "q": Q1}, {"stable": "not stable"}),
+]
+"""Problem, title of the step, sentence, its values, and those with which it is false."""
+
+
+def wrong(problem: str, title: str, *blocks: Block) -> list[str]:
+    """What is wrong with the sentences of a step."""
+    solution = solved(problem)
+    document = solution_document(solution, Detail.FULL, None, Abbreviate.NEVER)
+    step = (Heading("A planted step"), Fold(title, blocks))
+    return [why for _, why in untrue_sentences(Mechanism(solution, document, 1), step)]
+
+
+@pytest.mark.parametrize(("problem", "title", "text", "true", "false"), PLANTED)
+def test_a_false_sentence_is_found(
+    problem: str, title: str, text: str, true: dict[str, Value], false: dict[str, Value]
+) -> None:
+    assert wrong(problem, title, Text(say(text, **true))) == []
+    assert wrong(problem, title, Text(say(text, **true | false))) == ["is not true"]
+
+
+@pytest.mark.parametrize(
+    ("problem", "text"),
+    [
+        (ELBOW, "$𝐃$ is constant, so every Christoffel symbol is zero."),
+        (ELBOW, "Here it is diagonal: no acceleration enters the force of another coordinate."),
+        (ELBOW, "It does not depend on any coordinate, so $𝐠$ is zero."),
+        (INDEFINITE, "So $𝐃$ is positive definite."),
+        ("scara-rrpr", "All other entries are zero, so $𝐃$ is positive definite."),
+    ],
+)
+def test_a_sentence_that_holds_of_other_mechanisms_is_found(problem: str, text: str) -> None:
+    assert wrong(problem, "", Text(say(text))) == ["is not true"]
+
+
+@pytest.mark.parametrize(("pose", "is_true"), [(-90, True), (90, False), (0, False)])
+def test_a_pose_of_the_table_is_held(pose: int, is_true: bool) -> None:
+    angle = Degrees(pose) if pose >= 0 else Negative(Degrees(-pose))
+    row = (
+        Row((equation(Q1, angle), Words(", "), equation(Q2, ZERO))),
+        "> 0",
+        "> 0",
+        "minimum: the arm hangs",
+        "stable",
+    )
+    found = wrong("planar-2r", "", Table(("pose", "", "", "potential energy", "equilibrium"), (row,)))
+    assert found == ([] if is_true else ["is not true"])
+
+
+@pytest.mark.parametrize(("term", "is_true"), [(MASS, True), (Negative(MASS), False)])
+def test_a_negative_term_is_found(term: Node, is_true: bool) -> None:
+    shown = Formula(equation(letters.entry("d", 1, 1), Sum((Symbol("I1"), term))))
+    said = Text(
+        say("In the last expression no term is negative, and {more}.", more=Relation((MASS, ZERO), (">",)))
+    )
+    assert wrong(ELBOW, "", shown, said) == ([] if is_true else ["is not true"])
+
+
+def test_a_claim_that_nothing_holds_is_found() -> None:
+    assert wrong(ELBOW, "", Text(("The arm never moves at all.",))) == ["a claim that nothing holds"]
+
+
+PROBLEMS = sorted(
+    path.stem for path in (ROOT / "problems").glob("*.yaml") if path.stem not in ("panda-7r", "puma560")
+)
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_what_the_library_says_is_true(name: str) -> None:
+    solution = solved(name)
+    document = solution_document(solution, Detail.FULL, None, Abbreviate.NEVER)
+    found = untrue_sentences(Mechanism(solution, document, 1), document.blocks)
+    assert [f"{sentence.where}: {why}: {sentence}" for sentence, why in found] == []
