@@ -64,12 +64,13 @@ class Sentence:
         shown = next(shown for shown in self.shown() if isinstance(shown.parts[-1], tree.Matrix))
         return point.value(shown.parts[-1]).value
 
-    def jacobian(self, point: Point) -> Any:
-        """The Jacobian that the step shows, at its state."""
+    def jacobian(self, mechanism: Mechanism) -> Any:
+        """The Jacobian that the step shows, at its state; where it shows none, that of the task."""
+        point = mechanism.point()
         for shown in self.shown():
             if isinstance(shown.parts[-1], tree.Matrix) and plain(shown.parts[0]).startswith("J"):
                 return point.value(shown.parts[-1]).value
-        raise Unknown
+        return mechanism.result(mechanism.jacobian, point)
 
     def display_before(self) -> tuple[Node, ...]:
         """The formulas of the display just before this sentence."""
@@ -190,9 +191,7 @@ def _rotor(m: Mechanism, s: Sentence) -> bool:
     return not any(m.changes(lambda p, i=i: m.result(f"H{i}", p), names_of(s.formulas)) for i in rows)
 
 
-@says(
-    "As for ...: only the joints up to the body's link can move it, so the column[s] of {&} ... zero.[ ...]"
-)
+@says("The column of each joint, taken at the mass centre; {&} <does|do> not move it.[ ...]")
 def _columns_are_zero(m: Mechanism, s: Sentence) -> bool:
     still = tuple(node for node in s.formulas if isinstance(node, tree.Symbol))
     return not m.changes(lambda p: m.pose(s.body, p), names_of(still)) and all(
@@ -201,7 +200,7 @@ def _columns_are_zero(m: Mechanism, s: Sentence) -> bool:
     )  # fmt: skip
 
 
-@says("[Column by column, ...; ]{&} <does|do> not move its link.")
+@says("[...; ]{&} <does|do> not move its link.")
 def _point_stays(m: Mechanism, s: Sentence) -> bool:
     point = re.findall(r"Jacobian of (\w+)", s.where)[-1]
     return not m.changes(lambda p: m.result(f"p{point}", p), names_of(s.formulas))
@@ -263,7 +262,7 @@ def _part_of_the_way(m: Mechanism, s: Sentence) -> bool:
 
 @says(
     "The mass centre of body # is given by its coordinates in frame #, which are constant.",
-    "The mass centre of body # is given from the near end of link #, {}, along the axes of frame #, ...",
+    "The mass centre of body # ... from the near end of link #, {}, along the axes of frame #, ...",
 )
 def _fixed_in_frame(m: Mechanism, s: Sentence) -> bool:
     return not m.changes(
@@ -602,9 +601,14 @@ def _tip_moves(m: Mechanism, s: Sentence) -> bool:
     return near(m.frame(end, m.point())[moving, 3], np.ravel(m.result("r", m.point())))
 
 
+@says("The arm can move and keep the task: infinitely many configurations reach it.")
+def _spare(m: Mechanism, s: Sentence) -> bool:
+    return all(rank(m.result(m.jacobian, p)) < len(m.coordinates) for p in m.points())
+
+
 @says("{} has many solutions, the rank being #: ...", "The rest has many solutions, the rank being #: ...")
 def _many_solutions(m: Mechanism, s: Sentence) -> bool:
-    J = s.jacobian(m.point())
+    J = s.jacobian(m)
     return rank(J) == int(s.words[0]) < len(J.T)
 
 
@@ -768,7 +772,7 @@ def _rank_where(m: Mechanism, s: Sentence) -> bool:
 
 @says("The rank is #, and the dimension of this space #.")
 def _dimension(m: Mechanism, s: Sentence) -> bool:
-    J = s.jacobian(m.point())
+    J = s.jacobian(m)
     told, dimension = map(int, s.words)
     rows, columns = J.shape
     left = told if "possible" in s.where else (rows if "lost" in s.where else columns) - told
@@ -787,7 +791,7 @@ def _not_zero(m: Mechanism, s: Sentence) -> bool:
 @says("A force[ and a moment] along it need[s] no ....")
 def _no_torque(m: Mechanism, s: Sentence) -> bool:
     """The vectors that the step shows, against the Jacobian that it shows."""
-    J = s.jacobian(m.point())
+    J = s.jacobian(m)
     columns = [node for shown in s.shown() for node in walk(shown.parts[-1]) if isinstance(node, tree.Matrix)]
     vectors = [
         m.value(node, m.point()) for node in columns if (len(node.rows), len(node.rows[0])) == (len(J), 1)
@@ -871,6 +875,7 @@ The last joint does not move its own axis: the first two turn that to where it i
 Combined, without factors that are never 0:
 The parameters are the same.
 What is left of ℒ where nothing moves, with the opposite sign.
+Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
 It is given along axes of its link, and turned into the world.
 Each motion is along or about an axis of the frame that those before it have led to.
 Where the matrix of <the|its> second derivatives[ of the potential energy] is positive definite, the

@@ -45,10 +45,7 @@ C_111, C_211 = (letters.entry("c", i, 1, 1) for i in (1, 2))
 D_11, D_33 = (letters.entry("d", i, i) for i in (1, 3))
 
 SLIDES = "{q} moves everything after it along the axis {z}."
-CENTER = (
-    "As for the end of the arm, but for the mass centre: only the joints up to the body's link can move it, "
-    "so the column of {q} is zero."
-)
+CENTER = "The column of each joint, taken at the mass centre; {q} does not move it."
 HALF_WAY = "The mass centre of body 1 is {part} of the way along link 1, from {o} to {e}."
 MASS_MOVED = "{d} is constant: of all that joint 3 moves, it is the mass."
 ENERGY = "The energy changes by the power of {t} alone: as long as {c} it is conserved."
