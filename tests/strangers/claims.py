@@ -496,18 +496,6 @@ def _holds(m: Mechanism, s: Sentence) -> bool:
 # equilibria
 
 
-@says("{}; ...; <minimum|maximum|saddle point>...; <stable|unstable|{}>")
-def _balanced(m: Mechanism, s: Sentence) -> bool:
-    point, (kind, stability) = m.posed(s.formulas[:1]), s.words
-    free = [k for k, q in enumerate(m.coordinates) if m.changes(lambda p: m.result("P", p), (q,))]
-    curved = np.linalg.eigvalsh(m.stiffness(point)[np.ix_(free, free)])
-    told = "minimum" if np.all(curved > NEAR) else "maximum" if np.all(curved < -NEAR) else "saddle point"
-    if told != kind or not near(m.at_rest(point), 0) or (told == "minimum") == (stability == "unstable"):
-        return False
-    named = [part.name for node in s.formulas[1:] for part in walk(node) if isinstance(part, tree.Symbol)]
-    return stability == "unstable" or [m.coordinates[k] for k in free] == (named or list(m.coordinates))
-
-
 @says(
     "<At {&}|There|In every configuration>: <stable|not stable>[, but for {&}, along which nothing changes]."
 )
@@ -524,16 +512,6 @@ def _stable(m: Mechanism, s: Sentence) -> bool:
 def _signs_depend(m: Mechanism, s: Sentence) -> bool:
     points = [*m.points(10), *map(m.point, m.right_angles())]
     return len({tuple(np.sign(np.round(np.linalg.eigvalsh(m.stiffness(p)), 6))) for p in points}) > 1
-
-
-@says("Gravity is balanced in # poses ...[, whatever {&} is]; the potential energy has a minimum at {&}.")
-def _minimum_at(m: Mechanism, s: Sentence) -> bool:
-    free = [k for k, q in enumerate(m.coordinates) if m.changes(lambda p: m.result("P", p), (q,))]
-    points = [m.posed((node,)) for node in s.formulas if not isinstance(node, tree.Symbol)]
-    return all(
-        near(m.at_rest(p), 0) and np.all(np.linalg.eigvalsh(m.stiffness(p)[np.ix_(free, free)]) > NEAR)
-        for p in points
-    )
 
 
 @says("Every leading minor is positive in every configuration[ exactly if {&}].")
@@ -678,18 +656,6 @@ def _axes_meet(m: Mechanism, s: Sentence) -> bool:
 
 
 # ranks
-
-
-@says(
-    "In both {} has a saddle point: ..., which is negative there.",
-    "So they are unstable.",
-    "Gravity is balanced in two poses, with {}: saddle points of the potential energy.",
-)
-def _saddles(m: Mechanism, s: Sentence) -> bool:
-    """At every equilibrium that Newton's method finds."""
-    found = [m.solved(m.at_rest, m.coordinates, seed) for seed in range(4)]
-    curved = [np.linalg.eigvalsh(m.stiffness(point)) for point in found if point]
-    return bool(curved) and all(np.min(values) < -NEAR and np.max(values) > NEAR for values in curved)
 
 
 @says("In case #: <stable|not stable>.")

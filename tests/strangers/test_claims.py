@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.document import Block, Fold, Formula, Heading, Table, Text
+from dynsolve.document import Block, Fold, Formula, Heading, Text
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.step import Detail
 from dynsolve.notation.tree import (
-    Degrees,
     Derivative,
     Function,
     Letter,
@@ -17,10 +16,8 @@ from dynsolve.notation.tree import (
     Node,
     Number,
     Relation,
-    Row,
     Sum,
     Symbol,
-    Words,
     equation,
 )
 from dynsolve.quantities import letters
@@ -109,20 +106,6 @@ def test_a_false_sentence_is_found(
 )
 def test_a_sentence_that_holds_of_other_mechanisms_is_found(problem: str, text: str) -> None:
     assert wrong(problem, "", Text(say(text))) == ["is not true"]
-
-
-@pytest.mark.parametrize(("pose", "is_true"), [(-90, True), (90, False), (0, False)])
-def test_a_pose_of_the_table_is_held(pose: int, is_true: bool) -> None:
-    angle = Degrees(pose) if pose >= 0 else Negative(Degrees(-pose))
-    row = (
-        Row((equation(Q1, angle), Words(", "), equation(Q2, ZERO))),
-        "> 0",
-        "> 0",
-        "minimum: the arm hangs",
-        "stable",
-    )
-    found = wrong("planar-2r", "", Table(("pose", "", "", "potential energy", "equilibrium"), (row,)))
-    assert found == ([] if is_true else ["is not true"])
 
 
 @pytest.mark.parametrize(("term", "is_true"), [(MASS, True), (Negative(MASS), False)])
