@@ -10,7 +10,7 @@ import json
 import math
 import re
 import sqlite3
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing
 from functools import cache
 from pathlib import Path
@@ -21,7 +21,8 @@ import numpy as np
 
 import dynsolve
 from dynsolve.document import Document
-from dynsolve.explain.step import Detail
+from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.step import Detail, Step
 from dynsolve.solution.documents import solution_documents
 from dynsolve.solution.json_export import to_json
 
@@ -100,7 +101,22 @@ def _documents(problem: Path | str) -> dict[Detail, Document]:
 
 @cache
 def _solved(problem: Path | str) -> dynsolve.Solution:
-    return dynsolve.solve(problem)
+    return explained_once(dynsolve.solve(problem))
+
+
+def explained_once(solution: dynsolve.Solution) -> dynsolve.Solution:
+    """The same, whose steps in the names of an abbreviated model are told once for all its reports."""
+    explain, told = solution.explain, dict[int, tuple[Abbreviated | None, tuple[Step, ...]]]()
+
+    def once(stages: Iterable[str] | None = None, short: Abbreviated | None = None) -> Iterator[Step]:
+        if stages is not None:
+            return explain(stages, short)
+        if id(short) not in told:
+            told[id(short)] = short, tuple(explain(None, short))
+        return iter(told[id(short)][1])
+
+    vars(solution)["explain"] = once
+    return solution
 
 
 def solve_json(problem: Path | str) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import math
 import re
 import traceback
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 from time import process_time
@@ -18,10 +18,10 @@ import dynsolve
 from dynsolve import Solution
 from dynsolve.document import Block, Document
 from dynsolve.errors import InputError
-from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
+from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, shorthands
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail
 from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Derivative, Letter, Node, Number, Slashed, Symbol, children, walk
@@ -33,6 +33,7 @@ from dynsolve.solution.reports import rendered, report
 from tests.strangers.claims import Mechanism, untrue_sentences
 from tests.strangers.oracle import Point, Unknown, random_point, relations, untrue
 from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
+from tests.support import explained_once
 
 SECONDS, FEW_JOINTS = 30, 4
 """Processor time of a mechanism of up to four joints in all its forms; a longer arm has four times it."""
@@ -94,7 +95,7 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
         yield Fault("refusal", f"without a place: {error}")
         return
     try:
-        solution = _explained_once(dynsolve.solve(problem))
+        solution = explained_once(dynsolve.solve(problem))
     except InputError as error:
         raise Refused(str(error)) from None
     report(solution, Format.JSON)
@@ -126,21 +127,6 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
         yield from _unknown_letters(solution, document, abbreviate)
         page = rendered(document, solution.style, Format.TEXT, fragment=False)
         yield from _program_text(page.decode(), Format.TEXT)
-
-
-def _explained_once(solution: Solution) -> Solution:
-    """The same, whose steps in the names of an abbreviated model are told once for all its documents."""
-    explain, told = solution.explain, dict[int, tuple[Step, ...]]()
-
-    def once(stages: Iterable[str] | None = None, short: Abbreviated | None = None) -> Iterator[Step]:
-        if stages is not None:
-            return explain(stages, short)
-        if id(short) not in told:
-            told[id(short)] = tuple(explain(None, short))
-        return iter(told[id(short)])
-
-    vars(solution)["explain"] = once
-    return solution
 
 
 def _program_text(page: str, format: Format) -> Iterator[Fault]:

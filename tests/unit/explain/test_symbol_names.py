@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+import dynsolve
 from dynsolve.document import DEFINITIONS, Block, Table, Text
 from dynsolve.errors import ExplanationWarning
 from dynsolve.explain import vectorized
@@ -226,7 +227,7 @@ def test_by_the_recursions_names_are_introduced_in_the_forces() -> None:
 
 
 def test_a_stage_that_fails_in_names_is_told_without_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    ending, solution = vectorized.ending, solved("planar-2r")
+    ending, solution = vectorized.ending, dynsolve.solve("planar-2r")
 
     def failing(context: Context, *rest: Any) -> Any:
         if context.names is not None:
