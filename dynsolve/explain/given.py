@@ -52,6 +52,7 @@ from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
+from dynsolve.quantities.owners import derived_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.actions import JointFriction, Motor
@@ -121,7 +122,10 @@ def statement(
 
 def to_be_found(forms: Forms, problem: Problem) -> Iterator[Text]:
     """What is asked, in a sentence."""
-    found = [called for name in problem.find if (called := _called(forms, name))]
+    there = (name for name in problem.find if _is_there(forms.robot, name))
+    found = [called for name in there if (called := _called(forms, name))]
+    if not found and forms.robot.has_table:
+        found = [(letters.H(forms.robot, len(forms.robot.joints)),), _called(forms, "J")]
     if found:
         yield Text(("To be found: ", *listed(found), "."))
 
@@ -187,6 +191,12 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
         yield _indices(robot)
     yield from _questions(forms)
     yield _values(robot, problem.written, problem.units)
+
+
+def _is_there(robot: Robot, name: str) -> bool:
+    """Whether the robot has a result: without masses there is no inertia matrix."""
+    quantity = quantities(robot).get(name)
+    return quantity is None or quantity.family.stage in derived_stages(robot)
 
 
 def _called(forms: Forms, name: str) -> Prose:

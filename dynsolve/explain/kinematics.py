@@ -350,6 +350,7 @@ def base_step(context: Context) -> Step:
     is_turned = robot.base_rotation != Matrix.identity(robot.ring, 3)
     factors = [*moved, *(motion(axis, angle, True) for axis, angle in robot.base_turns)]
     is_whole = bool(robot.base_turns) or not is_turned
+    is_heavy = robot.has_dynamics and not robot.gravity.is_zero
     way = ""
     if not is_whole:
         way = "" if context.normals else " Its axes are the columns of the rotation that the problem gives."
@@ -359,8 +360,9 @@ def base_step(context: Context) -> Step:
         id="H0",
         title="The base frame in the world",
         why=say(
-            "Gravity is given in the world w, in which frame 0 is {how}.{way} The heights, and the vectors "
-            "below where nothing else is said, are in world coordinates.",
+            "Frame 0 is {how} in the world w{gravity}.{way} What follows, where nothing else is said, is in "
+            "world coordinates.",
+            gravity=", in which gravity is given" if is_heavy else "",
             how=" and ".join([*["turned"] * is_turned, *["moved"] * bool(moved)]),
             way=way,
         ),

@@ -49,6 +49,8 @@ def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
         yield _named([one.name for one in robot.questions.candidates], "matrices that are to be judged", "")
     known, has_bodies = meanings(robot), bool(robot.bodies)
     for role in Role:
+        if role is Role.GRAVITY and not robot.has_dynamics:
+            continue
         units = dict.fromkeys(unit for own, unit, _ in known.values() if own is role)
         for unit in units:
             alike = [(name, told) for name, (own, its, told) in known.items() if (own, its) == (role, unit)]

@@ -307,3 +307,8 @@ masses: [{mass: m, link: 1, center: {near: [c, 0, 0]}, inertia: {zz: J}, about: 
     blocks = list(statement(solution.forms, solution.problem))
     (tensor,) = (block.node for block in blocks if isinstance(block, Formula))
     assert to_unicode(tensor) == "[[0, 0, 0], [0, 0, 0], [0, 0, J]]"
+
+
+def test_without_masses_nothing_of_the_dynamics_is_to_be_found() -> None:
+    *_, last = stated(solved("base: Rx(90deg)\ndh: [{theta: q1*, a: l1}]\n"))
+    assert last == "To be found: 𝐇₁^w and the Jacobian 𝐉."
