@@ -146,9 +146,9 @@ def _roles(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
     for entry in robot.base_position.entries:
         yield entry, LENGTH
     for body in robot.bodies:
-        if body.density is not None and body.density.shape is not None:
-            for _, size in body.density.shape.dimensions:
-                yield size, LENGTH
+        shape = body.density.shape if body.density is not None else body.shape
+        for _, size in shape.dimensions if shape is not None else ():
+            yield size, LENGTH
         yield body.mass, MASS
         for entry in body.center.entries:
             yield entry, LENGTH

@@ -10,6 +10,7 @@ import dynsolve
 from dynsolve.notation.markup import to_latex
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import read_problem
 from dynsolve.robot import units
 from dynsolve.solution.numbers import given
 
@@ -66,3 +67,9 @@ def test_results_of_an_angle_and_a_length() -> None:
     assert of("rc1") == [["m"]] * 3 and of("v2") == [["m/s"]] * 3 and of("w1") == [["rad/s"]] * 3
     assert of("I1") == [["kg m^2"] * 3] * 3
     assert of("Jv2") == [["m", ""]] * 3 and of("R1") == ""
+
+
+def test_a_size_of_a_shape_is_a_length_also_where_the_mass_is_a_number() -> None:
+    box = "{mass: 2, link: 1, center: tip, shape: {box: {x: b, y: b, z: e}}}"
+    found = given.of_parameters(read_problem(f"dh: [{{theta: q1*, a: l1}}]\nmasses: [{box}]\n").robot)
+    assert {name: units.si(found[name]) for name in "be"} == {"b": "m", "e": "m"}
