@@ -22,7 +22,12 @@ RANK = "the Jacobian of the task has dependent rows"
 def rules(robot: Robot) -> Iterator[Rule]:
     """Λ, of a robot with masses and a table."""
     if robot.has_dynamics and robot.has_table:
-        yield Rule("Lambda", ("Jr", "D"), task_inertia)
+        is_constrained = bool(robot.questions.constraints)
+        yield Rule("Lambda", ("Jr", "D"), _constrained if is_constrained else task_inertia)
+
+
+def _constrained(jacobian: Matrix, D: Matrix) -> Skipped:
+    return Skipped("a force at the task meets the constraints, too")
 
 
 def task_inertia(jacobian: Matrix, D: Matrix) -> Matrix | FractionMatrix | Skipped:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from dynsolve.algebra.linear_systems import adjugate, quotient
 from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step, not_derived
-from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small
+from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Negative, Node, Number, Power, equation
 from dynsolve.quantities import letters
@@ -24,7 +25,6 @@ def steps(context: Context) -> Iterator[Step]:
         yield not_derived("Lambda", "The inertia matrix of the task", value.why)
         return
     rows, columns = context.values["Jr"].shape
-    size = context.show(determinant(context.values["D"]))
     transposed = Power(letters.J_TASK, as_row((Negative(Number(1)), "T")))
     square = " = {transposed} 𝐃 𝐉_r⁻¹" if rows == columns else ""
     yield Step(
@@ -38,11 +38,21 @@ def steps(context: Context) -> Iterator[Step]:
         ),
         formula=formula(f"𝚲 = (𝐉_r 𝐃⁻¹ 𝐉_rᵀ)⁻¹{square}", transposed=transposed),
         source=LYNCH_PARK.section("8.6"),
-        working=(formula("det 𝐃 = {size}", size=size),) if is_small(size) else (),
+        working=_working(context),
         result=(equation(letters.TASK_INERTIA, context.form("Lambda")),),
         notes=(("It exists where the rows of the Jacobian are independent.",),),
         detail=Detail.BRIEF,
     )
+
+
+def _working(context: Context) -> tuple[Node, ...]:
+    """J_r⁻¹, or what is inverted, where it can be read."""
+    J, D = context.values["Jr"], context.values["D"]
+    if J.shape[0] == J.shape[1]:
+        inverse = context.forms.of(quotient(adjugate(J), determinant(J)))
+        return (equation(formula("𝐉_r⁻¹"), inverse),) if is_small(inverse) else ()
+    mobility = scalar(context.forms.of(quotient(J @ adjugate(D) @ J.T, determinant(D))))
+    return (equation(formula("𝐉_r 𝐃⁻¹ 𝐉_rᵀ"), mobility),) if is_small(mobility) else ()
 
 
 # -- hints -----------------------------------------------------------------------------------------

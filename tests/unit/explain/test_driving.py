@@ -34,7 +34,7 @@ def test_a_row_says_what_acts(more: str, row: str) -> None:
     [
         ("", "𝐂 𝐪̇ + 𝐠 = 𝛕 - 𝐃 𝐪̈", "As long as τ₁ = 0, "),
         (FORCE, "𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐐 - 𝐃 𝐪̈", "As long as τ₁ + Q₁ = 0, "),
-        (CONSTRAINT, "𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐀_cᵀ 𝛌 - 𝐃 𝐪̈", "As long as τ₁ + (𝐀_cᵀ 𝛌)₁ = 0, "),
+        (CONSTRAINT, "𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐀_cᵀ 𝛌 - 𝐃 𝐪̈", "by the power of 𝛕 alone: as long as 𝛕 = 𝟎"),
     ],
 )
 def test_what_is_read_off_and_conserved_counts_all_that_acts(more: str, rest: str, conserved: str) -> None:

@@ -11,7 +11,8 @@ import dynsolve
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.tree import Matrix, Symbol
+from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Matrix, Relation, Symbol
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.linearization import verify_linear
 
@@ -104,3 +105,16 @@ def test_the_steps_name_the_book() -> None:
 def test_the_inertia_of_the_task_may_be_singular_where_the_equations_are_linearized() -> None:
     stretched = ARM.replace("q2: 30deg", "q2: 0").replace("find: [", "task: [tip.x, tip.y]\nfind: [Lambda, ")
     assert "linear_A" in results(stretched)
+
+
+def test_the_inertia_of_the_task_is_led_to_by_what_is_inverted() -> None:
+    text = "gravity: none\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\n"
+    text += "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]\nfind: [Lambda]\n"
+    (square,) = (step for step in dynsolve.solve(text).steps if step.id == "Lambda")
+    (line,) = square.working
+    assert isinstance(line, Relation) and line.parts[0] == formula("𝐉_r⁻¹")
+    (wide,) = (step for step in dynsolve.solve(f"{text}task: [tip.x]\n").steps if step.id == "Lambda")
+    (line,) = wide.working
+    assert isinstance(line, Relation) and line.parts[0] == formula("𝐉_r 𝐃⁻¹ 𝐉_rᵀ")
+    held = results(f"{text}constraints: [tip.y]\n")
+    assert held["Lambda"] == {"skipped": "a force at the task meets the constraints, too"}
