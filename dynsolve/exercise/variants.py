@@ -3,6 +3,7 @@
     OUT/<student>/              sheet and templates, for the student
     OUT/keys/<student>/         the key, and <problem>.yaml, the variant as a problem file of its own
     OUT/variants.csv            a row an asked result: what was drawn, and how hard it is
+    OUT/variants.svg            the same as a picture, with the extra `plot`
 
 Structures are measured once, whatever letters and numbers they are dressed in.  No two students have the same
 variant of a problem.  The problem files of a student are written last: what is there needs no second time.
@@ -26,6 +27,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.errors import InputError, UsageError
+from dynsolve.exercise import plot
 from dynsolve.exercise.hardness import COUNTS, Hardness, equally_hard, hardness
 from dynsolve.exercise.sheet import SUFFIXES as SHEETS
 from dynsolve.exercise.sheet import SheetFormat, key_documents, sheet_documents, written
@@ -35,7 +37,7 @@ from dynsolve.explain.step import Detail
 from dynsolve.grading.files import folder_name
 from dynsolve.grading.platforms.registry import PLATFORMS
 from dynsolve.grading.platforms.roster import read_roster
-from dynsolve.grading.set_file import VARIANT_KEYS, Item, ProblemSet
+from dynsolve.grading.set_file import VARIANT_KEYS, VARIANTS_TABLE, Item, ProblemSet
 from dynsolve.problem.reader import read_problem
 from dynsolve.problem.variation import Variation, read_variation
 from dynsolve.render.files import write_changed
@@ -184,7 +186,9 @@ def vary(
         for done, _ in enumerate(pool.map(write, due, [own[student] for student in due]), 1):
             if progress is not None:
                 progress(done, len(due))
-    write_changed(folder / "variants.csv", _table(own).encode())
+    write_changed(folder / VARIANTS_TABLE, _table(own).encode())
+    if plot.is_there():
+        write_changed(folder / "variants.svg", plot.to_svg(_counted_of(own)))
     return families
 
 
@@ -237,6 +241,16 @@ def _table(own: Mapping[str, Sequence[Variant]]) -> str:
     write.writerow(("student", "problem", "variant", "drawn", "answer", *COUNTS))
     write.writerows(_rows(own))
     return out.getvalue()
+
+
+def _counted_of(own: Mapping[str, Sequence[Variant]]) -> dict[tuple[str, str], list[Hardness]]:
+    """What was counted, by problem and answer."""
+    found: dict[tuple[str, str], list[Hardness]] = {}
+    for variants in own.values():
+        for variant in variants:
+            for name, counted in variant.hardness.items():
+                found.setdefault((variant.stem, name), []).append(counted)
+    return found
 
 
 def _rows(own: Mapping[str, Sequence[Variant]]) -> Iterator[tuple[object, ...]]:

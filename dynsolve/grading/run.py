@@ -159,6 +159,7 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
     return {
         **payload_of_problem(problems.item(hand_in.problem, hand_in.student)),
         "policy": to_data(problems.policy),
+        "letters": problems.letters.get(hand_in.key, {}),
         "files": [
             {"name": name, "content": base64.b64encode(content).decode()}
             for name, content in (_own_part(file, _same(uploads, file)) for file in hand_in.files)

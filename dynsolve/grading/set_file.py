@@ -27,6 +27,7 @@ by number, name or address.  `platforms.registry` has whose the files are.
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 from collections.abc import Iterable, Mapping
@@ -121,6 +122,7 @@ class ProblemSet(Struct, frozen=True):
     """The problems of a course's assignment, in order, and how they are marked.
 
     With `variants` every student has problem files of his own: their texts, by student and problem.
+    `letters` are the names in them that the problem has others for, by student and problem.
     """
 
     title: str
@@ -129,6 +131,7 @@ class ProblemSet(Struct, frozen=True):
     extensions: tuple[Extension, ...] = ()
     groups: tuple[Membership, ...] = ()
     variants: Mapping[tuple[str, str], str] | None = None
+    letters: Mapping[tuple[str, str], Mapping[str, str]] = field(default_factory=dict)
 
     @property
     def stems(self) -> tuple[str, ...]:
@@ -271,7 +274,7 @@ def set_schema() -> Schema:
 
 SET_FILE = "set.yaml"
 
-VARIANT_KEYS = "keys"
+VARIANT_KEYS, VARIANTS_TABLE = "keys", "variants.csv"
 """The folder of a student's own problem files, in the folder that `vary` writes."""
 
 
@@ -288,7 +291,22 @@ def with_variants(problems: ProblemSet, folder: Path, students: Iterable[str]) -
             file = folder / VARIANT_KEYS / folder_name(student) / f"{stem}.yaml"
             if file.is_file():
                 found[student, stem] = file.read_text(encoding="utf-8")
-    return replace(problems, variants=found)
+    return replace(problems, variants=found, letters=_letters(problems, folder / VARIANTS_TABLE))
+
+
+def _letters(problems: ProblemSet, table: Path) -> dict[tuple[str, str], dict[str, str]]:
+    """The problem's name of each name that was drawn for it, by student and problem."""
+    from dynsolve.problem.variation import read_variation
+
+    variations = {item.stem: read_variation(item.text, item.problem.file) for item in problems.items}
+    found: dict[tuple[str, str], dict[str, str]] = {}
+    with table.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            variation, drawn = variations.get(row["problem"]), f"; {row['drawn']}"
+            for name in variation.letters if variation else ():
+                if new := re.search(rf"; {re.escape(name)}: (\w+)", drawn):
+                    found.setdefault((row["student"], row["problem"]), {})[new[1]] = name
+    return found
 
 
 def load_set(name: str) -> ProblemSet:

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import base64
 import os
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import lru_cache, partial
@@ -116,13 +117,18 @@ def checker_of(payload: Data) -> Checker:
 
 def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     problem, policy = checker.problem, from_data(payload["policy"])
+    letters = payload.get("letters", {})
     judge = Judge(checker, submission)
     report = checker.report(judge)
     marked = mark(report.answers, judge.graph.quantities, policy)
     html, markdown = student_page(report, problem, policy.hints)
     return {
         "answers": [
-            {**_answer(answer, marks), "form": _form(judge, answer), "basis": basis(answer)}
+            {
+                **_answer(answer, marks),
+                "form": _form(judge, answer, letters),
+                "basis": basis(answer),
+            }
             for answer, marks in zip(report.answers, marked, strict=True)
         ],
         "not_recognized": [_listed(n) for n in report.not_recognized[:MOST_LISTED]],
@@ -201,20 +207,27 @@ def _answer(answer: JudgedAnswer, marked: Marked) -> Data:
     }
 
 
-def _form(judge: Judge, answer: JudgedAnswer) -> str:
-    """A hash that is the same for wrong answers of the same value, however they are written."""
+def _form(judge: Judge, answer: JudgedAnswer, letters: Mapping[str, str]) -> str:
+    """A hash that is the same for wrong answers of the same value, however they are written.
+
+    `letters` are names of a variant that the problem has others for.
+    """
     compared = judge.hand_in.comparisons.get(answer.name)
     if answer.verdict is not Verdict.WRONG or compared is None or not compared.rows:
         return ""
     entries = [
-        "/".join(map(_terms, (e.value.numerator, e.value.denominator))) for row in compared.rows for e in row
+        "/".join(_terms(part, letters) for part in (e.value.numerator, e.value.denominator))
+        for row in compared.rows
+        for e in row
     ]
     return sha256(";".join(entries).encode()).hexdigest()[:16]
 
 
-def _terms(expr: Any) -> str:
+def _terms(expr: Any, letters: Mapping[str, str]) -> str:
     """The terms in an order that does not depend on what else the hand-in holds."""
-    return "+".join(sorted(repr(expr).replace(" - ", " + -").split(" + ")))
+    text = re.sub(r"[^\W\d]\w*?(?=_d?dot\b|\b)", lambda name: letters.get(name[0], name[0]), repr(expr))
+    terms = text.replace(" - ", " + -").split(" + ")
+    return "+".join(sorted("*".join(sorted(term.split("*"))) for term in terms))
 
 
 # -- answer by answer --------------------------------------------------------------------------------

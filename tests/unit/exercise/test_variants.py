@@ -1,6 +1,8 @@
 """Variants: each student another one, as hard as the others, and the same in every run."""
 
 import csv
+import sqlite3
+from contextlib import closing
 from fractions import Fraction
 from pathlib import Path
 from statistics import median
@@ -8,6 +10,7 @@ from statistics import median
 import pytest
 
 from dynsolve.errors import ProblemError, UsageError
+from dynsolve.exercise import plot
 from dynsolve.exercise.hardness import COUNTS, Hardness, equally_hard, hardness
 from dynsolve.exercise.variants import students_of, vary
 from dynsolve.grading.public import grade
@@ -154,7 +157,8 @@ def test_the_same_seed_gives_the_same_bytes_and_a_late_student_changes_no_other(
     vary(problems, [*students_of(course / "roster.csv"), "late"], SEED, again, jobs=1)
     first = {path.relative_to(course / "out"): path.read_bytes() for path in (course / "out").rglob("*.*")}
     second = {path.relative_to(again): path.read_bytes() for path in again.rglob("*.*")}
-    del first[Path("variants.csv")]
+    for table in ("variants.csv", "variants.svg"):
+        first.pop(Path(table), None)
     assert {path: second[path] for path in first} == first
 
 
@@ -187,6 +191,32 @@ def test_each_is_graded_by_his_own_variant(course: Path, tmp_path: Path) -> None
     assert totals["s0"] == totals["s1"] == 2
     assert totals["s2"] < 2
     assert totals["stranger"] == 0
+
+
+def test_the_same_wrong_expression_is_found_in_other_letters(course: Path, tmp_path: Path) -> None:
+    keys = course / "out" / "keys"
+    for student in ("s0", "s1", "s2", "s3", "s4", "s5"):
+        arm = read_problem((keys / student / "arm.yaml").read_text("utf-8"))
+        first, length = (
+            arm.robot.coordinates[0].name,
+            next(name for name in ("l1", "a1") if name in arm.written),
+        )
+        wrong = f"answers:\n  g: [m1*g*{length}*sin({first}), 0]\n"
+        with_files(tmp_path / "in" / student, {"arm.yaml": wrong})
+    grade(course / "set", tmp_path / "in", tmp_path / "grades", variants=course / "out", jobs=1)
+    alike = {row[-1] for row in forms(tmp_path / "grades")}
+    assert len(alike) == 1 and "" not in alike
+
+
+def forms(folder: Path) -> list[tuple[str, ...]]:
+    """The hashes of the wrong answers g, by student."""
+    with closing(sqlite3.connect(folder / "grades.sqlite")) as db:
+        return list(db.execute("SELECT student, form FROM answers WHERE answer = 'g' AND problem = 'arm'"))
+
+
+def test_what_was_counted_is_drawn(course: Path) -> None:
+    if plot.is_there():
+        assert b"<svg" in (course / "out" / "variants.svg").read_bytes()
 
 
 def test_a_roster_is_a_column_or_the_list_of_a_platform(tmp_path: Path) -> None:
