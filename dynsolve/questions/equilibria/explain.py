@@ -268,6 +268,8 @@ def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[N
     free = listed([Symbol(name) for name in names if name not in steady])
     is_told = point.conditions or point.stability is not Stability.UNDECIDED
     along = say(", but for {free}, along which nothing changes", free=free) if free and is_told else ""
+    if point.drifts:
+        along = (", but for motions along the equilibria, in which nothing changes",)
     where: Prose = ("In every configuration",)
     if at:
         where = ("At ", side_by_side(at))

@@ -82,7 +82,8 @@ class Stability(StrEnum):
 class Point(Struct, frozen=True):
     """Quarter turns of angles in a case, and how stable the arm is there.
 
-    `neutral` are the coordinates, from 0, along which nothing changes.  Where the stability is
+    `neutral` are the coordinates, from 0, along which nothing changes; where the arm `drifts`, nothing does
+    in any motion along the equilibria, in which the others follow these.  Where the stability is
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
     sides are equal nothing is said.  `is_open` says that the signs depend on the configuration.
@@ -94,6 +95,7 @@ class Point(Struct, frozen=True):
     conditions: tuple[Bound, ...] = ()
     falls: bool = False
     is_open: bool = False
+    drifts: bool = False
 
 
 class Curvature(Struct, frozen=True):
@@ -126,7 +128,24 @@ class Curvature(Struct, frozen=True):
             for other in others:
                 (left,) = _put(Matrix.column(at.ring, [other.expr]), values).entries
                 at = _where_zero(at, left)
-            yield self._point(values, at, signs, free)
+            yield self._drifting(values, at, signs, len(alternative)) or self._point(values, at, signs, free)
+
+    def _drifting(self, values: Values, second: Matrix, signs: ParameterSigns, held: int) -> Point | None:
+        """The stability where equilibria, of which `held` conditions are asked, are all that is flat.
+
+        None where the coordinates that are not flat are all others, or a sign is not seen.
+        """
+        n = len(second.rows)
+        if self.may_be_held or work(second) > MOST_PRODUCTS:
+            return None
+        rows = rank_parts(second).rows
+        others = [k for k in range(n) if k not in rows]
+        flat = all(second[k, j].is_zero for k in others for j in range(n))
+        if flat or len(rows) != held:
+            return None
+        leading = (determinant(part(second, rows[:k], rows[:k])) for k in range(1, held + 1))
+        is_stable = all(map(signs.is_positive, leading))
+        return Point(values, Stability.STABLE, tuple(others), drifts=True) if is_stable else None
 
     def _point(self, values: Values, second: Matrix, signs: ParameterSigns, free: Sequence[int]) -> Point:
         """The stability at quarter turns where `free` coordinates may have any value."""

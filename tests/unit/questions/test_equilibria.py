@@ -274,3 +274,21 @@ find: [equilibria]
     assert len(sides) == 4
     assert not any(isinstance(side, Product) and isinstance(side.factors[0], Number) for side in sides)
     assert not any(isinstance(side, Quotient) for side in sides)
+
+
+def test_masses_on_a_spring_drift_together_and_hold_their_distance() -> None:
+    chain = """
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic}
+  bodies: [{mass: m1, at: [x, 0, 0]}, {mass: m2, at: [y, 0, 0]}]
+springs: [{stiffness: k, of: x - y}]
+find: [equilibria]
+"""
+    solution = dynsolve.solve(chain)
+    assert solution.to_json()["results"]["equilibria_stability"] == [[{"stability": "stable"}]]
+    (step,) = (step for step in solution.steps if step.id == "equilibria_stability")
+    assert "but for motions along the equilibria" in str(step.concluding)
+    pushed = chain.replace("of: x - y", "energy: -k*(x - y)^2/2").replace("stiffness: k, ", "")
+    (points,) = dynsolve.solve(pushed).to_json()["results"]["equilibria_stability"]
+    assert points == [{"stability": "unstable"}]
