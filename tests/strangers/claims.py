@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 import numpy as np
@@ -510,8 +510,12 @@ def _stable(m: Mechanism, s: Sentence) -> bool:
 
 @says("In every configuration: the signs of the second derivatives depend on the configuration.")
 def _signs_depend(m: Mechanism, s: Sentence) -> bool:
-    points = [*m.points(10), *map(m.point, m.right_angles())]
-    return len({tuple(np.sign(np.round(np.linalg.eigvalsh(m.stiffness(p)), 6))) for p in points}) > 1
+    def signs(p: Point) -> Any:
+        return np.sign(np.round(np.linalg.eigvalsh(m.stiffness(p)), 6))
+
+    return any(
+        np.any(signs(p) != signs(m.point())) for p in chain(m.points(), map(m.point, m.right_angles()))
+    )
 
 
 @says("Every leading minor is positive in every configuration[ exactly if {&}].")
@@ -656,6 +660,13 @@ def _axes_meet(m: Mechanism, s: Sentence) -> bool:
 
 
 # ranks
+
+
+@says("# is not cyclic: the equations of the others change as it moves.")
+def _not_cyclic(m: Mechanism, s: Sentence) -> bool:
+    (q,) = [q for q in m.coordinates if q.lower() == s.words[0].lower()]
+    others = [k for k, name in enumerate(m.coordinates) if name != q]
+    return m.changes(lambda p: m.result("tau", p)[others], (q,))
 
 
 @says("In case #: <stable|not stable>.")
@@ -842,6 +853,7 @@ Combined, without factors that are never 0:
 The parameters are the same.
 What is left of ℒ where nothing moves, with the opposite sign.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
+Where nothing moves: not derived.
 It is given along axes of its link, and turned into the world.
 Each motion is along or about an axis of the frame that those before it have led to.
 Where the matrix of <the|its> second derivatives[ of the potential energy] is positive definite, the

@@ -155,7 +155,11 @@ class Mechanism:
         """Whether the rate of a value is 0 in motions that meet these conditions on forces."""
         n, letters = len(self.coordinates), {part for node in conditions for part in walk(node)}
         forces = [force(q) for q in self.solution.robot.coordinates]
-        rows = [k for k in range(n) if forces[k] in letters or TAU in letters]
+        passive = self.solution.robot.actions.passive
+        rows = [
+            k for k in range(n)
+            if forces[k] in letters or TAU in letters or k in passive
+        ]  # fmt: skip
         for seed in range(2):
             moving = [f"{q}_ddot" for q in self.coordinates]
             tau = [self.result("tau", self.point(dict(zip(moving, row, strict=True)), seed))[rows, 0]
@@ -163,6 +167,8 @@ class Mechanism:
             slopes = np.transpose([column - tau[0] for column in tau[1:]]).reshape(len(rows), n)
             some = np.linspace(-1.0, 1.5, n)
             qdd = some - np.linalg.pinv(slopes) @ (slopes @ some + tau[0]) if rows else some
+            if rows and not near(slopes @ qdd + tau[0], 0):
+                continue  # no motion meets them: something moves that has no mass
             here = self.point(seed=seed)
             along = {q: here.names[f"{q}_dot"] for q in self.coordinates}
             along |= {f"{q}_dot": a for q, a in zip(self.coordinates, qdd, strict=True)}
