@@ -64,9 +64,8 @@ class Sentence:
         shown = next(shown for shown in self.shown() if isinstance(shown.parts[-1], tree.Matrix))
         return point.value(shown.parts[-1]).value
 
-    def jacobian(self, mechanism: Mechanism) -> Any:
+    def jacobian(self, mechanism: Mechanism, point: Point) -> Any:
         """The Jacobian that the step shows, at its state; where it shows none, that of the task."""
-        point = mechanism.point()
         for shown in self.shown():
             if isinstance(shown.parts[-1], tree.Matrix) and plain(shown.parts[0]).startswith("J"):
                 return point.value(shown.parts[-1]).value
@@ -576,11 +575,13 @@ def _row_is_zero(m: Mechanism, s: Sentence) -> bool:
     return all(near(J[k], 0) and near(np.delete(J, k, 0), Jr) for J, Jr in whole)
 
 
-@says("The task is the position of the tip, of which these are the coordinates that move.")
+@says("The task is the position of the tip[, {}], of which these are the coordinates that move.")
 def _tip_moves(m: Mechanism, s: Sentence) -> bool:
-    end = len(m.solution.robot.joints)
-    moving = [k for k in range(3) if m.changes(lambda p, k=k: m.frame(end, p)[k, 3], m.coordinates)]
-    return near(m.frame(end, m.point())[moving, 3], np.ravel(m.result("r", m.point())))
+    def tip(p: Point) -> Any:
+        return m.value(s.formulas[0], p) if s.formulas else m.frame(len(m.solution.robot.joints), p)[:3, 3:]
+
+    moving = [k for k in range(3) if m.changes(lambda p, k=k: tip(p)[k], m.coordinates)]
+    return near(tip(m.point())[moving], m.result("r", m.point()))
 
 
 @says("The arm can move and keep the task: infinitely many configurations reach it.")
@@ -590,7 +591,7 @@ def _spare(m: Mechanism, s: Sentence) -> bool:
 
 @says("{} has many solutions, the rank being #: ...", "The rest has many solutions, the rank being #: ...")
 def _many_solutions(m: Mechanism, s: Sentence) -> bool:
-    J = s.jacobian(m)
+    J = s.jacobian(m, m.point())
     return rank(J) == int(s.words[0]) < len(J.T)
 
 
@@ -749,7 +750,7 @@ def _rank_where(m: Mechanism, s: Sentence) -> bool:
 
 @says("The rank is #, and the dimension of this space #.")
 def _dimension(m: Mechanism, s: Sentence) -> bool:
-    J = s.jacobian(m)
+    J = s.jacobian(m, m.point())
     told, dimension = map(int, s.words)
     rows, columns = J.shape
     left = told if "possible" in s.where else (rows if "lost" in s.where else columns) - told
@@ -767,12 +768,12 @@ def _not_zero(m: Mechanism, s: Sentence) -> bool:
 
 @says("A force[ and a moment] along it need[s] no ....")
 def _no_torque(m: Mechanism, s: Sentence) -> bool:
-    """The vectors that the step shows, against the Jacobian that it shows."""
-    J = s.jacobian(m)
+    """The vectors that the step shows, against the Jacobian that it shows, where it is singular."""
+    where = [nodes[0] for text, nodes in s.before() if text.startswith("Where ") and nodes]
+    point = m.where(where[0]) if where else m.point()
+    J = s.jacobian(m, point)
     columns = [node for shown in s.shown() for node in walk(shown.parts[-1]) if isinstance(node, tree.Matrix)]
-    vectors = [
-        m.value(node, m.point()) for node in columns if (len(node.rows), len(node.rows[0])) == (len(J), 1)
-    ]
+    vectors = [m.value(node, point) for node in columns if (len(node.rows), len(node.rows[0])) == (len(J), 1)]
     return bool(vectors) and all(near(J.T @ vector, 0) for vector in vectors if vector is not J)
 
 
@@ -854,6 +855,7 @@ The parameters are the same.
 What is left of ℒ where nothing moves, with the opposite sign.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
 Where nothing moves: not derived.
+Independent entries are chosen of which all of these are combinations; other independent combinations ...
 It is given along axes of its link, and turned into the world.
 Each motion is along or about an axis of the frame that those before it have led to.
 Where the matrix of <the|its> second derivatives[ of the potential energy] is positive definite, the

@@ -115,15 +115,7 @@ class Mechanism:
         return frame[:3, :3].T @ (place - frame[:3, 3:])
 
     def mass(self, body: Any, point: Point) -> float:
-        """The polynomial of its parameters."""
-        total, generators = 0.0, self.solution.robot.ring.generators
-        for exponents, factor in body.mass.poly.terms():
-            term = int(factor.p) / int(factor.q)
-            for generator, exponent in zip(generators, exponents, strict=True):
-                if exponent:
-                    term *= point.names[generator.name] ** int(exponent)
-            total += term
-        return total
+        return float(self.value(self.solution.forms.of(body.mass), point))
 
     def moved_by(self, coordinate: str) -> list[Any]:
         bodies = self.solution.robot.bodies
@@ -244,7 +236,8 @@ class Mechanism:
         def off(p: Point) -> Any:
             return np.array([float(self.value(r.parts[0], p) - self.value(r.parts[-1], p)) for r in told])
 
-        found = next(filter(None, (self.solved(off, free, seed) for seed in range(20))), None)
+        tries = [(free, seed) for free in (free, tuple(sorted(symbols))) for seed in range(4)]
+        found = next(filter(None, (self.solved(off, free, seed) for free, seed in tries)), None)
         if found is None:
             raise Unknown
         return found
@@ -252,7 +245,7 @@ class Mechanism:
     def solved(self, off: Callable[[Point], Any], free: tuple[str, ...], seed: int) -> Point | None:
         """A state in which `off` is 0, by Newton's method."""
         here = self.point(seed=seed)
-        for _ in range(30):
+        for _ in range(15):
             slopes = np.transpose([self.slope(off, here, seed, {q: 1.0}) for q in free])
             change = np.linalg.lstsq(slopes, off(here), rcond=1e-9)[0]
             here = self.point(
@@ -264,8 +257,8 @@ class Mechanism:
 
 
 def near(a: Any, b: Any, size: float = 0.0) -> bool:
-    scale = max(float(np.max(np.abs(a))), float(np.max(np.abs(b))), size, 1.0)
-    return bool(np.max(np.abs(np.subtract(a, b))) <= NEAR * scale)
+    scale = max(float(np.max(np.abs(a), initial=0)), float(np.max(np.abs(b), initial=0)), size, 1.0)
+    return bool(np.max(np.abs(np.subtract(a, b)), initial=0) <= NEAR * scale)
 
 
 def plain(node: Node) -> str:

@@ -77,7 +77,8 @@ def _map(context: Context, task: Task) -> Step:
     if task.is_default:
         o = letters.o(len(context.robot.joints))
         tip = say("the tip, {o}", o=o) if context.robot.is_tree else "the tip"
-        why = say("The task is the position of {tip}, of which these are the coordinates that move.", tip=tip)
+        moving = "" if context.values["Jr"].is_zero else ", of which these are the coordinates that move"
+        why = say("The task is the position of {tip}{moving}.", tip=tip, moving=moving)
     return Step(
         id="r",
         title="The task",
