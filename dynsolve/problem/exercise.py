@@ -221,7 +221,7 @@ def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercis
     find = _read_find(faults, fields.get("find"), names)
     marks = _read_marks(faults, fields.get("marks"), names)
     return Exercise(
-        find=find or (("definite",) if parsed.is_of_matrices else FIND),
+        find=find or tuple(marks) or (("definite",) if parsed.is_of_matrices else FIND),
         marks=marks,
         values=values,
         written=written,

@@ -275,3 +275,8 @@ def test_names_of_bodies() -> None:
 def test_a_symbol_of_unit_lengths_may_be_a_mass_and_an_inertia() -> None:
     text = PLANAR + "masses: [{mass: m, link: 1, center: midpoint, inertia: {zz: m/12}}]"
     assert read_problem(text).robot.parameters == ("l1", "l2", "m", "g")
+
+
+def test_marks_say_what_is_asked_for_where_find_does_not() -> None:
+    assert read_problem(f"marks: {{D: 2, J: 1}}\n{PLANAR}").find == ("D", "J")
+    assert read_problem(f"marks: {{D: 2}}\nfind: [tau]\n{PLANAR}").find == ("tau",)
