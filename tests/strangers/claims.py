@@ -702,7 +702,7 @@ def _decoupled(m: Mechanism, s: Sentence) -> bool:
 
 @says("Fewer than # entr<y|ies> <is|are> not enough: ...")
 def _entries(m: Mechanism, s: Sentence) -> bool:
-    """The rank of the forces at some motions, one under another, with other parameters in each column."""
+    """The forces at motions, one under another, other parameters in each column; that so many do is τ = Y a."""
     count = {"one": 1, "two": 2}.get(s.words[0]) or int(s.words[0])
     known, moving = m.solution.robot.questions.model.known, set(m.coordinates)
 
@@ -710,6 +710,10 @@ def _entries(m: Mechanism, s: Sentence) -> bool:
         if "inertia matrix" in s.where:
             return m.result("D", p) @ np.array([[p.names[f"{q}_ddot"]] for q in m.coordinates])
         return m.result("g" if "gravity" in s.where else "tau", p)
+
+    for generator in m.solution.robot.ring.generators:  # angles that are given count as motions do
+        if generator.kind in ("sin", "cos"):
+            moving |= {name for atom, _ in generator.angle.terms for name, _ in atom}
 
     def moves(name: str) -> bool:
         return name.removesuffix("_dot").removesuffix("_ddot") in moving
@@ -720,7 +724,7 @@ def _entries(m: Mechanism, s: Sentence) -> bool:
         for k in range(count + 2)
     ]
     table = [[force(m.point(motion | fixed, seed)) for seed in range(count + 3)] for motion in motions]
-    return rank(np.block(table)) == count
+    return rank(np.block(table)) >= count
 
 
 @says("{} is #×#, and its rank is # almost everywhere.")
