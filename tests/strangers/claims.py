@@ -702,7 +702,7 @@ def _decoupled(m: Mechanism, s: Sentence) -> bool:
 
 @says("Fewer than # entr<y|ies> <is|are> not enough: ...")
 def _entries(m: Mechanism, s: Sentence) -> bool:
-    """The forces at motions, one under another, other parameters in each column; that so many do is τ = Y a."""
+    """The forces at motions, one under another, other parameters in each column; so many do by τ = Y a."""
     count = {"one": 1, "two": 2}.get(s.words[0]) or int(s.words[0])
     known, moving = m.solution.robot.questions.model.known, set(m.coordinates)
 
