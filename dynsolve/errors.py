@@ -69,15 +69,21 @@ class InputError(DynsolveError):
         self.findings = tuple(findings)
         super().__init__("\n".join(map(str, self.findings)))
 
+    def __reduce__(self) -> tuple[type[InputError], tuple[tuple[Finding, ...]]]:
+        return type(self), (self.findings,)  # as other processes hand it on
+
 
 class ProblemError(InputError):
     """A problem file is faulty: mend the file."""
 
 
 class UsageError(DynsolveError):
-    """A command or a call was put wrongly: call again, corrected."""
+    """A command or a call was put wrongly: call again, corrected; `help` is how."""
 
     exit_code = ExitCode.USAGE
+
+    def __init__(self, message: str, help: str = "") -> None:
+        super().__init__(f"{message}\nhelp: {help}" if help else message)
 
 
 class ReadError(DynsolveError):

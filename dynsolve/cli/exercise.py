@@ -149,6 +149,7 @@ def vary(
     from dynsolve.exercise.variants import Forms, students_of
     from dynsolve.exercise.variants import vary as made
     from dynsolve.explain.step import Detail
+    from dynsolve.explain.writing import agreeing
     from dynsolve.grading.set_file import load_set
 
     chosen, students = load_set(problems), students_of(roster)
@@ -160,6 +161,9 @@ def vary(
     if not quiet:
         for family in families:
             count, structures = family.size, len(family.structures)
-            typer.echo(f"{family.item.stem}: {count} variants of {structures} structures", err=True)
+            told = agreeing(f"{count} variants of {structures} structure|structures", structures)
+            typer.echo(f"{family.item.stem}: {told}", err=True)
+            for left in family.left_out:
+                typer.echo(f"  {left}: in no variant, as it would not be as hard as the others", err=True)
         typer.echo(f"{len(students)} students: see {output / 'variants.csv'}", err=True)
     return ExitCode.DONE

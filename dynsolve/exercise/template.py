@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from enum import StrEnum
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.prepare import prepared
@@ -83,6 +84,12 @@ class Template(Struct, frozen=True):
     letters: tuple[Letter, ...]
     notation: tuple[tuple[str, str], ...]
     blanks: tuple[Blank, ...]
+    student: str = ""
+
+    @property
+    def whose(self) -> str:
+        """The line that says whose it is."""
+        return f"student: {self.student}".rstrip()
 
 
 def template_of(problem: Problem) -> Template:
@@ -129,9 +136,9 @@ def _set(names: Vocabulary, name: str, letter: Node | None) -> str:
 # -- as files --------------------------------------------------------------------------------------
 
 
-def template(problem: Problem, format: TemplateFormat) -> bytes:
-    """The template in a form; raises UsageError for a Word document without pandoc."""
-    made = template_of(problem)
+def template(problem: Problem, format: TemplateFormat, student: str = "") -> bytes:
+    """The template in a form, of a student; raises UsageError for a Word document without pandoc."""
+    made = replace(template_of(problem), student=student)
     match format:
         case TemplateFormat.YAML:
             return _yaml(made).encode()
@@ -157,7 +164,7 @@ def _comments(made: Template) -> Iterator[str]:
 def _yaml(made: Template) -> str:
     lines = [f"# {made.problem.title}"]
     lines += [f"# {line}" for line in _comments(made)]
-    lines += [f"problem: {made.problem.stem}", "student:", "answers:"]
+    lines += [f"problem: {made.problem.stem}", made.whose, "answers:"]
     for blank in made.blanks:
         lines += [f"  # {blank.words}", f"  {blank.name}:"]
     return "\n".join(lines) + "\n"
@@ -166,7 +173,7 @@ def _yaml(made: Template) -> str:
 def _markdown(made: Template) -> Iterator[str]:
     yield f"# {made.problem.title}\n"
     yield f"problem: {made.problem.stem}\n"
-    yield "student:\n"
+    yield f"{made.whose}\n"
     yield from _tables(made)
     for blank in made.blanks:
         yield f"## {blank.words}\n"
@@ -206,7 +213,7 @@ def _latex(made: Template) -> str:
 
     lines = [r"\documentclass{article}", r"\usepackage{amsmath}", r"\begin{document}"]
     lines += [rf"\section*{{{latex_text(made.problem.title)}}}", f"% problem: {made.problem.stem}"]
-    lines += ["student:", *(f"% {line}" for line in _comments(made))]
+    lines += [made.whose, *(f"% {line}" for line in _comments(made))]
     for blank in made.blanks:
         lines += ["", rf"\subsection*{{{latex_text(blank.words)}}}"]
         lines += [_as_latex(text) for text in _space(made.problem, blank)]

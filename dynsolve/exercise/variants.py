@@ -61,6 +61,17 @@ class Family(Struct, frozen=True):
         """How many variants there are."""
         return len(self.structures) * (self.variation.dressings if self.variation else 1)
 
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """The alternatives that are in no variant, since with them it would not be as hard as the others."""
+        parts = self.variation.structure if self.variation else ()
+        return tuple(
+            f"{part.path}: {text}"
+            for part in parts
+            for text in part.alternatives
+            if all(structure[part.path] != text for structure in self.structures)
+        )
+
     def variant(self, number: int) -> Variant:
         """One of them, counted from 0."""
         place, dressing = number % len(self.structures), number // len(self.structures)
@@ -109,24 +120,24 @@ def _hash(*words: str) -> int:
 # -- the draw ----------------------------------------------------------------------------------------
 
 
-def students_of(roster: Path) -> list[str]:
-    """The students of a roster, as their hand-ins are called: a column `student`, or a platform's list.
+def students_of(roster: Path) -> dict[str, str]:
+    """The names of a roster's students by what their hand-ins are called: a column `student`, or a platform's.
 
     Raises InputError for a table in which no students are found.
     """
     table = read_roster(roster)
     header = [cell.strip().lower() for cell in table.header]
-    found: list[str] = []
+    found: list[tuple[str, str]] = []
     if "student" in header and "id" not in header:
         place = header.index("student")
-        found = [row[place].strip() for row in table.rows[1:] if len(row) > place]
+        found = [(row[place].strip(), row[place].strip()) for row in table.rows[1:] if len(row) > place]
     for platform in () if found else PLATFORMS.values():
         with suppress(InputError):
-            found = found or [person.student for person in platform.people(table)]
-    found = [student for student in dict.fromkeys(found) if student]
-    if not found:
+            found = found or [(person.student, person.name) for person in platform.people(table)]
+    students = {student: name for student, name in found if student}
+    if not students:
         raise table.fault("no students are found in it", "a column `student`, or a platform's own list")
-    return found
+    return students
 
 
 def draw(family: Family, students: Sequence[str], seed: str) -> dict[str, Variant]:
@@ -162,34 +173,46 @@ class Forms(Struct, frozen=True):
 
 def vary(
     problems: ProblemSet,
-    students: Sequence[str],
+    students: Mapping[str, str],
     seed: str,
     folder: Path,
     forms: Forms | None = None,
     jobs: int = 0,
     progress: Progress | None = None,
 ) -> list[Family]:
-    """Draw each student's variants, and write the folder; returns the families.
+    """Draw each student's variants, and write the folder; returns the families.  `students` have names.
 
-    Raises UsageError for a family that is too poor, ProblemError for a faulty variant, before anything is
-    written.
+    Raises UsageError for a family that is too poor or a folder with other variants, ProblemError for a
+    faulty variant, before anything is written.
     """
     forms = forms or Forms()
     marks = {item.stem: dict(item.problem.marks) for item in problems.items}
     with ProcessPoolExecutor(jobs or os.cpu_count() or 1, mp_context=get_context("spawn")) as pool:
         families = [family_of(item, seed, pool) for item in problems.items]
-        drawn = [draw(family, students, seed) for family in families]
+        drawn = [draw(family, list(students), seed) for family in families]
         own = {student: [each[student] for each in drawn] for student in students}
+        _check_same(folder, own)
         (folder / VARIANT_KEYS).mkdir(parents=True, exist_ok=True)
         due = [student for student in students if not _is_there(folder, student, own[student], forms)]
         write = partial(_write, problems.title, marks, folder, forms)
-        for done, _ in enumerate(pool.map(write, due, [own[student] for student in due]), 1):
+        names, variants = [students[student] for student in due], [own[student] for student in due]
+        for done, _ in enumerate(pool.map(write, due, names, variants), 1):
             if progress is not None:
                 progress(done, len(due))
     write_changed(folder / VARIANTS_TABLE, _table(own).encode())
     if plot.is_there():
         write_changed(folder / "variants.svg", plot.to_svg(_counted_of(own)))
     return families
+
+
+def _check_same(folder: Path, own: Mapping[str, Sequence[Variant]]) -> None:
+    """Raise UsageError where a student has other variants there, which may have been handed out."""
+    for student, variants in own.items():
+        for one in variants:
+            file = folder / VARIANT_KEYS / folder_name(student) / f"{one.stem}.yaml"
+            if file.is_file() and file.read_text("utf-8") != one.text:
+                message = f"{file} is another variant, of another seed or of a problem that was changed"
+                raise UsageError(message, "give another folder, or delete this one")
 
 
 def _is_there(folder: Path, student: str, variants: Sequence[Variant], forms: Forms) -> bool:
@@ -214,6 +237,7 @@ def _write(
     folder: Path,
     forms: Forms,
     student: str,
+    name: str,
     variants: Sequence[Variant],
 ) -> None:
     """The files of one student, the problem files last."""
@@ -223,12 +247,12 @@ def _write(
         items.append(Item(replace(problem, marks=marks[variant.stem]), variant.text))
     own = ProblemSet(title, tuple(items))
     place, keys = folder / folder_name(student), folder / VARIANT_KEYS / folder_name(student)
-    exercises = sheet_documents(own, student)
+    exercises = sheet_documents(own, name)
     with_key = [*exercises, *key_documents(own, forms.key)]
     write_changed(place / f"sheet{_ending(forms.sheet)}", written(exercises, forms.sheet))
     suffix = next(ending for ending, form in TEMPLATES.items() if form is forms.template)
     for item in items:
-        write_changed(place / f"{item.stem}{suffix}", template(item.problem, forms.template))
+        write_changed(place / f"{item.stem}{suffix}", template(item.problem, forms.template, student))
     write_changed(keys / f"key{_ending(forms.sheet)}", written(with_key, forms.sheet))
     for variant in variants:
         write_changed(keys / f"{variant.stem}.yaml", variant.text.encode())

@@ -80,6 +80,8 @@ class Variation(Struct, frozen=True):
     parts: tuple[Part, ...]
     letters: Mapping[str, tuple[str, ...]]
     within: Fraction = WIDTH
+    place: Span = (0, 0)
+    """Where `letters` stands in the file."""
 
     @property
     def structure(self) -> tuple[Part, ...]:
@@ -213,10 +215,10 @@ def variation_of(faults: Faults, root: MappingNode) -> Variation | None:
     end = text.rfind("\n", 0, following[0]) + 1 if following else len(text)
     parts: list[Part] = []
     letters: dict[str, tuple[str, ...]] = {}
-    within = WIDTH
+    within, place_of_letters = WIDTH, key.span
     for name, value in node.entries:
         if name.decoded == LETTERS:
-            letters = _letters(faults, value)
+            letters, place_of_letters = _letters(faults, value), name.span
         elif name.decoded == WITHIN:
             within = _number(faults, value, "within") or WIDTH
         else:
@@ -228,7 +230,9 @@ def variation_of(faults: Faults, root: MappingNode) -> Variation | None:
     if not (parts or letters) and not faults.errors:
         faults.error(key.span, "nothing varies", _HELP)
     moved = [_behind(part, begin, end, len(text)) for part in parts]
-    return Variation(text[:begin] + text[end:], faults.source.file, tuple(moved), letters, within)
+    return Variation(
+        text[:begin] + text[end:], faults.source.file, tuple(moved), letters, within, place_of_letters
+    )
 
 
 def _behind(part: Part, begin: int, end: int, last: int) -> Part:
@@ -257,7 +261,8 @@ def _place(faults: Faults, root: MappingNode, name: ScalarNode) -> Span | None:
             if k == 0 and len(steps) == 1 and step in PROBLEM.names:
                 return (0, 0)
             way = ".".join(steps[: k + 1])
-            help = did_you_mean(step, known) or "list items are counted from 1: dh.2.alpha, masses.1.center"
+            usual = "give it there, so that it has a place; list items are counted from 1: masses.1.center"
+            help = did_you_mean(step, known) or usual
             faults.error(name.span, f"the file has no {way}", help)
             return None
         node = following
@@ -345,15 +350,23 @@ def _letters(faults: Faults, node: YamlNode) -> dict[str, tuple[str, ...]]:
 def faulty_alternatives(
     variation: Variation, source: ProblemText, read: Callable[[str, str], object]
 ) -> Iterator[Finding]:
-    """What is wrong with the alternatives of lists, each put into the file by itself.
+    """What is wrong with the alternatives of lists, and with letters, each put into the file by itself.
 
     `read` reads the text of a problem file and its name, and raises ProblemError.
     """
-    for part in variation.parts:
-        for text, place in zip(part.alternatives, part.places, strict=False):
-            try:
-                read(variation.choose({part.path: text}), variation.file)
-            except ProblemError as error:
-                first = error.findings[0]
-                message = f"with {part.path}: {text}: {first.message}"
-                yield source.finding(*place, message, first.help, "faulty-alternative")
+    tried: list[tuple[str, Span, dict[str, str], dict[str, str]]] = [
+        (f"{part.path}: {text}", place, {part.path: text}, {})
+        for part in variation.parts
+        for text, place in zip(part.alternatives, part.places, strict=False)
+    ]
+    tried += [
+        (f"{name}: {new}", variation.place, {}, {name: new})
+        for name, names in variation.letters.items()
+        for new in names
+    ]
+    for what, place, chosen, letters in tried:
+        try:
+            read(variation.choose(chosen, letters), variation.file)
+        except ProblemError as error:
+            first = error.findings[0]
+            yield source.finding(*place, f"with {what}: {first.message}", first.help, "faulty-alternative")

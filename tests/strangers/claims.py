@@ -507,7 +507,7 @@ def _stable(m: Mechanism, s: Sentence) -> bool:
     return m.is_stable(point, s.words[1], still) and not any(m.changes(m.at_rest, (q,)) for q in still)
 
 
-@says("In every configuration: the signs of the second derivatives depend on the configuration.")
+@says("<There|In case #|In every configuration>: the signs of the second derivatives depend on the ....")
 def _signs_depend(m: Mechanism, s: Sentence) -> bool:
     def signs(p: Point) -> Any:
         return np.sign(np.round(np.linalg.eigvalsh(m.stiffness(p)), 6))
@@ -770,7 +770,7 @@ def _not_zero(m: Mechanism, s: Sentence) -> bool:
     )
 
 
-@says("A force[ and a moment] along it need[s] no ....")
+@says("A force[ {}][ and a moment] along it need[s] no ....")
 def _no_torque(m: Mechanism, s: Sentence) -> bool:
     """The vectors that the step shows, against the Jacobian that it shows, where it is singular."""
     where = [nodes[0] for text, nodes in s.before() if text.startswith("Where ") and nodes]

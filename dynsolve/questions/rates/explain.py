@@ -139,7 +139,7 @@ _SPACES = {
     ),
     "lost": (
         "Motions of the task that are lost",
-        "What is orthogonal to all possible velocities. A force 𝐅 along it needs no torque of the joints.",
+        "What is orthogonal to all possible velocities. A force $𝐅$ along it needs no drive of the joints.",
         letters.LOST,
         formula("𝐉_rᵀ 𝐅 = 𝟎"),
         spong("4.10"),
@@ -154,7 +154,7 @@ def _space(context: Context, name: str) -> Step:
     found = Step(
         id=name,
         title=title,
-        why=(what, too_long),
+        why=(*say(what), too_long),
         formula=condition,
         source=source,
         detail=Detail.BRIEF,
@@ -167,10 +167,10 @@ def _space(context: Context, name: str) -> Step:
     spanned = formula("span ({vectors})", vectors=side_by_side(vectors)) if vectors else Words("{0}")
     rank, count = rank_parts(J).rank, len(vectors)
     if name == "lost" and not vectors:
-        what = "Nothing but 𝟎 is orthogonal to all possible velocities: no motion is lost."
+        what = "Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost."
     return replace(
         found,
-        why=say("{what} {state}", what=what, state=_state_once(context, name)),
+        why=say("{what} {state}", what=say(what), state=_state_once(context, name)),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
         notes=((f"The rank is {rank}, and the dimension of this space {count}.",),),

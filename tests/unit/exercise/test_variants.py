@@ -87,6 +87,7 @@ def test_letters_change_where_they_are_names() -> None:
         ("{letters: {l1: [a, b], l2: [b, c]}}", "b would be two things"),
         ("[gravity]", "vary is a mapping"),
         ("{dh.1.a: [l1, 'l1*']}", "with dh.1.a: 'l1*'"),
+        ("{letters: {l1: [l1, m1]}}", "with l1: m1: m1 is"),
     ],
 )
 def test_a_fault_is_located(vary: str, said: str) -> None:
@@ -154,7 +155,7 @@ def test_all_are_within_the_range_of_their_median(course: Path) -> None:
 
 def test_the_same_seed_gives_the_same_bytes_and_a_late_student_changes_no_other(course: Path) -> None:
     problems, again = load_set(str(course / "set")), course / "again"
-    vary(problems, [*students_of(course / "roster.csv"), "late"], SEED, again, jobs=1)
+    vary(problems, {**students_of(course / "roster.csv"), "late": "Late"}, SEED, again, jobs=1)
     first = {path.relative_to(course / "out"): path.read_bytes() for path in (course / "out").rglob("*.*")}
     second = {path.relative_to(again): path.read_bytes() for path in again.rglob("*.*")}
     for table in ("variants.csv", "variants.svg"):
@@ -172,11 +173,26 @@ def test_a_run_that_was_stopped_goes_on(course: Path) -> None:
     assert kept.stat().st_mtime_ns == before
 
 
+def test_another_seed_does_not_replace_what_was_handed_out(course: Path) -> None:
+    out = course / "out"
+    before = {path: path.read_bytes() for path in out.rglob("*.*")}
+    with pytest.raises(UsageError, match="is another variant"):
+        vary(load_set(str(course / "set")), students_of(course / "roster.csv"), "spring", out, jobs=1)
+    assert {path: path.read_bytes() for path in out.rglob("*.*")} == before
+
+
+def test_a_faulty_variant_is_told_as_any_file_is(tmp_path: Path) -> None:
+    text = ARM[: ARM.index("vary:")] + "vary: {dh.1.a: [l1, m1]}\nfind: [g]\n"
+    file = with_files(tmp_path, {"arm.yaml": text}) / "arm.yaml"
+    with pytest.raises(ProblemError, match="m1 is a mass here and a length"):
+        vary(load_set(str(file)), {"a": ""}, SEED, tmp_path / "out", jobs=1)
+
+
 def test_a_family_that_is_too_poor_says_how_many_it_has(tmp_path: Path) -> None:
     text = ARM[: ARM.index("vary:")] + "vary: {letters: {l1: [l1, a1]}}\n"
     file = with_files(tmp_path, {"arm.yaml": text}) / "arm.yaml"
     with pytest.raises(UsageError, match="arm has 2 variants that are equally hard, for 3 students"):
-        vary(load_set(str(file)), ["a", "b", "c"], SEED, tmp_path / "out", jobs=1)
+        vary(load_set(str(file)), dict.fromkeys("abc", ""), SEED, tmp_path / "out", jobs=1)
     assert not (tmp_path / "out").exists()
 
 
@@ -224,7 +240,7 @@ def test_a_roster_is_a_column_or_the_list_of_a_platform(tmp_path: Path) -> None:
     with_files(
         tmp_path, {"own.csv": "name,student\nAda,s1\nBob,s2\n", "canvas.csv": canvas, "no.csv": "a,b\n1,2\n"}
     )
-    assert students_of(tmp_path / "own.csv") == ["s1", "s2"]
-    assert students_of(tmp_path / "canvas.csv") == ["lovelaceada_41"]
+    assert [*students_of(tmp_path / "own.csv")] == ["s1", "s2"]
+    assert students_of(tmp_path / "canvas.csv") == {"lovelaceada_41": "Lovelace, Ada"}
     with pytest.raises(Exception, match="no students are found"):
         students_of(tmp_path / "no.csv")
