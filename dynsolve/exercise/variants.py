@@ -121,7 +121,7 @@ def _hash(*words: str) -> int:
 
 
 def students_of(roster: Path) -> dict[str, str]:
-    """The names of a roster's students by what their hand-ins are called: a column `student`, or a platform's.
+    """The names of students by what their hand-ins are called: a column `student`, or the list of a platform.
 
     Raises InputError for a table in which no students are found.
     """
