@@ -384,7 +384,7 @@ def exact_value(node: Node, known: Mapping[str, Exact]) -> Exact:
     >>> from dynsolve.notation.text import read
     >>> value = exact_value(read("sqrt(12)/2 + cos(30deg)").tree, {})
     >>> value.node
-    Quotient(numerator=Product(factors=(Number(p=3, q=1, decimal=False), Function(name='sqrt', argument=Number(p=3, q=1, decimal=False)))), denominator=Number(p=2, q=1, decimal=False))
+    Quotient(numerator=Product(factors=(Number(p=3, q=1, decimal=False, rounded=False), Function(name='sqrt', argument=Number(p=3, q=1, decimal=False, rounded=False)))), denominator=Number(p=2, q=1, decimal=False, rounded=False))
     """  # noqa: E501
     match node:
         case Number(p, q):

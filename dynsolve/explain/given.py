@@ -491,7 +491,10 @@ def _is_diagonal(body: Body) -> bool:
 
 
 def _base(forms: Forms) -> Prose:
-    """Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w; nothing where it is the world."""
+    """Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w; nothing where it is the world.
+
+    A second turn is about an axis that the first one has turned.
+    """
     robot = forms.robot
     if not letters.has_base(robot):
         return ()
@@ -505,7 +508,8 @@ def _base(forms: Forms) -> Prose:
     for place, (verb, size, axis) in enumerate(told):
         by = verb if not place or verb != told[place - 1][0] else ""
         how += (" and " * bool(place) + by + "by ", size, " along " if verb == "moved " else " about ")
-        how += (letters.bold(axis, Words("w")),)
+        is_second = place > 0 and verb == told[place - 1][0] == "turned "
+        how += (f"its own {axis}-axis",) if is_second else (letters.bold(axis, Words("w")),)
     return (*how, " in the world w. ")
 
 

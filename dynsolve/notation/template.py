@@ -103,7 +103,7 @@ def formula(text: str, /, **values: Value) -> Node:
     """A formula, from how it is printed, with its values put in.
 
     >>> formula("K = ½ m_{i} v²", i=2).parts[1].factors[1]
-    Letter(base='m', sub=Number(p=2, q=1, decimal=False), sup=None, style='italic', dots=0)
+    Letter(base='m', sub=Number(p=2, q=1, decimal=False, rounded=False), sup=None, style='italic', dots=0)
     >>> formula("\N{LATIN SMALL LETTER D WITH DOT ABOVE}")
     Symbol(name='d', dots=1, star=False)
     """

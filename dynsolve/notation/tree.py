@@ -28,7 +28,7 @@ to `with_children`:
 ...             return Power(doubled(base), exponent)
 ...     return with_children(node, doubled)
 >>> doubled(Product((Number(3), Power(Symbol("l"), Number(2))))).factors[0]
-Number(p=6, q=1, decimal=False)
+Number(p=6, q=1, decimal=False, rounded=False)
 """
 
 from __future__ import annotations
@@ -273,7 +273,7 @@ def children(node: Node) -> tuple[Node, ...]:
 
     >>> from dynsolve.notation.tree import Number, Power, Symbol
     >>> children(Power(Symbol("m"), Number(2)))
-    (Symbol(name='m', dots=0, star=False), Number(p=2, q=1, decimal=False))
+    (Symbol(name='m', dots=0, star=False), Number(p=2, q=1, decimal=False, rounded=False))
     """
     return _READERS[type(node)](node)
 

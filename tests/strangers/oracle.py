@@ -26,7 +26,7 @@ CONDITIONAL = (
     "Checks", "Given", "equilibri", "configurations:", "conditions for balance:", "inverse kinematics:",
     "Frames from the drawing", "has solutions where", "stable", "do not decide",
     "depend on the configuration", "Summary > At",
-    "Singular", "Inverse", "Rates ", "Statics", "Equilib", "Balance", "Linearization",
+    "Singular", "Inverse", "Rates ", "Statics", "Forces from outside", "Equilib", "Balance", "Linearization",
     "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
 )  # fmt: skip
 """In the titles of steps whose equations are conditions (q₂ = 0) or hold under some: they are passed over."""

@@ -53,7 +53,7 @@ def replaced(node: Node, values: Replacements) -> Node:
     """A tree with formulas in place of symbols.
 
     >>> replaced(Quotient(Symbol("L1"), Number(3)), {("L1", 0): Number(2, 5)}).numerator
-    Number(p=2, q=5, decimal=False)
+    Number(p=2, q=5, decimal=False, rounded=False)
     """
     return mapped(
         node, lambda part: values.get((part.name, part.dots), part) if isinstance(part, Symbol) else part

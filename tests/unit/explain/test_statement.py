@@ -112,7 +112,10 @@ PLACED = [
         "base: {rotate: Rx(30deg), move: [0, 0, h0]}",
         "Frame 0 is moved by h₀ along 𝐳_w and turned by 30° about 𝐱_w in the world w. ",
     ),
-    ("base: Rz(90deg) Rx(30deg)", "Frame 0 is turned by 90° about 𝐳_w and by 30° about 𝐱_w in the world w."),
+    (
+        "base: Rz(90deg) Rx(30deg)",
+        "Frame 0 is turned by 90° about 𝐳_w and by 30° about its own x-axis in the world w.",
+    ),
     ("base: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]", "Frame 0, seen from the world w, is "),
 ]
 

@@ -1,4 +1,4 @@
-"""The stages: in the order of the textbook, each called by one word, and listed so in the README."""
+"""The stages: in the order of the textbook, each called by one word, and listed so for students."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from dynsolve.quantities.stages import COURSE, Stage
 from tests.support import ROOT
 
 
-def test_the_readme_lists_them_in_their_order() -> None:
-    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-    (listed,) = re.findall(r"One stage alone, or a range of them \(([^)]*)\)", readme)
+def test_the_page_for_students_lists_them_in_their_order() -> None:
+    page = " ".join((ROOT / "problems/students.md").read_text(encoding="utf-8").split())
+    (listed,) = re.findall(r"One stage alone, or a range of them \(([^)]*)\)", page)
     assert listed.split(", ") == [str(stage) for stage in Stage]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import acos, cos, sin
+from math import acos, cos, pi, sin
 from typing import Any
 
 import pytest
@@ -292,3 +292,18 @@ find: [equilibria]
     pushed = chain.replace("of: x - y", "energy: -k*(x - y)^2/2").replace("stiffness: k, ", "")
     (points,) = dynsolve.solve(pushed).to_json()["results"]["equilibria_stability"]
     assert points == [{"stability": "unstable"}]
+
+
+def test_equilibria_where_a_constraint_loses_its_rank_are_found() -> None:
+    """Two links of one length, the tip on a level line: g and ∂h/∂q are 0 where one link lies on the other."""
+    arm = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+constraints: [tip.y]
+find: [equilibria]
+"""
+    (alternative,) = dynsolve.solve(arm).to_json()["results"]["equilibria"]
+    known = {"sin": sin, "cos": cos, "q1": pi / 2, "q2": pi}
+    for one in alternative:
+        assert abs(eval(one.removesuffix(" = 0"), known)) < 1e-9  # noqa: S307
