@@ -295,7 +295,7 @@ find: [equilibria]
 
 
 def test_equilibria_where_a_constraint_loses_its_rank_are_found() -> None:
-    """Two links of one length, the tip on a level line: g and ∂h/∂q are 0 where one link lies on the other."""
+    """Two links of one length, the tip on a level line: g and ∂h/∂q are 0 where one lies on the other."""
     arm = """
 gravity: [0, -g, 0]
 dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
