@@ -39,7 +39,7 @@ from dynsolve.grading.platforms.registry import PLATFORMS
 from dynsolve.grading.platforms.roster import read_roster
 from dynsolve.grading.set_file import VARIANT_KEYS, VARIANTS_TABLE, Item, ProblemSet
 from dynsolve.problem.reader import read_problem
-from dynsolve.problem.variation import Variation, read_variation
+from dynsolve.problem.variation import Variation
 from dynsolve.render.files import write_changed
 
 MOST_STRUCTURES = 300
@@ -98,7 +98,7 @@ class Variant(Struct, frozen=True):
 
 def family_of(item: Item, seed: str, pool: ProcessPoolExecutor) -> Family:
     """The family of a problem; raises ProblemError for a variant that is no problem."""
-    variation = read_variation(item.text, item.problem.file)
+    variation = item.variation
     structures = list(variation.structures()) if variation else [{}]
     if len(structures) > MOST_STRUCTURES:
         structures = sorted(structures, key=lambda one: _hash(seed, *one.values()))[:MOST_STRUCTURES]

@@ -33,6 +33,7 @@ import re
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path, PurePath
+from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -65,6 +66,7 @@ from dynsolve.problem.kinds import (
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import Reading, find, read_file, read_problem, read_whole
 from dynsolve.problem.schema import Schema, schema_of_file
+from dynsolve.problem.specification import VARIED
 from dynsolve.problem.yaml_nodes import (
     Faults,
     FaultyNode,
@@ -78,6 +80,9 @@ from dynsolve.problem.yaml_nodes import (
 )
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.stages import Stage
+
+if TYPE_CHECKING:
+    from dynsolve.problem.variation import Variation
 
 # Groups
 
@@ -107,10 +112,14 @@ def _membership(cells: dict[str, str]) -> Membership | Fault:
 
 
 class Item(Struct, frozen=True):
-    """One problem of a set, with the text it was read from; its `marks` are those that count."""
+    """One problem of a set, with the text it was read from; its `marks` are those that count.
+
+    `variation` is what may differ from student to student, by the set or else by the problem.
+    """
 
     problem: Problem
     text: str
+    variation: Variation | None = None
 
     @property
     def stem(self) -> str:
@@ -256,6 +265,13 @@ SET = Keyed(
             "{in3140-rp: {P: 2, K: 4}}",
             "those of the problem files",
         ),
+        Key(
+            "vary",
+            MapOf(VARIED, "what may vary by problem"),
+            "What may differ from student to student, by problem, as the `vary` of a problem file.",
+            "{in3140-rp: {letters: {L1: [L1, a]}}}",
+            "that of the problem files",
+        ),
         Key("policy", POLICY, example="{follow: 1/2, hints: 2}"),
     )
 )
@@ -266,7 +282,7 @@ def set_schema() -> Schema:
     """The schema, as data that `json.dumps` prints.
 
     >>> sorted(set_schema()["properties"])
-    ['marks', 'policy', 'problems', 'title']
+    ['marks', 'policy', 'problems', 'title', 'vary']
     """
     description = "The problems of a folder, and how hand-ins to them are marked."
     return schema_of_file(SET, "dynsolve problem set", description)
@@ -296,9 +312,7 @@ def with_variants(problems: ProblemSet, folder: Path, students: Iterable[str]) -
 
 def _letters(problems: ProblemSet, table: Path) -> dict[tuple[str, str], dict[str, str]]:
     """The problem's name of each name that was drawn for it, by student and problem."""
-    from dynsolve.problem.variation import read_variation
-
-    variations = {item.stem: read_variation(item.text, item.problem.file) for item in problems.items}
+    variations = {item.stem: item.variation for item in problems.items}
     found: dict[tuple[str, str], dict[str, str]] = {}
     with table.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
@@ -321,7 +335,7 @@ def load_set(name: str) -> ProblemSet:
         return _folder(path.parent)
     reading, text = _read(find(name))
     problem = reading.problem
-    return ProblemSet(problem.title, (Item(_marked(problem, {}), text),))
+    return ProblemSet(problem.title, (Item(_marked(problem, {}), text, reading.variation),))
 
 
 def _read(path: Path) -> tuple[Reading, str]:
@@ -343,11 +357,15 @@ def _folder(folder: Path) -> ProblemSet:
         except ProblemError as error:
             findings += error.findings
     marks = _marks(faults, fields.get("marks") if fields else None, readings)
+    varied = _varied(faults, fields.get("vary") if fields else None, readings)
     policy = _policy(faults, fields.get("policy") if fields else None)
     if faults.errors or findings:
         raise ProblemError([*faults.found(), *findings])
     title = (free_text(faults, fields.get("title"), "title") if fields else "") or folder.resolve().name
-    chosen = tuple(Item(_marked(r.problem, marks.get(s, {})), text) for s, (r, text) in readings.items())
+    chosen = tuple(
+        Item(_marked(reading.problem, marks.get(stem, {})), text, varied.get(stem, reading.variation))
+        for stem, (reading, text) in readings.items()
+    )
     extensions, groups = read_extensions(folder, list(readings)), read_groups(folder)
     return ProblemSet(title, chosen, policy, extensions, groups)
 
@@ -413,6 +431,22 @@ def _marks(
             else:
                 found[stem][name] = _number(faults, points, f"the marks for {name}") or Fraction(0)
     return found
+
+
+def _varied(
+    faults: Faults, node: YamlNode | None, readings: Mapping[str, tuple[Reading, str]]
+) -> dict[str, Variation | None]:
+    """What may vary by problem."""
+    mapping(faults, node, tuple(readings), "vary", SET["vary"].help)
+    if not isinstance(node, MappingNode):
+        return {}
+    from dynsolve.problem.variation import variation_in_set
+
+    return {
+        key.decoded: variation_in_set(faults, key, value, readings[key.decoded][0].faults.source)
+        for key, value in node.entries
+        if key.decoded in readings
+    }
 
 
 def _policy(faults: Faults, node: YamlNode | None) -> Policy:

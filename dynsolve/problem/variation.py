@@ -205,14 +205,35 @@ def variation_of(faults: Faults, root: MappingNode) -> Variation | None:
     if place is None:
         return None
     key, node = root.entries[place]
-    if not isinstance(node, MappingNode):
-        if not isinstance(node, FaultyNode):
-            faults.error(node.span, f"vary is a mapping, not {describe(node)}", _HELP)
-        return None
     text = faults.source.text
     begin = text.rfind("\n", 0, key.span[0]) + 1
     following = [other.span[0] for other, _ in root.entries[place + 1 :]]
     end = text.rfind("\n", 0, following[0]) + 1 if following else len(text)
+    return _variation(faults, key, node, root, faults.source, (begin, end))
+
+
+def variation_in_set(
+    faults: Faults, key: ScalarNode, node: YamlNode, problem: ProblemText
+) -> Variation | None:
+    """What a `set.yaml` says of a problem: `key` is its name there; faults of the set are reported."""
+    root = read_nodes(Faults(problem))
+    assert isinstance(root, MappingNode)
+    if any(own.decoded == KEY for own, _ in root.entries):
+        faults.error(key.span, f"{key.decoded} has a `vary` of its own", "keep one of them")
+        return None
+    end = len(problem.text)
+    return _variation(faults, key, node, root, problem, (end, end))
+
+
+def _variation(
+    faults: Faults, key: ScalarNode, node: YamlNode, root: MappingNode, problem: ProblemText, own: Span
+) -> Variation | None:
+    """What `node` says may vary in a problem, whose text has `vary` in the place `own`."""
+    if not isinstance(node, MappingNode):
+        if not isinstance(node, FaultyNode):
+            faults.error(node.span, f"vary is a mapping, not {describe(node)}", _HELP)
+        return None
+    text, (begin, end) = problem.text, own
     parts: list[Part] = []
     letters: dict[str, tuple[str, ...]] = {}
     within, place_of_letters = WIDTH, key.span
@@ -229,10 +250,8 @@ def variation_of(faults: Faults, root: MappingNode) -> Variation | None:
                 parts.append(Part(name.decoded, span, alternatives, places))
     if not (parts or letters) and not faults.errors:
         faults.error(key.span, "nothing varies", _HELP)
-    moved = [_behind(part, begin, end, len(text)) for part in parts]
-    return Variation(
-        text[:begin] + text[end:], faults.source.file, tuple(moved), letters, within, place_of_letters
-    )
+    moved = tuple(_behind(part, begin, end, len(text)) for part in parts)
+    return Variation(text[:begin] + text[end:], problem.file, moved, letters, within, place_of_letters)
 
 
 def _behind(part: Part, begin: int, end: int, last: int) -> Part:

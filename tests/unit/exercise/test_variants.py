@@ -101,6 +101,28 @@ def test_a_fault_is_located(vary: str, said: str) -> None:
     assert finding.help
 
 
+def test_a_set_may_say_what_varies(tmp_path: Path) -> None:
+    plain = ARM[: ARM.index("vary:")] + "find: [D, g]\n"
+    files = {
+        "arm.yaml": plain,
+        "set.yaml": "vary:\n  arm: {dh.2.a: [l2, 2*l2], friction: [absent, {q1: fv}]}\n",
+    }
+    (item,) = load_set(str(with_files(tmp_path, files))).items
+    assert item.variation is not None
+    assert "{theta: q2*, a: 2*l2}" in item.variation.choose({"dh.2.a": "2*l2"})
+    assert item.variation.choose({"friction": "{q1: fv}"}).endswith("friction: {q1: fv}\n")
+    for text, said in (
+        ("vary: {arm: {dh.3.a: [l1, l2]}}\n", "set.yaml:1:14: the file has no dh.3"),
+        ("vary: {leg: {dh.2.a: [l1, l2]}}\n", "leg"),
+    ):
+        with_files(tmp_path, {"set.yaml": text})
+        with pytest.raises(ProblemError, match=said):
+            load_set(str(tmp_path))
+    with_files(tmp_path, {"arm.yaml": ARM, "set.yaml": files["set.yaml"]})
+    with pytest.raises(ProblemError, match="arm has a `vary` of its own"):
+        load_set(str(tmp_path))
+
+
 def test_what_is_counted_of_a_result() -> None:
     counted = hardness(read_problem(variation(ARM).choose({})), ["D", "g"])
     assert counted["g"].terms == 4  # m1 g lc1 c1 + m2 g l1 c1 + m2 g l2 c12, and the last of these
