@@ -48,8 +48,10 @@ from dynsolve.notation.tree import (
     Product,
     Quotient,
     Relation,
+    Row,
     Sum,
     Symbol,
+    Words,
     equation,
     mapped,
     names_in,
@@ -418,7 +420,7 @@ def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
     formula, value = one.formulas[name], one.numbers[name]
     if rational_value(formula) == 0 or _depends(one, name):
         return equation(Symbol(name), formula)
-    number = decimal(value, _DIGITS)
+    number, exact = _number(formula, value)
     if cost(formula) > LONGEST:
         formula = decimal(value)
     is_decimal = _is_decimal(formula)
@@ -426,11 +428,27 @@ def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
     if rational_value(formula) is None:
         shown.append(number)
     if forms.turns(name):
-        is_plain = not any(isinstance(part, Function) for part in walk(formula)) and not is_decimal
-        if is_plain and names_in(formula) <= {"pi"}:
+        if _is_of_pi(formula) and not is_decimal:
             return Relation((Symbol(name), formula, _in_degrees(value)), ("=", "="))
         shown.append(_in_degrees(value))
-    return Relation((Symbol(name), *shown), ("≈" if is_decimal else "=", *["≈"] * (len(shown) - 1)))
+    return Relation(
+        (Symbol(name), *shown), ("≈" if is_decimal and not exact else "=", *["≈"] * (len(shown) - 1))
+    )
+
+
+def _number(formula: Node, value: float) -> tuple[Node, bool]:
+    """A value as a decimal, and whether that is the value itself."""
+    whole = rational_value(formula)
+    places = Fraction(str(round(value, _DIGITS)))
+    if whole is not None and whole == places:
+        return Number(whole.numerator, whole.denominator, decimal=True), True
+    return decimal(value, _DIGITS), False
+
+
+def _is_of_pi(formula: Node) -> bool:
+    """Whether a formula is a part of π or a number."""
+    is_plain = not any(isinstance(part, Function) for part in walk(formula))
+    return is_plain and names_in(formula) <= {"pi"}
 
 
 def _depends(one: Configuration, name: str) -> bool:
@@ -512,7 +530,10 @@ def _table(forms: TargetForms) -> Table:
             elif _depends(one, name):
                 row.append(one.formulas[name])
             else:
-                row.append(_in_degrees(value) if forms.turns(name) else decimal(value, _DIGITS))
+                number, exact = _number(one.formulas[name], value)
+                if forms.turns(name):
+                    number, exact = _in_degrees(value), _is_of_pi(one.formulas[name])
+                row.append(number if exact else Row((Words("≈ "), number)))
         if limited:
             row.append("beyond" if one.outside else "within")
         rows.append(tuple(row))
