@@ -530,10 +530,10 @@ def _table(forms: TargetForms) -> Table:
             elif _depends(one, name):
                 row.append(one.formulas[name])
             else:
-                number, exact = _number(one.formulas[name], value)
+                cell, exact = _number(one.formulas[name], value)
                 if forms.turns(name):
-                    number, exact = _in_degrees(value), _is_of_pi(one.formulas[name])
-                row.append(number if exact else Row((Words("≈ "), number)))
+                    cell, exact = _in_degrees(value), _is_of_pi(one.formulas[name])
+                row.append(cell if exact else Row((Words("≈ "), cell)))
         if limited:
             row.append("beyond" if one.outside else "within")
         rows.append(tuple(row))
