@@ -128,7 +128,7 @@ def sheet_documents(problems: ProblemSet, date: str = "", *, pictured: bool = Tr
     for exercise in exercises:
         heading = [] if is_one else [Heading(f"{exercise.title} ({_points(exercise.points)})")]
         found.append((Document((*heading, *exercise.given, *_asked(exercise))), exercise.style))
-    found.append((Document(tuple(_handing_in(problems))), PLAIN))
+    found.append((Document(tuple(_handing_in(exercises))), PLAIN))
     return found
 
 
@@ -160,16 +160,16 @@ def _letters() -> Iterator[str]:
     yield from (first + second for first in ascii_lowercase for second in ascii_lowercase)
 
 
-def _handing_in(problems: ProblemSet) -> Iterator[Block]:
+def _handing_in(exercises: Sequence[Exercise]) -> Iterator[Block]:
     """The names under which the answers are handed in."""
     yield Heading("Handing in", 3)
     yield Text((
         "Hand in one file for each exercise: YAML, Markdown, LaTeX, a notebook or a Word document. Each "
         "answer has a line of its own: its name, an equals sign, the result. The answers are called",
     ))  # fmt: skip
-    for item in problems.items:
-        names = [name for part in parts(item.problem, dict(item.problem.marks)) for name in part.names]
-        told: list[Inline] = [Verbatim(item.stem), ": "]
+    for exercise in exercises:
+        names = [name for part in exercise.parts for name in part.names]
+        told: list[Inline] = [Verbatim(exercise.problem.stem), ": "]
         for k, name in enumerate(names):
             told += [", "] if k else []
             told.append(Verbatim(name))

@@ -14,7 +14,7 @@ from __future__ import annotations
 import csv
 import io
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from fractions import Fraction
@@ -99,14 +99,21 @@ class Variant(Struct, frozen=True):
 def family_of(item: Item, seed: str, pool: ProcessPoolExecutor) -> Family:
     """The family of a problem; raises ProblemError for a variant that is no problem."""
     variation = item.variation
-    structures = list(variation.structures()) if variation else [{}]
-    if len(structures) > MOST_STRUCTURES:
-        structures = sorted(structures, key=lambda one: _hash(seed, *one.values()))[:MOST_STRUCTURES]
+    structures = (
+        [variation.structure_of(k) for k in _measured(variation.structures, seed)] if variation else [{}]
+    )
     texts = [variation.choose(one) if variation else item.text for one in structures]
     names = tuple(item.problem.marks)
     counted = dict(enumerate(pool.map(partial(_counted, item.problem.file, names), texts)))
     left = equally_hard(counted, variation.within) if variation else counted
     return Family(item, variation, tuple(structures[k] for k in left), tuple(left.values()))
+
+
+def _measured(count: int, seed: str) -> Iterable[int]:
+    """All of so many structures, or as many as are measured, chosen by the seed."""
+    if count <= MOST_STRUCTURES:
+        return range(count)
+    return dict.fromkeys(_hash(seed, str(k)) % count for k in range(MOST_STRUCTURES))
 
 
 def _counted(file: str, names: Sequence[str], text: str) -> Mapping[str, Hardness]:

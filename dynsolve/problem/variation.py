@@ -18,7 +18,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import product
 from math import prod
 
 from msgspec import Struct
@@ -93,10 +92,14 @@ class Variation(Struct, frozen=True):
         """The parts that are numbers."""
         return tuple(part for part in self.parts if part.is_number)
 
-    def structures(self) -> Iterator[dict[str, str]]:
-        """Every choice of structure, by the way to each part."""
-        for chosen in product(*(part.alternatives for part in self.structure)):
-            yield {part.path: text for part, text in zip(self.structure, chosen, strict=True)}
+    @property
+    def structures(self) -> int:
+        """In how many ways structure can be chosen."""
+        return prod(len(part.alternatives) for part in self.structure)
+
+    def structure_of(self, number: int) -> dict[str, str]:
+        """The choice of structure of a way, counted from 0, by the way to each part."""
+        return _choice(number, {part.path: part.alternatives for part in self.structure})
 
     @property
     def dressings(self) -> int:
@@ -105,15 +108,9 @@ class Variation(Struct, frozen=True):
 
     def dressing(self, number: int) -> tuple[dict[str, str], dict[str, str]]:
         """The numbers and the letters of a way, counted from 0."""
-        values = {}
-        for part in self.numbers:
-            number, place = divmod(number, len(part.alternatives))
-            values[part.path] = part.alternatives[place]
-        letters = {}
-        for name, names in self.letters.items():
-            number, place = divmod(number, len(names))
-            letters[name] = names[place]
-        return values, letters
+        values = {part.path: part.alternatives for part in self.numbers}
+        rest = number // prod(map(len, values.values()))
+        return _choice(number, values), _choice(rest, self.letters)
 
     def choose(self, chosen: Mapping[str, str], letters: Mapping[str, str] | None = None) -> str:
         """The text of the file with these alternatives in their places, and other letters."""
@@ -123,6 +120,19 @@ class Variation(Struct, frozen=True):
                 text = _put(text, part, chosen[part.path])
         other = {name: new for name, new in (letters or {}).items() if name != new}
         return renamed(text, other) if other else text
+
+
+def _choice(number: int, alternatives: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """One of each, by the digits of a number whose places count them.
+
+    >>> _choice(4, {"a": ["a1", "a2"], "b": ["b1", "b2", "b3"]})
+    {'a': 'a1', 'b': 'b3'}
+    """
+    found = {}
+    for name, each in alternatives.items():
+        number, place = divmod(number, len(each))
+        found[name] = each[place]
+    return found
 
 
 def _put(text: str, part: Part, new: str) -> str:

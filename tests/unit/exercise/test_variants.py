@@ -12,7 +12,7 @@ import pytest
 from dynsolve.errors import ProblemError, UsageError
 from dynsolve.exercise import plot
 from dynsolve.exercise.hardness import COUNTS, Hardness, equally_hard, hardness
-from dynsolve.exercise.variants import students_of, vary
+from dynsolve.exercise.variants import MOST_STRUCTURES, _measured, students_of, vary
 from dynsolve.grading.public import grade
 from dynsolve.grading.set_file import load_set
 from dynsolve.problem.lint import lint_text
@@ -62,8 +62,9 @@ def test_a_choice_changes_its_part_of_the_file_alone() -> None:
 
 def test_every_variant_is_a_problem_of_its_own() -> None:
     found = variation(ARM)
-    assert len(list(found.structures())) == 8 and found.dressings == 12
-    for number, structure in enumerate(found.structures()):
+    assert found.structures == 8 and found.dressings == 12
+    for number in range(found.structures):
+        structure = found.structure_of(number)
         values, letters = found.dressing(number)
         problem = read_problem(found.choose({**structure, **values}, letters))
         assert problem.robot.n == 2
@@ -121,6 +122,13 @@ def test_a_set_may_say_what_varies(tmp_path: Path) -> None:
     with_files(tmp_path, {"arm.yaml": ARM, "set.yaml": files["set.yaml"]})
     with pytest.raises(ProblemError, match="arm has a `vary` of its own"):
         load_set(str(tmp_path))
+
+
+def test_of_more_structures_than_can_be_listed_some_are_chosen() -> None:
+    assert list(_measured(8, SEED)) == list(range(8))
+    chosen = list(_measured(10**30, SEED))
+    assert len(set(chosen)) == MOST_STRUCTURES
+    assert chosen == list(_measured(10**30, SEED)) != list(_measured(10**30, "spring"))
 
 
 def test_what_is_counted_of_a_result() -> None:
