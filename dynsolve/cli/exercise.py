@@ -160,10 +160,11 @@ def vary(
         families = made(chosen, students, seed, output, forms, jobs, advance)
     if not quiet:
         for family in families:
-            count, structures = family.size, len(family.structures)
-            told = agreeing(f"{count} variants of {structures} structure|structures", structures)
-            typer.echo(f"{family.item.stem}: {told}", err=True)
+            variants = agreeing(f"{family.size} variant|variants", family.size)
+            structures = agreeing(f"{len(family.structures)} structure|structures", len(family.structures))
+            typer.echo(f"{family.item.stem}: {variants} of {structures}", err=True)
             for left in family.left_out:
                 typer.echo(f"  {left}: in no variant, as it would not be as hard as the others", err=True)
-        typer.echo(f"{len(students)} students: see {output / 'variants.csv'}", err=True)
+        told = agreeing(f"{len(students)} student|students", len(students))
+        typer.echo(f"{told}: see {output / 'variants.csv'}", err=True)
     return ExitCode.DONE

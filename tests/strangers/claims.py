@@ -20,6 +20,7 @@ from dynsolve import document
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, walk
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.robot.model import Convention
 from tests.strangers.mechanism import NEAR, Mechanism, names_of, near, plain, rank
 from tests.strangers.oracle import Point, Unknown
 
@@ -632,14 +633,16 @@ def _beside_the_axis(m: Mechanism, s: Sentence) -> bool:
 
 @says("{} lies along it, from the first to the second, and {} is where it meets the axis of joint #.")
 def _common_normal(m: Mechanism, s: Sentence) -> bool:
-    """It is across both axes, and the origin is on the second."""
+    """It is across both axes, and the origin is on the second; by Craig's convention on the first."""
+    i = int(s.words[0])
+    first = i if m.solution.robot.convention is Convention.MODIFIED else i - 1
     for p in m.points():
         x, o = (np.ravel(m.value(node, p)) for node in s.formulas)
-        i = int(s.words[0])
-        a, b = m.axis(i - 1, p), m.axis(i, p)
-        if not near(x @ np.stack([a[:, 0], b[:, 0]], 1), 0) or not near(np.cross(o - b[:, 1], b[:, 0]), 0):
+        a, b, own = m.axis(first, p), m.axis(first + 1, p), m.axis(i, p)
+        across = x @ np.stack([a[:, 0], b[:, 0]], 1)
+        if not near(across, 0) or not near(np.cross(o - own[:, 1], own[:, 0]), 0):
             return False
-        if not near(np.cross(b[:, 0], a[:, 0]), 0) and x @ (o - a[:, 1]) < -NEAR:
+        if not near(np.cross(b[:, 0], a[:, 0]), 0) and x @ (b[:, 1] - a[:, 1]) < -NEAR:
             return False
     return True
 
