@@ -13,6 +13,7 @@ To add a kind of block, add its dataclass here and its case to each renderer.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -155,48 +156,40 @@ class Document(Struct, frozen=True):
         return any(isinstance(block, Heading) and block.level == 1 for block in self.blocks[:1])
 
 
-def rewritten(document: Document, change: Callable[[Node], Node], inline: Callable[[Node], Node]) -> Document:
-    """The document with its formulas changed, those among words by `inline`."""
+def _same(part: Any) -> Any:
+    return part
+
+
+def rewritten(
+    document: Document,
+    *,
+    words: Callable[[str], str] = _same,
+    displayed: Callable[[Node], Node] = _same,
+    inline: Callable[[Node], Node] = _same,
+) -> Document:
+    """The document with its words, its displayed formulas and those among words changed.
+
+    The sources of formulas are words, too.
+    """
 
     def prose(parts: Prose) -> Prose:
-        return tuple(inline(part) if isinstance(part, Node) else part for part in parts)
+        return tuple(map(part_of_prose, parts))
 
-    def block(old: Block) -> Block:
-        match old:
-            case Text() | Uses() | Note():
-                return replace(old, parts=prose(old.parts))
-            case Formula():
-                return formula(old)
-            case Equations():
-                return replace(old, nodes=tuple(map(change, old.nodes)))
-            case List():
-                return replace(old, items=tuple(map(prose, old.items)))
-            case Table():
-                return replace(old, rows=tuple(map(prose, old.rows)))
-            case Fold():
-                return replace(old, blocks=tuple(map(block, old.blocks)))
-        return old
-
-    def formula(old: Formula) -> Formula:
-        return replace(old, node=change(old.node), otherwise=tuple(map(formula, old.otherwise)))
-
-    return Document(tuple(map(block, document.blocks)))
-
-
-def reworded(document: Document, change: Callable[[str], str]) -> Document:
-    """The document with its words and the sources of its formulas changed, everything else as it is."""
-
-    def prose(parts: Prose) -> Prose:
-        return tuple(change(part) if isinstance(part, str) else part for part in parts)
+    def part_of_prose(part: Inline) -> Inline:
+        if isinstance(part, str):
+            return words(part)
+        return inline(part) if isinstance(part, Node) else part
 
     def block(old: Block) -> Block:
         match old:
             case Text():
-                return replace(old, parts=prose(old.parts), source=change(old.source))
-            case Formula():
-                return formula(old)
+                return replace(old, parts=prose(old.parts), source=words(old.source))
             case Uses() | Note():
                 return replace(old, parts=prose(old.parts))
+            case Formula():
+                return formula(old)
+            case Equations():
+                return replace(old, nodes=tuple(map(displayed, old.nodes)))
             case List():
                 return replace(old, items=tuple(map(prose, old.items)))
             case Table():
@@ -206,6 +199,7 @@ def reworded(document: Document, change: Callable[[str], str]) -> Document:
         return old
 
     def formula(old: Formula) -> Formula:
-        return replace(old, source=change(old.source), otherwise=tuple(map(formula, old.otherwise)))
+        others = tuple(map(formula, old.otherwise))
+        return replace(old, node=displayed(old.node), source=words(old.source), otherwise=others)
 
     return Document(tuple(map(block, document.blocks)))

@@ -35,7 +35,6 @@ from dynsolve.document import (
     Reference,
     Table,
     Text,
-    reworded,
     rewritten,
 )
 from dynsolve.document.sentences import say
@@ -440,10 +439,11 @@ class _Parts(Struct, dict=True):
         ))  # fmt: skip
         if self.may_round():
             style = self.solution.style
-            document = rewritten(
-                document, partial(marked, style=style), partial(marked_among_words, style=style)
-            )
-        return reworded(document, of_second_edition) if self.solution.problem.edition == 2 else document
+            among_words = partial(marked_among_words, style=style)
+            document = rewritten(document, displayed=partial(marked, style=style), inline=among_words)
+        return (
+            rewritten(document, words=of_second_edition) if self.solution.problem.edition == 2 else document
+        )
 
     def may_round(self) -> bool:
         """Whether there can be decimals: in a model in numbers, with values, and of what reaches numbers."""

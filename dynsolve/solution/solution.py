@@ -93,14 +93,14 @@ class Solution(Dynamics, frozen=True, dict=True):
         >>> solve("planar-2r").hint("lagrangian").blocks[1].text
         'Hint: the Lagrangian'
         """
-        from dynsolve.document import reworded
+        from dynsolve.document import rewritten
         from dynsolve.explain.context import Context
         from dynsolve.explain.hint import hint_document
         from dynsolve.explain.writing import of_second_edition
 
         context = Context(self.robot, self.values, self.forms, normals=self.problem.normals)
         document = hint_document(self.problem.title, context, stage)
-        return reworded(document, of_second_edition) if self.problem.edition == 2 else document
+        return rewritten(document, words=of_second_edition) if self.problem.edition == 2 else document
 
     def to_json(self, abbreviate: Abbreviate | str = "never") -> dict[str, Any]:
         """The solution as JSON, `dynsolve-solution/1`; with `always` a section `abbreviated` too."""
