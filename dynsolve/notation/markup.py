@@ -135,7 +135,7 @@ class LatexPrinter(FormulaPrinter):
         return f"{{{text}}}"
 
     def _words(self, node: Words) -> str:
-        return rf"\text{{{escaped(node.text)}}}"
+        return SIGNS.get(node.text.strip()) or rf"\text{{{escaped(node.text)}}}"
 
     def _integral(self, node: Integral) -> str:
         sign = self._scripted(r"\int", self.text(node.lower), self.text(node.upper))
