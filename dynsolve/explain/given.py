@@ -399,9 +399,9 @@ def _place(forms: Forms, body: Body | Place, drawn: DrawnFrames = NOT_DRAWN) -> 
         return ("at ", letters.o(far))
     if body.center.is_zero:
         return ("at ", letters.o(body.link))
-    if body.center_written == "midpoint":
+    fraction = part_of_the_way(body)
+    if fraction == letters.HALF:
         return ("half-way along the link",)
-    fraction = part_of_the_way(body) if is_given_by(body, "along") else None
     if fraction is not None:
         return (fraction, " of the way from ", letters.o(near), " to ", letters.o(far))
     end = other_end(forms.robot, body)  # it is given from there, if from an end

@@ -90,17 +90,17 @@ def _way(context: Context, body: Body) -> _Way:
     """From the ends of the link, where the problem gives it from there; else by its coordinates."""
     if body.center.is_zero:
         return _Way(letters.o(body.link), uses=_told_at(context.robot, body.link), source=GIVEN)
-    other = other_end(context.robot, body)
+    part, other = part_of_the_way(body), other_end(context.robot, body)
     c = letters.index_of(body.name)
     if other is None:
         own = formula("𝐫_c{c}^{i}", c=c, i=body.link)
         return _from(context, body, body.link, own, body.center)
-    if body.center_written == "midpoint":
+    if part is not None:
         near, far = ends(context.robot, body)
         values = [_origin(context, end) for end in (near, far)]
         return _Way(
-            _half(letters.o(near), letters.o(far)),
-            _half(*values) if is_small(*values) else None,
+            _between(part, letters.o(near), letters.o(far)),
+            _between(part, *values) if is_small(*values) else None,
             uses=("axes",),
             source=GEOMETRY,
         )
@@ -131,8 +131,11 @@ def _told_at(robot: Robot, frame: int) -> tuple[str, ...]:
     return ("axes",) if frame in told_frames(robot) else (f"H{frame}",)
 
 
-def _half(near: Node, far: Node) -> Node:
-    return formula("½ ({near} + {far})", near=near, far=far)
+def _between(part: Node, near: Node, far: Node) -> Node:
+    """The point at that part of the way from one to the other."""
+    if part == letters.HALF:
+        return formula("½ ({near} + {far})", near=near, far=far)
+    return formula("{near} + {part} ({far} - {near})", part=part, near=near, far=far)
 
 
 _FROM_THE_NEAR_END = (
@@ -143,14 +146,14 @@ _FROM_THE_NEAR_END = (
 
 def _where(context: Context, body: Body) -> tuple[str, Prose]:
     """How a mass centre is given: the kind of it, and in words."""
-    written = body.center_written
+    written, part = body.center_written, part_of_the_way(body)
     kind, words = "frame", "is given by its coordinates in frame {link}, which are constant"
     if body.density is not None and body.density.begins:
         kind, words = "found", _FROM_THE_NEAR_END
     elif written == "tip":
         kind, words = written, "is at the far end of link {link}, {far}"
-    elif written == "midpoint":
-        kind, words = written, "is half-way along link {link}, between {near} and {far}"
+    elif part == letters.HALF:
+        kind, words = "midpoint", "is half-way along link {link}, between {near} and {far}"
     elif body.center.is_zero:
         kind, words = "origin", "is at the origin {own} of frame {link}"
     elif is_given_by(body, "near") and context.standard:
@@ -158,10 +161,9 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
         words = _FROM_THE_NEAR_END
     elif is_given_by(body, "along"):
         kind, words = "", "is {part} of the way along link {link}, from {near} to {far}"
-        if part_of_the_way(body) is None:
+        if part is None:
             words = "is on link {link}, at the given part of the way from {near} to {far}"
     near, far = map(letters.o, ends(context.robot, body))
-    part = part_of_the_way(body) if kind == "" else None
     own = letters.o(body.link)
     given = "was found by integration," if kind == "found" else "is given"
     return kind, say(words, link=body.link, near=near, far=far, own=own, part=part or "", given=given)
@@ -181,11 +183,16 @@ def is_given_by(body: Body | Place, key: str) -> bool:
 
 
 def part_of_the_way(body: Body | Place) -> Node | None:
-    """The part of the way, as the problem writes it; None where it cannot be read."""
+    """The part of the way along its link, as the problem writes it; None where it is given otherwise."""
+    if body.center_written == "midpoint":
+        return letters.HALF
+    if not is_given_by(body, "along"):
+        return None
     try:
-        return read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
+        part = read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
     except ReadError:
         return None
+    return letters.HALF if part == Number(1, 2) else part
 
 
 def ends(robot: Robot, body: Body | Place) -> tuple[int, int]:
@@ -210,9 +217,9 @@ def other_end(robot: Robot, body: Body | Place) -> tuple[int, algebra.Matrix] | 
     if standard:
         back = algebra.Matrix.column(ring, (-row.a, -(row.d * sine), -(row.d * cosine)))
         is_near = is_given_by(body, "near") and not back.is_zero
-        return (row.parent, back) if is_near or body.center_written == "midpoint" else None
+        return (row.parent, back) if is_near or part_of_the_way(body) is not None else None
     onward = algebra.Matrix.column(ring, (row.a, -(row.d * sine), row.d * cosine))
-    return (row.index, onward) if body.center_written == "midpoint" else None
+    return (row.index, onward) if part_of_the_way(body) is not None else None
 
 
 # -- how the tensor of a body along the axes of the base comes about: R I Rᵀ, or why it stays as it is

@@ -127,7 +127,8 @@ def _product(context: Context, angular: Expr, factor: Expr) -> Node:
 def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     """From the sum of the squares of v to K_v, along the axes of the first frame in which they come apart.
 
-    Those along the base's axes are of use where they are shown before.
+    Those along the base's axes are of use where they are shown before.  Where the squares come apart in no
+    frame, they are multiplied out where that makes the fewest terms.
     """
     velocity = context.values[f"v{body.name}"]
     if not context.is_short or velocity.is_zero or body.mass.is_zero:
@@ -135,18 +136,20 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     factor, rest = _with_factor(context, body)
     if squares_shown and (way := _from_components(context, body, rest, factor)):
         return way
-    for i, along in along_axes(context, body):
+    each = list(along_axes(context, body))
+    for i, along in each:
         way = _from_components(context, body, along)
         if way is not None:
             return _begun_along(context, body, i, way)
+    i, along = min(each, key=lambda pair: sum(len(x) * (len(x) + 1) for x in pair[1].entries))
     return _begun_along(context, body, i, _squared(context, body, along))
 
 
 def _begun_along(context: Context, body: Body, i: int | None, way: Way) -> Way:
     """The lines from v along the axes of another frame, and before them v brought there."""
-    if i is None:
-        return way
     v, value = letters.of_body("v", body, "bold"), context.values[f"v{body.name}"]
+    if i is None or turn_of_frame(context, i)[0].T @ value == value:
+        return way
     kept, written = say("the length of {v}", v=v), written_velocity(context, body)
     line = turning_line(context, i, v, value, written, kept)
     return replace(way, lines=(line, *way.lines), frame=i)
