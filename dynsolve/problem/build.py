@@ -15,7 +15,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.bodies import ParsedShape
 from dynsolve.problem.decoder import Record
 from dynsolve.problem.model import ParsedFile
-from dynsolve.problem.questions_build import load, named_point, with_questions
+from dynsolve.problem.questions import named_point, with_questions
 from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, PlaceBuilder, evaluate, mass_value, tensor_value
 from dynsolve.problem.yaml_nodes import Faults
@@ -38,7 +38,7 @@ def build_robot(
     """
     inputs = tuple(q.force for q in parsed.coordinates) if asked & HOLD_FORCES else ()
     references = tuple(reference(q.name) for q in parsed.coordinates) if "Yr" in asked else ()
-    values = evaluate(faults, parsed, inputs, references)
+    values = evaluate(faults, parsed, written, inputs, references)
     if values is None:
         return None
     ring = values.ring
@@ -60,7 +60,6 @@ def build_robot(
         bodies = [body and _given_from_world(body, rotation) for body in bodies]
     asked_points = [named_point(builder.places, point) for point in parsed.questions.points]
     points = [point for point in asked_points if point]
-    loads = [load(builder.places, entry, points, len(joints)) for entry in parsed.questions.loads]
     if faults.errors or gravity is None:
         return None
     robot = Robot(
@@ -81,9 +80,7 @@ def build_robot(
         from dynsolve.problem.acting import actions
 
         robot = replace(robot, actions=actions(values, parsed.acting))
-    known_loads = [one for one in loads if one]
-    is_drawn = parsed.normals is not None
-    robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)
+    robot = with_questions(values, robot, parsed.questions, points, asked, parsed.normals is not None)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
 

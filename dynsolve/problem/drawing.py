@@ -252,7 +252,7 @@ class _Framing:
 
     def __init__(self, faults: Faults, parsed: ParsedDrawing, ring: Ring, convention: Convention) -> None:
         self.faults, self.parsed, self.ring, self.convention = faults, parsed, ring, convention
-        self.cells = CellValues(faults, ring, frozenset())
+        self.cells = CellValues(faults, ring, frozenset(), {})
 
     def framed(self) -> Framed | None:
         """The table and the base; None where something was reported."""

@@ -24,7 +24,6 @@ from dynsolve.problem.bodies import is_point
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record, Stated
 from dynsolve.problem.kinds import Fields, describe, items, word
-from dynsolve.problem.questions import ParsedQuestions
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, STRICT
 from dynsolve.problem.table import COLUMNS, DHTable, read_listed_row
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, YamlNode
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
     from dynsolve.problem.acting import Acting
     from dynsolve.problem.exercise import Remark, Wording
     from dynsolve.problem.mechanism import Candidates, Model
+    from dynsolve.problem.questions import ParsedQuestions
     from dynsolve.robot.drawing.normals import Normals
 
 

@@ -1,6 +1,6 @@
-"""What a problem file asks around the model, as it is written: named points, the task, forces, the state.
+"""What a problem file asks around the model: named points, the task, and what each question is given.
 
-`reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints.
+What is written becomes the robot's `Questions`, with exact values.
 """
 
 from __future__ import annotations
@@ -11,152 +11,28 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.notation.tree import Symbol
-from dynsolve.problem.actions import ParsedLoad, ParsedWeights, read_loads, read_weights
 from dynsolve.problem.base import ParsedRotation
 from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames, ParsedPlace, read_link, read_place
-from dynsolve.problem.cells import (
-    Cell,
-    forbid,
-    read_angle,
-    read_cell,
-    read_expressions,
-    read_point_expression,
-)
-from dynsolve.problem.kinds import Fields, describe, items, whole_number, word
-from dynsolve.problem.kinematic_keys import (
-    ALL,
-    IN_LINK,
-    MAX_POINTS,
-    MAX_TASK,
-    POINT,
-    WHOLE,
-)
+from dynsolve.problem.cells import Cell, forbid, read_point_expression
+from dynsolve.problem.kinds import Fields, items, whole_number
+from dynsolve.problem.kinematic_keys import IN_LINK, MAX_POINTS, MAX_TASK, POINT, WHOLE
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.state import Given, ParsedState, is_reached, read_state
-from dynsolve.problem.table import by_coordinate
+from dynsolve.problem.state import Around, Given, ParsedState, is_reached, read_state
+from dynsolve.problem.values import CellValues, PlaceBuilder
 from dynsolve.problem.yaml_nodes import (
     Faults,
     FaultyNode,
-    ListNode,
     MappingNode,
     ScalarNode,
     Span,
     YamlNode,
-    too_many,
 )
+from dynsolve.quantities.letters import has_base
+from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import ASKED_FOR, Stage
-
-# `reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints
-
-
-class ParsedReach(Struct, frozen=True):
-    """The values of r(q), names or expressions, and where they stand."""
-
-    cells: tuple[Cell, ...] = ()
-    span: Span = (0, 0)
-
-    def names(self, parameters: Collection[str]) -> tuple[str, ...]:
-        """The names that are new here, one for each value that is nothing but such a name."""
-        found = (cell.tree.name for cell in self.cells if isinstance(cell.tree, Symbol))
-        return tuple(name for name in found if name != "pi" and name not in parameters)
-
-
-NO_REACH = ParsedReach()
-"""What a file without the key has."""
-
-
-def read_reach(faults: Faults, node: YamlNode | None, coordinates: Collection[str]) -> ParsedReach:
-    """The values under `reach`; what is wrong with one is reported."""
-    help = PROBLEM["reach"].help
-    listed = list(_rejoined(faults, items(faults, node, "reach", help)))
-    if node is None or isinstance(node, FaultyNode):
-        return NO_REACH
-    if len(listed) > MAX_TASK:
-        faults.error(node.span, f"{len(listed)} values; at most {MAX_TASK} are read", "leave some out")
-        return NO_REACH
-    cells = tuple(
-        read_cell(faults, item, f"value {i} of reach", arcs=True) for i, item in enumerate(listed, 1)
-    )
-    known = tuple(cell for cell in cells if cell)
-    names: set[str] = set()
-    for cell in known:
-        if not isinstance(cell.tree, Symbol):
-            forbid(faults, [cell], coordinates, "a value holds numbers and parameters")
-        elif cell.tree.name in coordinates or cell.tree.name in names:
-            message = f"{cell.tree.name} means something else already"
-            faults.error(cell.span, message, "give the value another name")
-        else:
-            names.add(cell.tree.name)
-    return ParsedReach(known, node.span) if len(known) == len(cells) else NO_REACH
-
-
-def _rejoined(faults: Faults, listed: Sequence[YamlNode]) -> Iterator[YamlNode]:
-    """The items, those that a comma inside parentheses has cut made one again: atan2(4, 3)."""
-    waiting = list(listed)
-    while waiting:
-        node = waiting.pop(0)
-        while isinstance(node, ScalarNode) and waiting and node.text.count("(") > node.text.count(")"):
-            end = waiting.pop(0).span[1]
-            node = replace(node, text=faults.source.text[node.start : end])
-        yield node
-
-
-def check_reach(faults: Faults, reach: ParsedReach, rows: int) -> None:
-    """There is a value for each component of the task."""
-    if reach.cells and len(reach.cells) != rows:
-        faults.error(
-            reach.span,
-            f"reach has {len(reach.cells)} value{'s' * (len(reach.cells) > 1)}; the task has {rows}",
-            "give one value for each component of the task, in their order",
-        )
-
-
-# -- joint ranges ----------------------------------------------------------------------------------
-
-
-class ParsedLimits(Struct, frozen=True):
-    """The range of one coordinate, and where it stands."""
-
-    coordinate: str
-    low: Cell
-    high: Cell
-    span: Span
-
-
-def read_limits(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> tuple[ParsedLimits, ...]:
-    """The ranges under `limits`; what is wrong with one is reported."""
-    if node is None or isinstance(node, FaultyNode):
-        return ()
-    if not isinstance(node, MappingNode):
-        faults.error(node.span, "limits is a mapping from coordinates to ranges", PROBLEM["limits"].help)
-        return ()
-    return tuple(_ranges(faults, node, kinds))
-
-
-def _ranges(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> Iterator[ParsedLimits]:
-    help = PROBLEM["limits"].help
-    for name, value in by_coordinate(faults, node, kinds, help):
-        if not isinstance(value, ListNode) or len(value.items) != 2:
-            if not isinstance(value, FaultyNode):
-                message = f"the range of {name} is a list [low, high], not {describe(value)}"
-                if isinstance(value, ListNode):
-                    message = f"the range of {name} has {len(value.items)} ends, not 2"
-                remedy = too_many(value, help) if isinstance(value, ListNode) else help
-                faults.error(value.span, message, remedy)
-        else:
-            low, high = (_end(faults, item, name, kinds) for item in value.items)
-            if low and high:
-                yield ParsedLimits(name, low, high, value.span)
-
-
-def _end(faults: Faults, node: YamlNode, name: str, kinds: Mapping[str, str]) -> Cell | None:
-    cell = read_cell(faults, node, f"the range of {name}")
-    forbid(faults, [cell], kinds, "a range holds numbers and parameters")
-    if cell and kinds[name] == "revolute" and read_angle(faults, cell) is None:
-        return None
-    return cell
-
+from dynsolve.robot.geometry import last_origin
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import TIP, NamedPoint, Questions, State, Task, coordinate_of
 
 _NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
 
@@ -180,31 +56,15 @@ class ParsedTask(Struct, frozen=True):
     span: Span = (0, 0)
 
 
-class ParsedRates(Struct, frozen=True):
-    """`velocity:` or `acceleration:` of the task."""
-
-    key: str
-    span: Span
-    cells: tuple[Cell, ...]
-
-
 class ParsedQuestions(Struct, frozen=True):
-    """What a file asks around the model."""
+    """What a file asks around the model; `of` is what it gives for each question that has keys of its own."""
 
     points: tuple[ParsedPoint, ...] = ()
     task: ParsedTask | None = None
-    loads: tuple[ParsedLoad, ...] = ()
     state: ParsedState | None = None
-    velocity: ParsedRates | None = None
-    acceleration: ParsedRates | None = None
-    reach: ParsedReach = NO_REACH
-    all_branches: bool = False
-    limits: tuple[ParsedLimits, ...] = ()
-    weights: ParsedWeights | None = None
     reached_state: Span | None = None
     """Where the file says that the state is the configuration that reaches the target."""
     of: Mapping[Stage, Given] = {}
-    """What is given for questions that read their keys themselves."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -220,23 +80,14 @@ class ParsedQuestions(Struct, frozen=True):
     @property
     def needed(self) -> frozenset[str]:
         """What families need that is given (`Family.needs`)."""
-        return self.rates.union(*(given.needed for given in self.of.values()))
-
-    @property
-    def rates(self) -> frozenset[str]:
-        """Which rates are given: velocity, acceleration."""
-        return frozenset(rates.key for rates in (self.velocity, self.acceleration) if rates)
+        return frozenset().union(*(given.needed for given in self.of.values()))
 
     @property
     def constant(self) -> Iterator[Cell]:
         """The values that are constant."""
-        for place in (*(point.place for point in self.points), *(load.place for load in self.loads)):
-            yield from place.cells if place else ()
-        for rotation in self.rotations:
-            yield from rotation.entries
+        for point in self.points:
+            yield from point.place.cells if point.place else ()
         yield from self.state.cells.values() if self.state else ()
-        for row in self.weights.rows if self.weights else ():
-            yield from row
         for given in self.of.values():
             yield from given.constant
 
@@ -246,22 +97,25 @@ class ParsedQuestions(Struct, frozen=True):
         yield from self.task.cells if self.task else ()
         for given in self.of.values():
             yield from given.moving
-        for load in self.loads:
-            yield from (*load.force, *load.moment)
-        for rates in (self.velocity, self.acceleration):
-            yield from rates.cells if rates else ()
 
     @property
     def targeted(self) -> Iterator[Cell]:
-        """The values that are to be reached, and the ends of joint ranges."""
-        yield from self.reach.cells
-        for one in self.limits:
-            yield from (one.low, one.high)
+        """The values that are numbers alone."""
+        for given in self.of.values():
+            yield from given.targeted
 
     @property
     def rotations(self) -> Iterator[ParsedRotation]:
         """Every rotation that is given."""
-        yield from (load.rotation for load in self.loads if load.rotation)
+        for given in self.of.values():
+            yield from given.rotations
+
+    @property
+    def states(self) -> Iterator[ParsedState]:
+        """The values of coordinates, of which the ring must hold the sines and cosines."""
+        yield from (self.state,) if self.state else ()
+        for given in self.of.values():
+            yield from given.states
 
 
 def read_questions(
@@ -283,20 +137,13 @@ def read_questions(
             "it is fixed in the link: joint variables stand in the table",
         )
     names = [point.name for point in points]
-    task = _read_task(faults, fields.get("task"), names, coordinates)
+    around = Around(coordinates, rows, names, bool(bodies), drawn)
     return ParsedQuestions(
         points,
-        task,
-        read_loads(faults, fields.get("forces"), rows, coordinates, drawn),
+        _read_task(faults, fields.get("task"), names, coordinates),
         read_state(faults, fields.get("state"), coordinates),
-        _read_rates(faults, fields, "velocity"),
-        _read_rates(faults, fields, "acceleration"),
-        read_reach(faults, fields.get("reach"), coordinates),
-        word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
-        read_limits(faults, fields.get("limits"), coordinates),
-        read_weights(faults, fields.get("weights"), coordinates, bool(bodies)),
         fields.span_of("state") if is_reached(fields.get("state")) else None,
-        {stage: stage.part("file").read(faults, fields, coordinates, names) for stage in _asking(fields)},
+        {stage: stage.part("file").read(faults, fields, around) for stage in _asking(fields)},
     )
 
 
@@ -306,14 +153,6 @@ def _asking(fields: Fields) -> Iterator[Stage]:
         keys = stage.part("keys")
         if keys is not None and any(key.name in fields for key in keys.KEYS):
             yield stage
-
-
-def _read_rates(faults: Faults, fields: Fields, key: str) -> ParsedRates | None:
-    cells = read_expressions(faults, fields.get(key), key, PROBLEM[key].help)
-    return None if cells is None else ParsedRates(key, fields.span_of(key), cells)
-
-
-# -- points ----------------------------------------------------------------------------------------
 
 
 def _read_points(
@@ -371,9 +210,6 @@ def _read_axes(faults: Faults, node: YamlNode | None, rows: int, link: int | Non
     return frame
 
 
-# -- the task --------------------------------------------------------------------------------------
-
-
 def _read_task(
     faults: Faults, node: YamlNode | None, points: Collection[str], coordinates: Collection[str]
 ) -> ParsedTask | None:
@@ -391,3 +227,77 @@ def _read_task(
     ]
     found = tuple(cell for cell in cells if cell)
     return ParsedTask(found) if found and len(found) == len(cells) else None
+
+
+# The robot's `Questions`
+
+
+def named_point(places: PlaceBuilder, parsed: ParsedPoint) -> NamedPoint | None:
+    """The point of an entry of `points:`; None where a fault of it was reported."""
+    if parsed.place is None:
+        return None
+    position = places.position(parsed.place, parsed.link, "at", parsed.written)
+    if position is None or parsed.link is None:
+        return None
+    return NamedPoint(parsed.name, parsed.link, position, parsed.written, parsed.axes)
+
+
+def with_questions(
+    values: CellValues,
+    robot: Robot,
+    parsed: ParsedQuestions,
+    points: Sequence[NamedPoint],
+    asked: frozenset[str],
+    is_drawn: bool,
+) -> Robot:
+    """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
+    state = parsed.state.values if parsed.state else {}
+    questions = Questions(
+        points=tuple(_axes_named(robot, point) for point in points),
+        task=_task(parsed.task),
+        asked=asked,
+        state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
+        is_drawn=is_drawn,
+        state_is_reached=parsed.reached_state is not None,
+    )
+    asks_of_tip = parsed.needed & {"velocity", "acceleration"} or Stage.TASK in asked_stages(questions)
+    if questions.task is None and (asks_of_tip or parsed.reached_state):
+        questions = replace(questions, task=default_task(robot))
+    robot = replace(robot, questions=questions)
+    for stage, given in parsed.of.items():
+        robot = stage.part("file").build(values, robot, given)
+    _check_names(values, robot, parsed)
+    if parsed.reached_state is not None and robot.questions.target is None:
+        help = "write reach: [...] with a number for each component of the task, or give the state itself"
+        values.faults.error(parsed.reached_state, "state: reach needs the numbers of a target", help)
+    return robot
+
+
+def _axes_named(robot: Robot, point: NamedPoint) -> NamedPoint:
+    """The point, whose axes are the world's where frame 0 is the world."""
+    return replace(point, axes=None) if point.axes == 0 and not has_base(robot) else point
+
+
+def _check_names(values: CellValues, robot: Robot, parsed: ParsedQuestions) -> None:
+    """The names of a pose, x, y, z and r11 to r33, are no other things where the file does not name it."""
+    questions = robot.questions
+    taken = {*robot.parameters, *(q.name for q in robot.coordinates)}
+    found = [name for name in questions.reached if name in taken]
+    is_unnamed = not questions.reach and questions.target is None
+    if found and is_unnamed and parsed.task is not None and parsed.task.is_pose:
+        message = f"{found[0]} means something else already, and is also the name of a value of the pose"
+        help = "name its twelve values under `reach`: the position, then the rotation row by row"
+        values.faults.error(parsed.task.span, message, help)
+
+
+def _task(parsed: ParsedTask | None) -> Task | None:
+    if parsed is None:
+        return None
+    return Task(tuple(cell.tree for cell in parsed.cells), is_twist=parsed.is_twist, is_pose=parsed.is_pose)
+
+
+def default_task(robot: Robot) -> Task:
+    """The coordinates of the tip that move, or all where it never does."""
+    tip = last_origin(robot)
+    moving = [axis for axis in range(3) if robot.ring.depends_on_coordinates(tip[axis, 0])]
+    return Task(tuple(coordinate_of(TIP, axis) for axis in moving or range(3)), is_default=True)

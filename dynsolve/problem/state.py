@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from msgspec import Struct
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Function, Node, Symbol
+from dynsolve.problem.base import ParsedRotation
+from dynsolve.problem.bodies import DrawnFrames
 from dynsolve.problem.cells import Cell, forbid, read_angle, read_cell
 from dynsolve.problem.kinds import did_you_mean
 from dynsolve.problem.kinematic_keys import REACHED
@@ -39,16 +41,33 @@ class ParsedState(Struct, frozen=True):
         ]
 
 
+class Around(Struct, frozen=True):
+    """What is known of a file when the keys of a question are read.
+
+    The types of its `coordinates`, how many `rows` its table has, the names of its `points`, whether
+    something has mass, and the frames of a drawing.
+    """
+
+    coordinates: Mapping[str, str]
+    rows: int
+    points: Collection[str]
+    has_bodies: bool
+    drawn: DrawnFrames
+
+
 class Given(Struct, frozen=True):
     """What a file gives for a question: its values, those that are `constant` and those that may be `moving`.
 
-    `states` are values of coordinates, of which the ring must hold the sines and cosines; `needed` are names
-    of what families need (`Family.needs`).
+    `targeted` are those that are numbers alone.  `states` are values of coordinates, of which the ring must
+    hold the sines and cosines, as those of the `rotations`; `needed` are names of what families need
+    (`Family.needs`).
     """
 
     constant: tuple[Cell, ...] = ()
     moving: tuple[Cell, ...] = ()
+    targeted: tuple[Cell, ...] = ()
     states: tuple[ParsedState, ...] = ()
+    rotations: tuple[ParsedRotation, ...] = ()
     needed: frozenset[str] = frozenset()
 
 

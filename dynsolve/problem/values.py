@@ -11,7 +11,7 @@ The mass and the inertia tensor of a body, made exact; what is wrong with them i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
 from msgspec import Struct
@@ -180,10 +180,15 @@ def _check_derivatives(faults: Faults, parsed: ParsedFile) -> None:
 
 
 class CellValues:
-    """The values of cells in one ring; what has none is reported, once."""
+    """The values of cells in one ring; what has none is reported, once.
 
-    def __init__(self, faults: Faults, ring: Ring, left_out: frozenset[int]) -> None:
-        self.faults, self.ring, self._left_out = faults, ring, left_out
+    `written` are the numbers under `values`, as they stand in the file.
+    """
+
+    def __init__(
+        self, faults: Faults, ring: Ring, left_out: frozenset[int], written: Mapping[str, str]
+    ) -> None:
+        self.faults, self.ring, self._left_out, self.written = faults, ring, left_out, written
 
     def expr(self, cell: Cell) -> Expr | None:
         """The value of a cell, None where something of it was reported."""
@@ -232,7 +237,11 @@ class CellValues:
 
 
 def evaluate(
-    faults: Faults, parsed: ParsedFile, inputs: Iterable[str] = (), references: tuple[str, ...] = ()
+    faults: Faults,
+    parsed: ParsedFile,
+    written: Mapping[str, str],
+    inputs: Iterable[str] = (),
+    references: tuple[str, ...] = (),
 ) -> CellValues | None:
     """The ring that holds everything in the file, and `inputs`; None (reported) where there is none.
 
@@ -261,7 +270,7 @@ def evaluate(
     if references:
         ring = with_references(ring, references)
     _check_angles(faults, parsed, ring)
-    return CellValues(faults, ring, frozenset(left_out))
+    return CellValues(faults, ring, frozenset(left_out), written)
 
 
 def _check_angles(faults: Faults, parsed: ParsedFile, ring: Ring) -> None:
@@ -285,8 +294,7 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
         trees += (*parsed.model.rates, *parsed.model.slopes)
     trees += [Function("sgn", Symbol(name, 1)) for name in parsed.acting.signs] if parsed.acting else []
     angles = [angle for _, angle in parsed.angles]
-    asked = parsed.questions
-    states = [*([asked.state] if asked.state else []), *(s for one in asked.of.values() for s in one.states)]
+    states = list(parsed.questions.states)
     for state in states:
         trees += state.turned
     ring = build_ring(parsed.table.coordinates, trees, angles, preferred)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 
 from msgspec.structs import replace
 
 from dynsolve.notation.tree import Node, Reference, Symbol, names_in, walk
 from dynsolve.problem.cells import Cell, denominators, read_point_expression, read_rate_cell
 from dynsolve.problem.kinds import Fields, items
-from dynsolve.problem.state import Given
+from dynsolve.problem.state import Around, Given
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.yaml_nodes import Faults, MappingNode, YamlNode
 from dynsolve.questions.constraints.keys import KEYS, MAX_CONSTRAINTS, RATES
@@ -25,9 +25,7 @@ class GivenConstraints(Given, frozen=True):
     in_rates: tuple[bool, ...] = ()
 
 
-def read(
-    faults: Faults, fields: Fields, coordinates: Mapping[str, str], points: Collection[str]
-) -> GivenConstraints:
+def read(faults: Faults, fields: Fields, around: Around) -> GivenConstraints:
     """The entries of `constraints`; what is wrong with one is reported."""
     node = fields.get("constraints")
     listed = items(faults, node, "constraints", KEYS[0].help)
@@ -35,7 +33,7 @@ def read(
         message = f"{len(listed)} constraints; at most {MAX_CONSTRAINTS} are read"
         faults.error(node.span, message, "leave some out")
         return GivenConstraints()
-    found = [_read(faults, item, i, points, coordinates) for i, item in enumerate(listed, 1)]
+    found = [_read(faults, item, i, around.points, around.coordinates) for i, item in enumerate(listed, 1)]
     kept = [entry for entry in found if entry is not None]
     return GivenConstraints(moving=tuple(cell for cell, _ in kept), in_rates=tuple(one for _, one in kept))
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
 from msgspec.structs import replace
 
 from dynsolve.problem.cells import Cell, read_expressions
 from dynsolve.problem.kinds import Fields, mapping, word
-from dynsolve.problem.state import Given, ParsedState, read_values
+from dynsolve.problem.state import Around, Given, ParsedState, read_values
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, MappingNode, YamlNode
 from dynsolve.questions.equilibria.keys import BALANCE, BALANCE_KEY, INPUTS, INPUTS_KEY, LINEARIZE, STEADY
@@ -23,16 +23,14 @@ class GivenEquilibrium(Given, frozen=True):
     inputs_given: bool = False
 
 
-def read(
-    faults: Faults, fields: Fields, coordinates: Mapping[str, str], points: Collection[str]
-) -> GivenEquilibrium:
+def read(faults: Faults, fields: Fields, around: Around) -> GivenEquilibrium:
     """The keys of a file; what is wrong is reported."""
     inputs = word(faults, fields.get("inputs"), INPUTS.choices, "inputs", INPUTS_KEY.help)
-    linearize = _read_equilibrium(faults, fields.get("linearize"), coordinates)
-    steady = _read_steady(faults, fields.get("steady"), coordinates)
+    linearize = _read_equilibrium(faults, fields.get("linearize"), around.coordinates)
+    steady = _read_steady(faults, fields.get("steady"), around.coordinates)
     return GivenEquilibrium(
         constant=tuple(cell for state in (linearize, steady) if state for cell in state.cells.values()),
-        moving=_read_balanced(faults, fields.get("balance"), len(coordinates)),
+        moving=_read_balanced(faults, fields.get("balance"), len(around.coordinates)),
         states=(linearize,) if linearize else (),
         needed=frozenset({"linearize"} if linearize else ()),
         linearize=linearize,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 
 from msgspec.structs import replace
 
@@ -15,7 +15,7 @@ from dynsolve.problem.kinds import (
     did_you_mean,
     items,
 )
-from dynsolve.problem.state import Given
+from dynsolve.problem.state import Around, Given
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.questions.parameters.keys import KEYS, KNOWN, MAX_PARAMETERS
@@ -31,9 +31,7 @@ class GivenParameters(Given, frozen=True):
     named: tuple[str, ...] = ()
 
 
-def read(
-    faults: Faults, fields: Fields, coordinates: Mapping[str, str], points: Collection[str]
-) -> GivenParameters:
+def read(faults: Faults, fields: Fields, around: Around) -> GivenParameters:
     """The key of a file; what is wrong is reported."""
     node = fields.get("parameters")
     if node is None or isinstance(node, FaultyNode):
@@ -51,7 +49,7 @@ def read(
         if name in cells:
             faults.error(key.span, f"{name} is given twice", "keep one of them")
         elif name and cell:
-            forbid(faults, [cell], coordinates, "a parameter is free of coordinates: they stand in Y")
+            forbid(faults, [cell], around.coordinates, "a parameter is free of coordinates: they stand in Y")
             cells[name] = cell
     if len(cells) > MAX_PARAMETERS:
         faults.error(

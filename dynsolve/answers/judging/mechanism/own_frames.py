@@ -58,7 +58,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem.model import Problem
-from dynsolve.problem.questions_build import default_task
+from dynsolve.problem.questions import default_task
 from dynsolve.robot.actions import values_of, with_values
 from dynsolve.robot.geometry import Turn, absolute_angles, elementary
 from dynsolve.robot.model import Axes, AxesKind, Body, Convention, Joint, JointType, Robot
