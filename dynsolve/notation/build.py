@@ -198,7 +198,7 @@ def number_in_front(node: Node) -> Node:
             return Product((Number(p, q), *others))
         case Quotient(Product(factors), Number(q, 1)):
             return Product((Number(1, q), *factors))
-        case Quotient(Symbol() | Power() | Sum() as numerator, Number(q, 1)):
+        case Quotient(Symbol() | Power() | Sum() | Quotient() as numerator, Number(q, 1)):
             return Product((Number(1, q), numerator))
     return node
 
