@@ -32,6 +32,8 @@ from dynsolve.answers.reading.configurations import (
 )
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
+from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import QUOTED, REJECTED, SUPPOSED
 from dynsolve.answers.reading.set_text import (
     ALL,
@@ -55,6 +57,7 @@ from dynsolve.answers.reading.set_text import (
 )
 from dynsolve.answers.reading.sources import Source, placed
 from dynsolve.answers.verdict import Place
+from dynsolve.errors import ReadError
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
 
@@ -402,7 +405,7 @@ class DisplayedSets(Struct, dict=True):
         """The answer that the equations of a display belong to; `words` stand before them."""
         vocabulary = self.reader.vocabulary
         asked = [name for name in ANNOUNCED if name in vocabulary.quantities]
-        if self.told >= set(asked) or not _IS_STATEMENT.search(text) or _is_determinant(text):
+        if self.told >= set(asked) or not _IS_STATEMENT.search(text) or self._gives_an_answer(text):
             return None
         spoken = self._spoken_of(words + text)
         has_begun = not spoken and "inverse" in self.found
@@ -410,6 +413,17 @@ class DisplayedSets(Struct, dict=True):
         if is_open and self._are_branches(text, has_begun or spoken == "inverse"):
             return "inverse"
         return spoken if spoken not in ("", "inverse", *self.told) and is_set(vocabulary, text) else None
+
+    def _gives_an_answer(self, row: str) -> bool:
+        """Whether a row gives an answer of its own, as `det J = l_1 l_2 s_2`, and no condition of it."""
+        left = row.partition("=")[0]
+        if _ARROW.search(row) or _IS_ZERO.search(row) or self._is_unknown(left):
+            return False
+        try:
+            named = read_left_side(self.reader.vocabulary, prepared(left)[:-1])
+        except ReadError:
+            return False
+        return isinstance(named, NamedAnswers)
 
     def _are_branches(self, text: str, is_announced: bool) -> bool:
         """Whether every equation gives a coordinate, or its sine or cosine, by what is to be reached.
@@ -456,12 +470,6 @@ def _plain(row: str) -> str:
     """A row without what only sets it; `+a or -a` is ±a."""
     row = _EITHER_SIGN.sub(r"= ±\1", " ".join(row.split()))
     return _SIGN.sub("=", _ALIGN.sub("", _LAYOUT.sub(" ", row))).strip().rstrip(".,;").strip()
-
-
-def _is_determinant(row: str) -> bool:
-    """Whether a row gives the determinant, and no condition of it."""
-    is_condition = _ARROW.search(row) or _IS_ZERO.search(row)
-    return _DETERMINANT.match(row) is not None and not is_condition
 
 
 def _determinant(row: str) -> str:

@@ -112,6 +112,9 @@ _STATUS = (
 )  # fmt: skip
 _COMMENTS = ("Feedback comments", "Feedback als Kommentar")
 _NUMBER = re.compile(r"(\d+)\s*$")
+_NOT_IN_FILES = re.compile(r"[\x00-\x1f\x7f&<>\"`|':\\/]")
+"""What Moodle takes out of the names of files, those of people among them: O'Neil is ONeil there."""
+
 _DATE = re.compile(r"\d{4}|\d[:.h]\d{2}")
 _DAY = re.compile(
     r"days?|tage?n?|da[gn](?:er|ar|e|en|a|i|o)?|d[øy]g?n|jours?|d[ií]as?|dies|giorn[oi]|päivää?|päev\w*|vrk|dzień|dni|den|"
@@ -205,7 +208,8 @@ def people(roster: Roster) -> Iterator[Person]:
         name = row[0][: digits.start()].strip() if hidden else row[1]
         group = row[status + 1].strip() if status is not None and status + 1 < grade else ""
         also = tuple(cell for cell in row[2:status] if cell) if not hidden else ()
-        yield Person(f"{name.replace('_', ' ')}_{digits[1]}", digits[1], name, group, also)
+        in_files = _NOT_IN_FILES.sub("", name.replace("_", " "))
+        yield Person(f"{in_files}_{digits[1]}", digits[1], name, group, also)
 
 
 def late(roster: Roster) -> dict[str, int] | None:

@@ -328,8 +328,9 @@ def read(reader: Reader, function: str) -> Value:
 
 
 def _two_arguments(reader: Reader, name: Token) -> Arguments:
-    """(y, x) of atan2."""
+    """(y, x) of atan2, in braces too as SymPy prints it."""
     help = f"write {name.text}(y, x)"
+    brace = reader.take() if reader.token.kind == "{" and reader.peek().kind == "(" else None
     if reader.token.kind != "(":
         raise name.fault(f"`{name.text}` has no arguments", help)
     opening = reader.take()
@@ -339,6 +340,8 @@ def _two_arguments(reader: Reader, name: Token) -> Arguments:
     reader.take()
     parts.append(reader.sum())
     reader.expect(")", opening)
+    if brace is not None:
+        reader.expect("}", brace)
     y, x = parts
     if not isinstance(y, Node) or not isinstance(x, Node):
         raise name.fault(f"`{name.text}` of a matrix or a vector", help)

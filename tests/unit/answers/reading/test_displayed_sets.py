@@ -37,6 +37,7 @@ find: [singular, equilibria]
 ATAN = r"\operatorname{atan2}"
 C2 = r"\frac{p_x^2 + p_y^2 - l_1^2 - l_2^2}{2 l_1 l_2}"
 Q1 = rf"q_1 = {ATAN}(p_y, p_x) - {ATAN}(l_2 \sin q_2, l_1 + l_2 \cos q_2)"
+SYMPY_Q1 = Q1.replace("(", r"{\left(").replace(")", r"\right)}")
 
 # (the problem, the report, the verdicts)
 REPORTS = [
@@ -54,6 +55,8 @@ REPORTS = [
     (TWO_LINKS, rf"$$\cos q_2 = {C2}, \quad \sin q_2 = \pm\sqrt{{1 - \cos^2 q_2}}$$"
                 rf" $$q_2 = {ATAN}(\sin q_2, \cos q_2)$$ $${Q1}$$", {"inverse": "correct"}),
     (TWO_LINKS, rf"$$c_2 = {C2} \Rightarrow q_2 = \pm\cos^{{-1}}(c_2)$$ $${Q1}$$", {"inverse": "correct"}),
+    (TWO_LINKS, rf"$$q_2 = \pm\arccos {C2}$$ $${SYMPY_Q1}$$",
+     {"inverse": "correct"}),
     (TWO_LINKS, rf"$$q_2 = \arccos {C2}$$ $${Q1.replace('-', '+')}$$", {"inverse": "wrong"}),
     (NUMBERS, "Both solutions:\n\n$$q_1 = 0, \\quad q_2 = \\pi/2$$\n\n$$q_1 = \\pi/2, \\quad q_2 = -\\pi/2$$",
      {"inverse": "correct"}),
@@ -73,6 +76,10 @@ REPORTS = [
      {"singular": "correct"}),
     (BALANCE, "It is singular at\n\n$$s_2 = 0$$\n\nIn equilibrium\n\n$$c_1 = 0 \\text{ and } s_2 = 0$$",
      {"singular": "correct", "equilibria": "correct"}),
+    (BALANCE, "## Equilibria\n\nequilibria:\n\n## The gravity terms\n\n"
+              r"$$\mathbf{g} = \begin{bmatrix} g (m_1 + m_2) l_1 c_1 + m_2 g l_2 c_{12} \\ "
+              r"m_2 g l_2 c_{12} \end{bmatrix}$$",
+     {"g": "correct", "equilibria": "missing"}),
     (TWO_LINKS, r"$$\mathcal{N}(J) = \mathrm{span}\left\{"
                 r"\begin{bmatrix} l_2 \\ -l_1 - l_2 \end{bmatrix}\right\}$$"
                 r" $$\mathcal{R}(J) = \text{span}\{[-s_1, c_1]^T\}$$"

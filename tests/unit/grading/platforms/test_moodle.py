@@ -13,8 +13,11 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import InputError
+from dynsolve.grading.platforms.moodle import people
+from dynsolve.grading.platforms.roster import read_roster
 from dynsolve.grading.record import Record
 from dynsolve.grading.set_file import ProblemSet
+from tests.support import with_files
 from tests.unit.grading.platforms.marked import ENGLISH, exported, graded
 
 WITH_GROUPS = (
@@ -166,3 +169,9 @@ def test_moodle_is_not_given_what_it_refuses_without_a_word(
     header += "Last modified (submission),Last modified (grade),Feedback comments"
     row = f"Participant 1,Ada,a@x,Submitted,,{maximum},Yes,-,-,"
     assert said in exported(tmp_path, problems, record, "moodle", f"{header}\n{row}\n")
+
+
+def test_people_are_called_as_moodle_calls_their_files(tmp_path: Path) -> None:
+    table = "Identifier,Full name,Status,Grade\nParticipant 7,Ida O'Neil: A_B,,\n"
+    (person,) = people(read_roster(with_files(tmp_path, {"worksheet.csv": table}) / "worksheet.csv"))
+    assert (person.student, person.name) == ("Ida ONeil A B_7", "Ida O'Neil: A_B")
