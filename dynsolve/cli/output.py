@@ -16,12 +16,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-import typer
+import click
 from msgspec import Struct
 
-from dynsolve.cli.numbers import STDIN
+from dynsolve.cli.numbers import STDIN, Names
 from dynsolve.errors import UsageError
 from dynsolve.render.files import SUFFIXES, Format, check_place, suffix_of, write_whole
 
@@ -38,19 +38,15 @@ Form = TypeVar("Form", bound=StrEnum)
 JOINED = (Format.TEXT, Format.JSON)
 """Forms of which one file may hold several."""
 
-FormatOption = Annotated[
-    Format | None,
-    typer.Option("--format", help="The form, where the suffix of -o does not say it."),
-]
-OutputOption = Annotated[
-    str | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="FILE",
-        help="Write to a file (.tex, .pdf, .html, .md, .json, .txt), or for each problem into a folder.",
-    ),
-]
+format_option = click.option(
+    "--format", type=Names(Format), help="The form, where the suffix of -o does not say it."
+)
+output_option = click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    help="Write to a file (.tex, .pdf, .html, .md, .json, .txt), or for each problem into a folder.",
+)
 
 
 class Output(Struct, frozen=True):
@@ -235,7 +231,7 @@ def bar_or_lines(title: str, quiet: bool = False) -> Iterator[Advance | None]:
         if now - said > EVERY:
             said = now
             left = (now - start) / done * (of - done)
-            typer.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
+            click.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
 
     yield line
 
