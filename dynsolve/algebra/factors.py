@@ -289,6 +289,26 @@ def squares(expr: Expr) -> tuple[Expr, ...]:
     return tuple(halves.expr(halves.ctx.from_dict({exponents: 1})) for exponents in sorted(bare))
 
 
+def halves(expr: Expr) -> tuple[tuple[Expr, ...], ...]:
+    """Sets, in one of which all is 0 where an expression is: one for each factor in half angles.
+
+    c₁ + c₂ is 0 where cos((q₁ + q₂)/2) is or cos((q₁ - q₂)/2); a factor is 0 where its products with the
+    sine and the cosine of the halves of its angles are, which hold whole angles.
+    """
+    found, halves = [], _HalfAngles(expr.ring)
+    poly = halves.homogeneous(expr) if halves.can_hold(expr) else halves.ctx.constant(1)
+    parts = factors(poly, halves.roots, [(pair.sine, pair.cosine) for pair in expr.ring.pairs])
+    for factor, _ in parts:
+        multiples = [factor]
+        for pair in expr.ring.pairs:
+            if any((int(e[pair.sine]) + int(e[pair.cosine])) % 2 for e in factor.monoms()):
+                both = halves.gens[pair.sine], halves.gens[pair.cosine]
+                multiples = [multiple * half for multiple in multiples for half in both]
+        found.append(tuple(map(halves.expr, multiples)))
+    moving = [one for one in found if any(map(expr.ring.depends_on_coordinates, one))]
+    return tuple(one for one in moving if not (len(one) == 1 and is_positive(one[0]))) or ((expr,),)
+
+
 class _HalfAngles:
     """The ring's polynomials with S and C in the places of sine and cosine, without relations."""
 

@@ -1,6 +1,6 @@
 """Gauss's elimination on floating-point numbers, by which the independent checks are made.
 
-Whether there are angles at which A cos θ + B sin θ + C is 0: where A² + B² ≥ C².
+A cos θ + B sin θ + C.
 
 The signs of polynomials in parameters, which count as positive, under what is assumed of them.
 """
@@ -173,6 +173,10 @@ class ParameterSigns(Struct, frozen=True):
         part = self.open_part(value)
         return part.is_number and part.number > 0
 
+    def implies(self, bound: Bound, known: Sequence[Bound]) -> bool:
+        """Whether an inequality follows from others."""
+        return follows(bound, [*known, *self.beside(*known)._positive(bound.value), *self.assumed])
+
     def _sign(self, factor: Expr) -> int:
         """1 or -1 where it is known, else 0."""
         for sign in (1, -1):
@@ -210,7 +214,7 @@ def _factored(value: Expr) -> tuple[bool, list[tuple[Expr, int]]]:
     return content > 0, [(Expr(ring, factor), int(times)) for factor, times in plain]
 
 
-# Whether there are angles at which A cos θ + B sin θ + C is 0: where A² + B² ≥ C²
+# Expressions in one angle
 
 
 class Turn(Struct, frozen=True):
@@ -225,11 +229,6 @@ class Turn(Struct, frozen=True):
     def is_one_sided(self) -> bool:
         """Whether the cosine stands alone, or the sine."""
         return self.cosine.is_zero or self.sine.is_zero
-
-    @property
-    def room(self) -> Expr:
-        """A² + B² - C², which is not negative where it is 0 for some angle."""
-        return self.cosine**2 + self.sine**2 - self.rest**2
 
 
 def turn_of(value: Expr) -> Turn | None:
@@ -248,18 +247,3 @@ def turn_of(value: Expr) -> Turn | None:
             return Turn(pair, *(parts.get(key, ring.zero) for key in ((1, 0), (0, 1), (0, 0))))
         return None
     return None
-
-
-def conditions(values: Iterable[Expr], signs: ParameterSigns) -> tuple[Bound, ...] | None:
-    """What the parameters must satisfy for these to be 0 somewhere; None where they never are."""
-    found = []
-    for value in values:
-        turn = turn_of(value)
-        if turn is None or turn.rest.is_zero:
-            continue
-        left = signs.open_part(turn.room)
-        if signs.is_positive(-left):
-            return None
-        if not left.is_number:
-            found.append(Bound(left, False))
-    return tuple(found)

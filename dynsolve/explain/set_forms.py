@@ -81,15 +81,16 @@ class SetForms:
 
     def existence(self, name: str, exist: Sequence[Sequence[Bound]]) -> Iterator[Prose]:
         """For which parameters the alternatives of a set are there that are not for all."""
-        cases = self.alternatives(name)
-        for case, bounds in zip(cases, exist, strict=True):
-            if bounds:
-                zeros = side_by_side([equation(value, Number(0)) for value in case])
-                yield say(
-                    "{these} has solutions where {conditions}.",
-                    these="This" if len(cases) == 1 else zeros,
-                    conditions=side_by_side([*map(self.inequality, bounds)]),
-                )
+        count = len(self.alternatives(name))
+        for bounds in dict.fromkeys(map(tuple, exist)):
+            if not bounds:
+                continue
+            places = [k for k, other in enumerate(exist, 1) if tuple(other) == bounds]
+            these = "This" if count == 1 else "Each case" if len(places) == count else _cases(places)
+            yield say(
+                f"{these} {'have' if 1 < len(places) < count else 'has'} solutions where {{conditions}}.",
+                conditions=side_by_side([*map(self.inequality, bounds)]),
+            )
 
     def matrix(self, values: Values) -> Matrix:
         """A matrix of a ring of the search."""
@@ -140,6 +141,12 @@ class SetForms:
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
+
+
+def _cases(places: Sequence[int]) -> str:
+    """`Case 2`, or `Cases 1 and 3`."""
+    *first, last = map(str, places)
+    return f"Cases {', '.join(first)} and {last}" if first else f"Case {last}"
 
 
 def without_number(node: Node) -> Node:

@@ -38,12 +38,12 @@ class Stage(StrEnum):
     NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", True
     VECTORIZED = "vectorized", "The matrix form"
     PARAMETERS = "parameters", "Linear in the parameters", True
+    CONSTRAINTS = "constraints", "Constraints", True
     EQUILIBRIA = "equilibria", "Equilibria and linearization", True
     FORWARD_DYNAMICS = "forward_dynamics", "Forward dynamics", True
     TASK_INERTIA = "task_inertia", "Inertia as the task meets it", True
     DEFINITE = "definite", "Inertia matrices: symmetric, positive definite", True
     STATICS = "statics", "Statics", True
-    CONSTRAINTS = "constraints", "Constraints", True
 
     def __new__(cls, value: str, heading: str = "", asked_for: bool = False) -> Stage:
         """The member of that value."""

@@ -308,9 +308,8 @@ def newton(f: Any, x: Array) -> Array | None:
 
 # arms with a twist of 45° (4, 37, 71), equations that exclude each other (2, 15), an alternative that
 # is there for some lengths alone (34, 59), a sum of squares (3), a long Jacobian (42), cases that
-# repeat a condition (413)
-WITHIN_ANOTHER = pytest.mark.xfail(reason="an alternative is listed that lies within another one")
-SEEDS = (0, 2, 3, 4, 15, 34, 37, 42, 59, 71, pytest.param(413, marks=WITHIN_ANOTHER))
+# repeat a condition and one that lies within another (413)
+SEEDS = (0, 2, 3, 4, 15, 34, 37, 42, 59, 71, 413)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -497,7 +497,8 @@ def _holds(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {&}|There|In every configuration>: <stable|not stable>[, but for {&}, along which nothing changes]."
+    "<At {&}|In these equilibria|In every configuration>: <stable|not stable>[, but for {&}, along which "
+    "nothing changes]."
 )
 def _stable(m: Mechanism, s: Sentence) -> bool:
     still = names_of(tuple(node for node in s.formulas if isinstance(node, tree.Symbol)))
@@ -508,7 +509,10 @@ def _stable(m: Mechanism, s: Sentence) -> bool:
     return m.is_stable(point, s.words[1], still) and not any(m.changes(m.at_rest, (q,)) for q in still)
 
 
-@says("<There|In case #|In every configuration>: the signs of the second derivatives depend on the ....")
+@says(
+    "<In these equilibria|In case #|In every configuration>: the signs of the second derivatives depend on "
+    "the ...."
+)
 def _signs_depend(m: Mechanism, s: Sentence) -> bool:
     def signs(p: Point) -> Any:
         return np.sign(np.round(np.linalg.eigvalsh(m.stiffness(p)), 6))
@@ -860,6 +864,11 @@ The last joint does not move its own axis: the first two turn that to where it i
 Combined, without factors that are never 0:
 The parameters are the same.
 What is left of ℒ where nothing moves, with the opposite sign.
+Along what the constraints leave free, the columns of {} with {}, the energy is curved as {} is, with the {}
+  of the equilibrium.
+Where that is positive definite, the equilibrium is stable; where the energy falls in some direction, it is
+  not.
+How stable <they|the others> are is not told here.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
 Where nothing moves: not derived.
 Independent entries are chosen of which all of these are combinations; other independent combinations ...

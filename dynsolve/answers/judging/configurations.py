@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property
 from math import degrees, pi, radians, remainder
 from typing import TYPE_CHECKING, Any
 
@@ -42,6 +42,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.questions.equilibria.check import (
     balanced_forces,
     balanced_points,
+    holding,
     in_balance,
     is_balanced,
     starts,
@@ -171,7 +172,8 @@ class EquationSet(Struct, frozen=True):
         def is_met(q: Mapping[str, float]) -> bool:
             return any(one.hold(turned) for turned in self._turned(q) for one in theirs)
 
-        missed = [q for one in self.alternatives for q in self._points(one) if not is_met(q)]
+        found = (q for one in self.alternatives for q in self._points(one))
+        missed = [q for q in found if self.belongs(q) and not is_met(q)]
         if not missed:
             return RIGHT
         where = example_point(self.robot, formulas, missed if given else [], self.belongs, is_met)
@@ -195,8 +197,9 @@ def equilibria_of(
     forces: Sequence[Node],
     alternatives: Sequence[Sequence[Node]],
     numbers: Mapping[str, float],
+    holds: Callable[[Mapping[str, float]], bool] = lambda at: True,
 ) -> EquationSet:
-    """The set where forces are 0; `numbers` are those that the problem gives."""
+    """The set where forces are 0, and it `holds`; `numbers` are those that the problem gives."""
     program, begun = compile_trees(forces), list(starts(robot, numbers))
     turning = turning_in(robot)
 
@@ -212,7 +215,7 @@ def equilibria_of(
         robot,
         forces,
         alternatives,
-        partial(is_zero, program),
+        lambda at: is_zero(program, at) and holds(at),
         begun,
         "no_equilibrium",
         "equilibria_missing",
@@ -301,11 +304,13 @@ class ConfigurationKey:
 
     @cached_property
     def _equilibria(self) -> EquationSet:
-        forces = in_balance(self.forms, self.forms(balanced_forces(self.robot)))
+        balanced = self.forms(balanced_forces(self.robot))
+        forces = in_balance(self.forms, balanced)
         alternatives = self.equilibria.equilibria
         if any(self._is_special(one.factor) for one in self.values["equilibria"].special):
             alternatives = (tuple(forces),)
-        return equilibria_of(self.robot, forces, alternatives, self.numbers)
+        holds = holding(self.forms, balanced)
+        return equilibria_of(self.robot, forces, alternatives, self.numbers, holds)
 
     def _is_special(self, factor: Expr) -> bool:
         """Whether a factor is 0 for the numbers of the problem, for which the equilibria are others."""

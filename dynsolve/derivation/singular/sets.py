@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import combinations
 
 from msgspec import Struct, field
 
@@ -11,7 +12,8 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive, squares, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix, minors, parts, work
-from dynsolve.derivation.elimination import ParameterSigns, conditions
+from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.existence import conditions
 from dynsolve.derivation.singular.losses import Loss, loss, lost_everywhere
 from dynsolve.derivation.singular.zeros import Condition, can_hold, core, exceptions, follows, obstacles
 
@@ -52,9 +54,19 @@ class Special(Struct, dict=True):
     factors: dict[Expr, None] = field(default_factory=dict)
     is_open: bool = False
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether what is said holds for all parameters."""
+        return not self.factors and not self.is_open
+
     def add(self, value: Expr) -> None:
         """What must not be 0."""
         self.factors |= dict.fromkeys(self.signs.open_factors(value))
+
+    def join(self, other: Special) -> None:
+        """What another one has, too."""
+        self.factors |= other.factors
+        self.is_open |= other.is_open
 
     def add_one_of(self, values: Sequence[Expr]) -> None:
         """Values of which one must not be 0: that with the fewest terms in factors that may be."""
@@ -144,14 +156,26 @@ def common_zeros(values: Sequence[Expr], special: Special | None = None) -> tupl
 
     Where the parameters are `special` it may be elsewhere.  Raises TooLong.
     """
+    return zeros_of_any([values], special)
+
+
+def zeros_of_any(sets: Iterable[Sequence[Expr]], special: Special | None = None) -> tuple[Alternative, ...]:
+    """The same where the expressions of any of several sets are all 0."""
     cases = _Cases(special)
-    found = list(dict.fromkeys(map(cases.without_repeated, cases.of(tuple(values), ()))))
+    every = (one for values in sets for one in cases.of(tuple(values), ()))
+    found = list(dict.fromkeys(map(cases.without_repeated, every)))
     if any(sum(len(condition.expr) for condition in one) > MOST_CONDITION_TERMS for one in found):
         raise TooLong
     for one in list(found):
         if any(other is not one and cases.implies(one, other) for other in found):
             found.remove(one)
     return tuple(_merged(found))
+
+
+def lies_in(known: Sequence[Expr], values: Iterable[Expr], special: Special | None = None) -> bool:
+    """Whether values are 0 wherever those that are `known` to be 0 are: but for `special` parameters."""
+    cases = _Cases(special)
+    return all(cases.follows(value, known) for value in values)
 
 
 class _Cases(Struct, dict=True):
@@ -166,7 +190,7 @@ class _Cases(Struct, dict=True):
         if self.terms > MOST_CASE_TERMS:
             raise TooLong
         known = [condition.expr for condition in held]
-        left = [value for value in dict.fromkeys(values) if not self._follows(value, known)]
+        left = [value for value in dict.fromkeys(values) if not self.follows(value, known)]
         if not left:
             yield from self._settled(held)
             return
@@ -196,14 +220,19 @@ class _Cases(Struct, dict=True):
         kept = list(alternative)
         for condition in sorted(alternative, key=lambda one: -len(one.expr)):
             others = [other.expr for other in kept if other is not condition]
-            if self._follows(condition.expr, others):
+            if self.follows(condition.expr, others):
                 kept.remove(condition)
         return tuple(kept)
 
     def implies(self, one: Alternative, other: Alternative) -> bool:
         """Whether `other` holds wherever `one` does."""
         known = [condition.expr for condition in one]
-        return all(condition in one or self._follows(condition.expr, known) for condition in other)
+        return all(condition in one or self._follows_from_some(condition.expr, known) for condition in other)
+
+    def _follows_from_some(self, value: Expr, known: Sequence[Expr]) -> bool:
+        """Whether a value is found to be 0 where others are: all of them, or two, which are sooner looked at."""
+        pairs = combinations(known, 2) if len(known) > 2 else ()
+        return self.follows(value, known) or any(self.follows(value, pair) for pair in pairs)
 
     # -- what holds for general parameters alone ---------------------------------------------------
 
@@ -220,7 +249,7 @@ class _Cases(Struct, dict=True):
             self.special.add(condition.multiplier([value]))
         return condition.reduced(value)
 
-    def _follows(self, value: Expr, others: Sequence[Expr]) -> bool:
+    def follows(self, value: Expr, others: Sequence[Expr]) -> bool:
         found = follows(value, others)
         if found and self.special is not None:
             self.special.add_one_of(exceptions(value, others))

@@ -9,9 +9,9 @@ accelerations.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations, islice
-from math import atan2
+from math import atan2, hypot
 
 from msgspec import Struct
 
@@ -19,7 +19,7 @@ from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import ENOUGH, samples
 from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.configurations import NO_VALUE, is_zero
-from dynsolve.derivation.elimination import is_positive_definite, solved
+from dynsolve.derivation.elimination import is_positive_definite, rank, solved
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
@@ -28,7 +28,7 @@ from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.questions.equilibria.balance import STATES, never_zero, table_lengths
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
-from dynsolve.questions.equilibria.solving import Point, Stability, order_of_minors, wanted_rows
+from dynsolve.questions.equilibria.solving import Point, Stability, multipliers, wanted_rows
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
 
@@ -41,10 +41,11 @@ _NEAR_ZERO = 1e-4
 
 
 class Case(Struct, frozen=True):
-    """Expressions that are 0 together, and the points among them whose stability is told."""
+    """Expressions that are 0 together, the points among them whose stability is told, and sets left out."""
 
     zeros: tuple[Node, ...]
     points: tuple[Point, ...]
+    excluded: tuple[tuple[Node, ...], ...] = ()
 
 
 def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator[dict[str, float]]:
@@ -80,7 +81,8 @@ def in_balance(forms: Forms, forces: Node) -> list[Node]:
     row = tuple(forces.rows[k][0] for k in wanted)
     if not robot.questions.constraints or robot.questions.model.steady:
         return list(row)
-    A, h, order = forms("Ac"), forms("hc"), order_of_minors(robot, forms.values["Ac"])
+    A, h = forms("Ac"), forms("hc")
+    order = multipliers(robot, *(forms.values[name] for name in ("g", "Ac", "hc"))).rank + 1
     assert isinstance(A, Matrix) and isinstance(h, Matrix)
     columns = [tuple(line[k] for k in wanted) for line in A.rows]
     dependent = [
@@ -89,6 +91,22 @@ def in_balance(forms: Forms, forces: Node) -> list[Node]:
         for across in combinations(range(len(wanted)), order)
     ]
     return [*dependent, *(line[0] for line in h.rows)]
+
+
+def holding(forms: Forms, forces: Node) -> Callable[[Mapping[str, float]], bool]:
+    """Whether there are multipliers where `in_balance` is 0: gᵀ leaves the rank of A_c as it is."""
+    robot, wanted = forms.robot, wanted_rows(forms.robot)
+    if not robot.questions.constraints or robot.questions.model.steady:
+        return lambda at: True
+    program = compile_trees([forms("Ac"), forces])
+
+    def holds(at: Mapping[str, float]) -> bool:
+        A, g = program.run(at)
+        rows = [[line[k] for k in wanted] for line in A]
+        row = [g[k][0] for k in wanted]
+        return rank(rows, _NEAR_ZERO, scale=1.0) == rank([*rows, row], _NEAR_ZERO, scale=1.0)
+
+    return holds
 
 
 def _determinant(rows: Sequence[Sequence[Node]]) -> Node:
@@ -137,22 +155,37 @@ def zero_along(names: Sequence[str], zeros: Program, start: Mapping[str, float])
     return None
 
 
-def verify_equilibria(robot: Robot, balanced: Node, zeros: Sequence[Node], cases: Sequence[Case]) -> None:
-    """Compare the cases with the forces, which are those of `balanced_forces`.
+def verify_equilibria(
+    robot: Robot,
+    balanced: Node,
+    zeros: Sequence[Node],
+    cases: Sequence[Case],
+    holds: Callable[[Mapping[str, float]], bool] = lambda at: True,
+    constraints: Node | None = None,
+) -> None:
+    """Compare the cases with the forces, which are those of `balanced_forces`; `holds` is that of `holding`.
 
-    Raises VerificationError where an equilibrium is none, one is missing, or its stability is another.
+    `constraints` is A_c where an energy decides on the stability of what constraints hold.  Raises
+    VerificationError where an equilibrium is none, one is missing, or its stability is another.
     """
     forces = compile_trees(list(zeros))
     programs = [compile_trees(list(case.zeros)) for case in cases]
+    left_out = [[compile_trees(list(one)) for one in case.excluded] for case in cases]
     for start in starts(robot):
-        for program, case in zip(programs, cases, strict=True):
+        for program, without, case in zip(programs, left_out, cases, strict=True):
             at = zero_near(robot, program, start) if case.zeros else start
-            if at is not None and not is_zero(forces, at):
+            if at is not None and not (
+                is_zero(forces, at) and (holds(at) or any(_lies_in(robot, one, at) for one in without))
+            ):
                 raise VerificationError("something moves in an equilibrium; this is a fault of dynsolve")
+            none = (zero_near(robot, one, start) for one in without)
+            if any(at is not None and holds(at) for at in none):
+                raise VerificationError("an equilibrium is left out; this is a fault of dynsolve")
         found = zero_near(robot, forces, start)
-        if found is not None and not any(_lies_in(robot, program, found) for program in programs):
+        is_one = found is not None and holds(found)
+        if found is not None and is_one and not any(_lies_in(robot, program, found) for program in programs):
             raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
-    whole = compile_trees([balanced])
+    whole = compile_trees([balanced, *([constraints] if constraints else [])])
     for program, case in zip(programs, cases, strict=True):
         for point in case.points:
             _verify_stability(robot, whole, program, point)
@@ -187,6 +220,8 @@ def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Poin
 
 def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point) -> bool:
     """Whether the energy rises but along what is neutral."""
+    if robot.questions.constraints:
+        return _rises_along(robot, forces, at)
     steady = dict(robot.questions.model.steady)
     rest = [q for q in robot.coordinates if q.index - 1 not in point.neutral and q.name not in steady]
     rows = []
@@ -194,6 +229,49 @@ def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point)
         ahead, behind = (forces.run({**at, q.name: at[q.name] + step})[0] for step in (_STEP, -_STEP))
         rows.append([(ahead[k.index - 1][0] - behind[k.index - 1][0]) / (2 * _STEP) for k in rest])
     return is_positive_definite(rows)
+
+
+def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
+    """Whether the energy rises along what constraints leave free, by differences of g - A_cᵀ λ."""
+    g, A = program.run(at)
+    across = _orthonormal(A)
+    free = _orthonormal([[float(i == j) for j in range(robot.n)] for i in range(robot.n)], across)
+    squares = [[sum(a * b for a, b in zip(row, other, strict=True)) for other in A] for row in A]
+    pulls = solved(squares, [sum(a * force[0] for a, force in zip(row, g, strict=True)) for row in A])
+
+    def left(q: Mapping[str, float]) -> list[float]:
+        forces, rows = program.run(q)
+        held = (sum(x * row[k] for x, row in zip(pulls, rows, strict=True)) for k in range(robot.n))
+        return [force[0] - x for force, x in zip(forces, held, strict=True)]
+
+    slopes = []
+    for q in robot.coordinates:
+        ahead, behind = (left({**at, q.name: at[q.name] + step}) for step in (_STEP, -_STEP))
+        slopes.append([(a - b) / (2 * _STEP) for a, b in zip(ahead, behind, strict=True)])
+    curved = [
+        [
+            sum(a * s * b for a, row in zip(u, slopes, strict=True) for b, s in zip(v, row, strict=True))
+            for v in free
+        ]
+        for u in free
+    ]
+    return is_positive_definite(curved)
+
+
+def _orthonormal(
+    rows: Sequence[Sequence[float]], others: Sequence[Sequence[float]] = ()
+) -> list[list[float]]:
+    """Unit vectors, each orthogonal to the `others`, in the span of both."""
+    found: list[list[float]] = []
+    for row in rows:
+        left = list(row)
+        for _ in range(2):  # once more for what rounding left
+            for one in (*others, *found):
+                along = sum(a * b for a, b in zip(left, one, strict=True))
+                left = [a - along * b for a, b in zip(left, one, strict=True)]
+        if (length := hypot(*left)) > _NEAR_ZERO:
+            found.append([a / length for a in left])
+    return found
 
 
 def verify(held: Held) -> None:
@@ -204,9 +282,11 @@ def verify(held: Held) -> None:
     if "balance" in held.wanted:
         verify_balance(robot, forms("g"), shown.balance)
     if "equilibria" in held.wanted:
-        cases = [Case(*case) for case in zip(shown.equilibria, values["equilibria"].points, strict=True)]
+        told = zip(shown.equilibria, values["equilibria"].points, shown.excluded, strict=True)
         balanced = forms(balanced_forces(robot))
-        verify_equilibria(robot, balanced, in_balance(forms, balanced), cases)
+        zeros, holds = in_balance(forms, balanced), holding(forms, balanced)
+        A = forms("Ac") if robot.questions.constraints else None
+        verify_equilibria(robot, balanced, zeros, [Case(*case) for case in told], holds, A)
 
 
 def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:

@@ -34,12 +34,13 @@ from dynsolve.questions.equilibria.solving import (
     Point,
     SpecialCase,
     Stability,
-    order_of_minors,
+    multipliers,
     wanted_rows,
 )
 from dynsolve.robot.model import JointType, Robot
 
 _SOURCE = SLOTINE_LI.section("3.3")
+_ZERO = formula("𝟎")
 _DG = formula("∂𝐠/∂𝐪")
 
 
@@ -65,6 +66,7 @@ _AT_REST = (
 )
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
+_NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
 _GIVEN = "Let all parameters be positive{these}. "
 
 
@@ -95,19 +97,22 @@ def _equilibria(context: Context) -> Iterator[Step]:
         which="of the parameters" if found.may_be_others else factors,
     )
     lines = (Line(heading, rows),) if is_new else ()
+    notes: list[Prose] = []
     if not cases:
-        notes = [say("No configuration makes all of them 0{where}: there is no equilibrium.", where=where)]
+        never = "No configuration makes all of them 0{where}." if found.is_whole else _NEVER_HELD
+        of_free = [say(never, where=where)]
+        notes.append(say("There is no equilibrium{where}.", where=where))
     elif not cases[0]:
-        notes = [say("Nothing is left to be 0{where}: every configuration is an equilibrium.", where=where)]
+        of_free = [say("Nothing is left to be 0{where}.", where=where)]
+        notes.append(say("Every configuration is an equilibrium{where}.", where=where))
     else:
         of_free = [*_arbitrary(robot, cases)]
-        notes = [*shown.existence("equilibria", found.exist)]
+        notes += shown.existence("equilibria", found.exist)
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
     notes += [_special(shown, one) for one in found.special]
     if found.may_be_others:
         notes.append(("For special values of the parameters there may be others.",))
-    if found.may_be_dependent:
-        notes.append(say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$."))
+    notes += _without_multipliers(shown, found)
     steady = bool(robot.questions.model.steady)
     forces: Node = FORCES if steady else letters.G
     values = context.show(forces_of_motion(context)) if steady else context.form("g")
@@ -128,11 +133,11 @@ def _equilibria(context: Context) -> Iterator[Step]:
             else "",
         ),
         formula=_CONSTRAINED if constrained else _balance_of(robot, forces, values),
-        task=_CONSTRAINED if constrained else equation(forces, Number(0)),
+        task=_CONSTRAINED if constrained else equation(forces, _ZERO),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         working=working,
         lines=lines,
-        concluding=(_lead(len(result), len(rows) * is_new),)
+        concluding=_lead(len(result), len(rows) * is_new, found.is_whole)
         if len(result) > 1 or (result and is_new)
         else (),
         result=result,
@@ -141,8 +146,18 @@ def _equilibria(context: Context) -> Iterator[Step]:
         outcome=tuple(part for k, note in enumerate(notes) for part in ([" "] * (k > 0) + [*note])),
         detail=Detail.BRIEF,
     )
-    if any(points for points in found.points):
+    if any(found.points) or (constrained and cases):
         yield _stability(context, shown, found)
+
+
+def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
+    """Where in the alternatives the rows of A_c are dependent, and do not hold the forces."""
+    for number, sets in enumerate(shown.excluded, 1):
+        place = f" in case {number}" if len(shown.excluded) > 1 else ""
+        for one in sets:
+            yield say(f"Where{place} {{where}}, there is no $𝛌$, and no equilibrium.", where=vanishing(one))
+    if found.may_be_dependent:
+        yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
 
 
 def _arbitrary(robot: Robot, cases: Sequence[tuple[Node, ...]]) -> Iterator[Prose]:
@@ -158,10 +173,11 @@ def _arbitrary(robot: Robot, cases: Sequence[tuple[Node, ...]]) -> Iterator[Pros
             yield say(f"{place}{{free}} {verb} arbitrary.", free=listed([*map(Symbol, found)]))
 
 
-def _lead(cases: int, combinations: int) -> str:
-    """What leads from forces, or from combinations of them, to where they are 0."""
-    what = "All are" if combinations > 1 else "It is"
-    return f"{what} 0 in these cases:" if cases > 1 else f"{what} 0 where:"
+def _lead(cases: int, combinations: int, is_whole: bool) -> Prose:
+    """What leads from forces, or from combinations of them, to where they are 0, or if not whole are held."""
+    what = "All are 0" if combinations > 1 else "It is 0"
+    what = what if is_whole else f"{what} and there is a $𝛌$"
+    return say(f"{what} in these cases:" if cases > 1 else f"{what} where:")
 
 
 def _at_rest(robot: Robot, left: Node) -> Prose:
@@ -175,7 +191,8 @@ def _at_rest(robot: Robot, left: Node) -> Prose:
 def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
     """For which forces there are multipliers, and the rows that are dependent there."""
     robot = context.robot
-    columns, order = wanted_rows(robot), order_of_minors(robot, context.values["Ac"])
+    columns = wanted_rows(robot)
+    order = multipliers(robot, *(context.values[name] for name in ("g", "Ac", "hc"))).rank + 1
     if order > len(columns):
         return ("The constraints leave nothing free: what they allow is an equilibrium. ",), ()
     A, g = context.form("Ac"), context.form("g")
@@ -195,7 +212,7 @@ def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
     """g = 0, or the rows of it that must be 0 where motors hold the others."""
     rows = wanted_rows(robot)
     if len(rows) == robot.n or not isinstance(values, MatrixTree):
-        return equation(forces, *([values] if is_small(values) else []), Number(0))
+        return equation(forces, *([values] if is_small(values) else []), _ZERO)
     steady = bool(robot.questions.model.steady)
     letter = [letters.force(q) if steady else letters.entry("g", q.index) for q in robot.coordinates]
     return as_row(listed([equation(letter[k], values.rows[k][0], Number(0)) for k in rows]))
@@ -212,7 +229,10 @@ def _special(shown: EquilibriaForms, case: SpecialCase) -> Prose:
     if names_in(*forces).isdisjoint(q.name for q in shown.robot.coordinates):
         text = "Where {where}, every configuration is an equilibrium if {zero}, and none is if not."
         return say(text, where=where, zero=vanishing(forces))
-    return say("Where {where}, the equilibria are where {zero}.", where=where, zero=vanishing(forces))
+    exist = side_by_side([*map(shown.inequality, case.exist)]) if case.exist else None
+    text = "Where {where}, the equilibria are where {zero}{exist}."
+    there = say(", which has solutions where {exist}", exist=exist) if exist else ""
+    return say(text, where=where, zero=vanishing(forces), exist=there)
 
 
 def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> Step:
@@ -229,23 +249,46 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         why, energy = energy_of_motion(context)
         forces, working = forces_of_motion(context), (energy,)
         second = SECOND
-    curvature = context.show(linearization.curvature(robot, forces))
-    if is_small(curvature):
-        working = (*working, equation(second, curvature))
     told = [
-        _point(context, shown, point, case)
+        (point, _point(context, shown, point, case))
         for case, points in zip(shown.equilibria, found.points, strict=True)
         for point in points
     ]
+    if robot.questions.constraints and not steady:
+        told, more = _of_constrained(told, all(found.points))
+        why = say(_CONSTRAINED_ENERGY, curved=_CURVED) if told else ()
+    else:
+        more = ()
+        curvature = context.show(linearization.curvature(robot, forces))
+        working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
+    sentences = [*(sentence for _, sentence in told), *([more] if more else [])]
     return Step(
         id="equilibria_stability",
         title="How stable they are",
         why=why,
-        source=SOURCE if steady else SLOTINE_LI.section("3.4"),
+        source=(SOURCE if steady else SLOTINE_LI.section("3.4")) if told else "",
         working=working,
-        concluding=tuple(part for sentence in told for part in (*sentence, " ")),
+        concluding=tuple(part for sentence in sentences for part in (*sentence, " ")),
         uses=("equilibria",),
     )
+
+
+def _of_constrained(
+    told: list[tuple[Point, Prose]], are_points: bool
+) -> tuple[list[tuple[Point, Prose]], Prose]:
+    """What is known of equilibria that constraints hold, and that of others nothing is, if there are any."""
+    known = [(point, sentence) for point, sentence in told if point.is_told]
+    if len(known) == len(told) and are_points:
+        return known, ()
+    return known, (f"How stable {'the others' if known else 'they'} are is not told here.",)
+
+
+_CONSTRAINED_ENERGY = (
+    "Along what the constraints leave free, the columns of $𝐙$ with $𝐀_c 𝐙 = 𝟎$, the energy is curved as "
+    "{curved} is, with the $𝛌$ of the equilibrium. Where that is positive definite, the equilibrium is stable; where the energy falls in some "
+    "direction, it is not."
+)
+_CURVED = formula("𝐙ᵀ (∂(𝐠 - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙")
 
 
 def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:
@@ -266,8 +309,7 @@ def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[N
     steady = dict(context.robot.questions.model.steady)
     names = [context.robot.coordinates[k].name for k in point.neutral]
     free = listed([Symbol(name) for name in names if name not in steady])
-    is_told = point.conditions or point.stability is not Stability.UNDECIDED
-    along = say(", but for {free}, along which nothing changes", free=free) if free and is_told else ""
+    along = say(", but for {free}, along which nothing changes", free=free) if free and point.is_told else ""
     if point.drifts:
         along = (", but for motions along the equilibria, in which nothing changes",)
     where: Prose = ("In every configuration",)
@@ -275,7 +317,7 @@ def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[N
         where = ("At ", side_by_side(at))
     elif case:
         cases = shown.equilibria
-        where = ("There",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
+        where = ("In these equilibria",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
     return say("{where}: {said}{along}.", where=where, said=said, along=along)
 
 
@@ -294,7 +336,7 @@ def _balance(context: Context) -> Step:
     if isinstance(found, Skipped):
         return not_derived("balance", "What balances gravity", found.why)
     shown = EquilibriaForms(context.robot, context.values).balance
-    goal: Node = Number(0) if wanted is None else context.show(wanted)
+    goal: Node = _ZERO if wanted is None else context.show(wanted)
     g = equation(letters.G, context.form("g"))
     return Step(
         id="balance",

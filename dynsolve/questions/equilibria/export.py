@@ -25,7 +25,7 @@ QUARTERS = {(0, 1): "0", (1, 0): "pi/2", (0, -1): "pi", (-1, 0): "-pi/2"}
 
 
 def beside(export: Export) -> Iterator[tuple[str, Any]]:
-    """`equilibria_stability`, and for which parameters the equilibria are there, or are others."""
+    """`equilibria_stability`, where the equilibria are there, or are others; what is none in each."""
     shown, printer = EquilibriaForms(export.robot, export.values), export.python
     found = shown.values["equilibria"] if "equilibria" in export.robot.questions.asked else None
     if not isinstance(found, Equilibria):
@@ -42,6 +42,11 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
 
     yield "equilibria_stability", [[told(point) for point in points] for points in found.points]
     yield from existence("equilibria", shown, printer, found.exist)
+    if any(found.excluded):
+        yield (
+            "equilibria_except",
+            [[[f"{printer.text(e)} = 0" for e in one] for one in sets] for sets in shown.excluded],
+        )
     if found.special:
         yield "equilibria_special", [_special(one, shown, printer) for one in found.special]
     if found.may_be_others:

@@ -24,6 +24,14 @@ class EquilibriaForms(SetForms):
         """The equilibria: alternatives of expressions that are 0 together; none where they are too long."""
         return self.alternatives("equilibria")
 
+    @cached_property
+    def excluded(self) -> tuple[tuple[tuple[Node, ...], ...], ...]:
+        """Of each of the equilibria the sets within it at which constraints do not hold the forces."""
+        found = self.values["equilibria"]
+        if isinstance(found, Skipped):
+            return ()
+        return tuple(tuple(tuple(map(self.condition, one)) for one in sets) for sets in found.excluded)
+
     def relations(self, case: Alternative, zeros: tuple[Node, ...]) -> list[Node]:
         """What is 0 in a case, as equations: the tangent of an angle where that has one value."""
         return [

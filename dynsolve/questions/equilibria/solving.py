@@ -10,8 +10,7 @@ is: these are told, with the remainders of the forces on division by it, which a
 
 Where rates are held constant, g is the sum of forces in that motion (`linearization`).
 
-With constraints g = A_cᵀ λ and h = 0.  Where the rows of A_c are independent there is a λ if they and
-gᵀ are not: the minors of both together are 0.
+With constraints g = A_cᵀ λ and h = 0 (`multipliers`).
 
 Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.2 (1994).
 
@@ -36,23 +35,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import StrEnum
+from functools import partial
 from itertools import combinations, product
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
-from dynsolve.algebra.matrix import Matrix, determinant, minors, work
+from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
 from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.elimination import ParameterSigns, Turn, conditions, turn_of
+from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
+from dynsolve.derivation.existence import conditions, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
 from dynsolve.derivation.singular.zeros import Condition
+from dynsolve.questions.equilibria.multipliers import Multipliers, Settled
 from dynsolve.questions.parameters.derive import generators
 from dynsolve.robot.model import Robot
 
@@ -69,6 +70,9 @@ MOST_PRODUCTS = 50_000
 
 Values = tuple[tuple[Pair, int, int], ...]
 """(angle, sine, cosine): quarter turns."""
+
+Here = Callable[[Matrix], Matrix]
+"""What a matrix is where something is known."""
 
 
 class Stability(StrEnum):
@@ -97,16 +101,23 @@ class Point(Struct, frozen=True):
     is_open: bool = False
     drifts: bool = False
 
+    @property
+    def is_told(self) -> bool:
+        """Whether something is known."""
+        return bool(self.conditions) or self.stability is not Stability.UNDECIDED
+
 
 class Curvature(Struct, frozen=True):
     """The second derivatives of the energy, n×n, and the signs of what stands in them.
 
-    `may_be_held` says that forces which do no work act, too.
+    `may_be_held` says that forces which do no work act, too; with multipliers the energy is looked at along
+    what the constraints leave free.
     """
 
     second: Matrix
     signs: ParameterSigns
     may_be_held: bool
+    held: Multipliers | None = None
 
     def points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         """The quarter turns that a case allows, each with its stability where the case `exists`."""
@@ -124,11 +135,18 @@ class Curvature(Struct, frozen=True):
             if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
         ]
         for values in product(*turns):
-            at = _put(self.second, values)
-            for other in others:
-                (left,) = _put(Matrix.column(at.ring, [other.expr]), values).entries
-                at = _where_zero(at, left)
-            yield self._drifting(values, at, signs, len(alternative)) or self._point(values, at, signs, free)
+            left = _put(Matrix.column(ring, [other.expr for other in others]), values).entries
+            if conditions(left, signs) is None:
+                continue
+            here = partial(_there, values=values, zeros=left)
+            if self.held is not None:
+                along = self.held.along(self.second, here)
+                undecided = Point(values, Stability.UNDECIDED)
+                yield undecided if along is None else self._point(values, along, signs, (), here)
+                continue
+            at = here(self.second)
+            drifting = self._drifting(values, at, signs, len(alternative))
+            yield drifting or self._point(values, at, signs, free, here)
 
     def _drifting(self, values: Values, second: Matrix, signs: ParameterSigns, held: int) -> Point | None:
         """The stability where equilibria, of which `held` conditions are asked, are all that is flat.
@@ -147,35 +165,42 @@ class Curvature(Struct, frozen=True):
         is_stable = all(map(signs.is_positive, leading))
         return Point(values, Stability.STABLE, tuple(others), drifts=True) if is_stable else None
 
-    def _point(self, values: Values, second: Matrix, signs: ParameterSigns, free: Sequence[int]) -> Point:
-        """The stability at quarter turns where `free` coordinates may have any value."""
+    def _point(
+        self, values: Values, second: Matrix, signs: ParameterSigns, free: Sequence[int], here: Here
+    ) -> Point:
+        """The stability at quarter turns where `free` coordinates may have any value.
+
+        `here` puts in what is known there, up to a positive factor.
+        """
+
+        def minor(chosen: tuple[int, ...]) -> Expr:
+            return here(Matrix.of(second.ring, [[determinant(part(second, chosen, chosen))]]))[0, 0]
+
         neutral = tuple(k for k in free if all(entry.is_zero for entry in second.rows[k]))
         rest = tuple(k for k in range(len(second.rows)) if k not in neutral)
         if not rest or work(part(second, rest, rest)) > MOST_PRODUCTS:
             return Point(values, Stability.UNDECIDED, neutral, is_open=bool(rest))
-        if not self.may_be_held and _falls(second, rest, signs):
+        if not self.may_be_held and _falls(minor, rest, signs):
             return Point(values, Stability.UNSTABLE, neutral)
-        leading = (determinant(part(second, rest[:k], rest[:k])) for k in range(1, len(rest) + 1))
+        leading = (minor(rest[:k]) for k in range(1, len(rest) + 1))
         left = [
-            minor
-            for minor in map(signs.open_part, leading)
-            if not (minor.is_number and minor.number > 0) and not _is_positive_throughout(minor, signs)
+            sign
+            for sign in map(signs.open_part, leading)
+            if not (sign.is_number and sign.number > 0) and not _is_positive_throughout(sign, signs)
         ]
         if not left:
             return Point(values, Stability.STABLE, neutral)
-        if any(minor.is_number for minor in left):
-            moves = any(minor.ring.depends_on_coordinates(minor) for minor in left)
+        moves = any(sign.ring.depends_on_coordinates(sign) for sign in left)
+        if moves or any(sign.is_number for sign in left):
             return Point(values, Stability.UNDECIDED, neutral, is_open=moves)
-        if any(minor.ring.depends_on_coordinates(minor) for minor in left):
-            return Point(values, Stability.UNDECIDED, neutral, is_open=True)
-        conditions = independent([Bound(minor) for minor in _least(left, signs)], signs.assumed)
+        conditions = independent([Bound(sign) for sign in _least(left, signs)], signs.assumed)
         return Point(values, Stability.UNDECIDED, neutral, conditions, not self.may_be_held)
 
 
-def _falls(second: Matrix, rest: Sequence[int], signs: ParameterSigns) -> bool:
+def _falls(minor: Callable[[tuple[int, ...]], Expr], rest: Sequence[int], signs: ParameterSigns) -> bool:
     """Whether the energy surely falls in some direction: a principal minor is negative."""
     return any(
-        signs.is_positive(-determinant(part(second, chosen, chosen)))
+        signs.is_positive(-minor(chosen))
         for size in range(1, len(rest) + 1)
         for chosen in combinations(rest, size)
     )
@@ -202,16 +227,20 @@ def _least(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
     ]
 
 
-def _where_zero(second: Matrix, left: Expr) -> Matrix:
-    """The second derivatives where a further expression is 0, up to a positive factor."""
-    if left.is_zero:
-        return second
-    turn = turn_of(left)
-    if turn is not None and turn.is_one_sided:
-        return _at_turn(second, turn)
-    size = second.shape[1]
-    flat = Condition(left).reduced_together(second.entries)
-    return Matrix.of(second.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
+def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
+    """A matrix at quarter turns where further expressions are 0, up to a positive factor."""
+    matrix = _put(matrix, values)
+    for zero in zeros:
+        if zero.is_zero:
+            continue
+        turn = turn_of(zero)
+        if turn is not None and turn.is_one_sided:
+            matrix = _at_turn(matrix, turn)
+        else:
+            size = matrix.shape[1]
+            flat = Condition(zero).reduced_together(matrix.entries)
+            matrix = Matrix.of(matrix.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
+    return matrix
 
 
 def _at_turn(second: Matrix, turn: Turn) -> Matrix:
@@ -280,18 +309,23 @@ TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 
 
 class SpecialCase(Struct, frozen=True):
-    """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0."""
+    """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0.
+
+    `exist` is what the parameters must satisfy for that.
+    """
 
     factor: Expr
     forces: tuple[Expr, ...]
+    exist: tuple[Bound, ...] = ()
 
 
 class Equilibria(Struct, frozen=True):
     """Where all of `rows` are 0: at any of the alternatives, with the points of each.
 
     `exist` is what the parameters must satisfy for each to be there.  All this is so where none of the
-    `special` is; where there `may_be_others`, that are not told, for general parameters; where the rows of
-    A_c, which `may_be_dependent`, are not.
+    `special` is; where there `may_be_others`, that are not told, for general parameters.  With constraints
+    each is without the sets that are `excluded`, and further sets on which there are no multipliers are left
+    out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.
     """
 
     rows: tuple[Expr, ...]
@@ -300,6 +334,8 @@ class Equilibria(Struct, frozen=True):
     exist: tuple[tuple[Bound, ...], ...]
     special: tuple[SpecialCase, ...] = ()
     may_be_others: bool = False
+    excluded: tuple[tuple[Alternative, ...], ...] = ()
+    is_whole: bool = True
     may_be_dependent: bool = False
 
 
@@ -314,44 +350,25 @@ def wanted_rows(robot: Robot) -> list[int]:
     ]
 
 
-def constrained_columns(robot: Robot, A: Matrix) -> Matrix:
-    """The columns of A_c that belong to the coordinates that no motor holds."""
-    return part(A, tuple(range(A.shape[0])), tuple(wanted_rows(robot)))
-
-
-def order_of_minors(robot: Robot, A: Matrix) -> int:
-    """The order of the minors that are 0 where forces are combinations of these rows."""
-    return rank_parts(constrained_columns(robot, A)).rank + 1
+def multipliers(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Multipliers:
+    """What constraints may hold, in the columns that belong to the coordinates that no motor holds."""
+    return Multipliers.of(robot, wanted_rows(robot), forces, A, h)
 
 
 def constrained_equilibria(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Equilibria | Skipped:
     """The configurations in which multipliers hold the forces, and h is 0."""
-    columns = constrained_columns(robot, A)
-    row = Matrix.of(robot.ring, [[forces[k, 0] for k in wanted_rows(robot)]])
-    order = order_of_minors(robot, A)
-    held = [*minors(Matrix(robot.ring, (*columns.rows, *row.rows)), order), *h.entries]
-    if sum(map(len, held)) > MOST_TERMS:
-        return Skipped(TOO_LONG)
-    found = equilibria(robot, forces, held)
-    if isinstance(found, Skipped):
-        return found
-    there = Transfer(robot.ring, search_ring(robot.ring, (), {}))
-    try:
-        left = common_zeros([there(one) for one in (*minors(columns, order - 1), *h.entries)])
-    except TooLong:
-        return replace(found, may_be_dependent=True)
-    return replace(found, may_be_dependent=order > 1 and bool(left))
+    return equilibria(robot, forces, multipliers(robot, forces, A, h))
 
 
 def equilibria(
-    robot: Robot, forces: Matrix, held: Sequence[Expr] | None = None, may_be_held: bool = False
+    robot: Robot, forces: Matrix, held: Multipliers | None = None, may_be_held: bool = False
 ) -> Equilibria | Skipped:
     """The configurations where the forces (n×1) are 0 in every row that no motor holds.
 
     The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
-    `Curvature`.  Where constraints act, `held` are what is 0 in their place; no stability is told.
+    `Curvature`.  Where constraints act, they are `held` by these multipliers.
     """
-    wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held]
+    wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held.zeros(held.rank)]
     if sum(map(len, wanted)) > MOST_TERMS:
         return Skipped(TOO_LONG)
     ring = search_ring(robot.ring, (), {})
@@ -361,31 +378,51 @@ def equilibria(
     special = Special(signs)
     left = tuple(combined(robot, wanted, lambda factor: special.add(there(factor))))
     try:
-        alternatives = common_zeros([there(row) for row in left], special)
+        rows = [there(row) for row in left]
+        constrained = held.moved(there) if held else None
+        alternatives = constrained.found(rows, special) if constrained else common_zeros(rows, special)
     except TooLong:
         return Skipped(TOO_LONG)
+    settled: Settled | None = Settled(alternatives, tuple(() for _ in alternatives), True)
+    if constrained:
+        try:
+            settled = constrained.settled(alternatives, constrained.rank, special)
+            alternatives = settled.alternatives
+        except TooLong:
+            settled = None
+    excluded = dict(settled.pairs) if settled else {}
     found = {
         one: exist
         for one in alternatives
         if (exist := conditions([condition.expr for condition in one], signs)) is not None
     }
     points: tuple[tuple[Point, ...], ...] = tuple(() for _ in found)
-    if held is None:
-        rows = ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries)
-        second = Matrix.of(ring, rows)
+    if constrained is None or constrained.is_of_energy(robot.n):
+        slopes = ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries)
+        second = Matrix.of(ring, slopes)
         for condition in (condition for one in found for condition in one):
             special.add(condition.multiplier(second.entries))
-        curvature = Curvature(second, signs.beside(nonzero=special.factors), may_be_held)
+        curvature = Curvature(second, signs.beside(nonzero=special.factors), may_be_held, constrained)
         points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
-    short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
+    told = special.factors if settled and settled.is_whole else {}
+    short = [factor for factor in told if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
     return Equilibria(
         left,
         tuple(found),
         points,
-        tuple(found.values()),
-        tuple(SpecialCase(factor, _modulo(factor, map(there, wanted))) for factor in short),
+        tuple(without_ends(exist, short, signs) for exist in found.values()),
+        tuple(_special_case(factor, map(there, wanted), signs) for factor in short),
         special.is_open or len(short) < len(special.factors),
+        tuple(excluded.get(one, ()) for one in found),
+        settled is None or settled.is_whole,
+        settled is None,
     )
+
+
+def _special_case(factor: Expr, forces: Iterable[Expr], signs: ParameterSigns) -> SpecialCase:
+    left = _modulo(factor, forces)
+    exist = conditions(left, signs)
+    return SpecialCase(factor, (factor.ring.one,)) if exist is None else SpecialCase(factor, left, exist)
 
 
 def _modulo(factor: Expr, forces: Iterable[Expr]) -> tuple[Expr, ...]:

@@ -26,13 +26,10 @@ from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_nonnegative, is_positive
-from dynsolve.algebra.rationals import rational
-from dynsolve.algebra.ring import fourier_form
+from dynsolve.derivation.existence import fourier_parts
 from dynsolve.questions.inverse.equations import Equation, Unknowns
 
 # An expression by what its unknowns do in it: A cos ψ + B sin ψ + C, or A d² + B d + C
-
-Multiples = tuple[int, ...]
 
 
 class Harmonic(Struct, frozen=True):
@@ -56,35 +53,12 @@ def harmonic(expr: Expr, unknowns: Unknowns) -> Harmonic | None:
     names = [name for name in unknowns.turning if unknowns.has(expr, name)]
     if not names:
         return None
-    parts = _fourier(expr, names, unknowns)
+    parts = fourier_parts(expr, map(unknowns.pair, names))
     constant = parts.pop((0,) * len(names), (unknowns.ring.zero, unknowns.ring.zero))[0]
     if len(parts) != 1:
         return None
     ((multiples, (cosine, sine)),) = parts.items()
     return Harmonic(tuple((n, m) for n, m in zip(names, multiples, strict=True) if m), cosine, sine, constant)
-
-
-def _fourier(expr: Expr, names: list[str], unknowns: Unknowns) -> dict[Multiples, tuple[Expr, Expr]]:
-    """{n: (A, B)} of Σ A cos(n·q) + B sin(n·q) over some unknown angles."""
-    ring = expr.ring
-    places = [place for name in names for place in unknowns.pair(name)]
-    grouped: dict[tuple[int, ...], dict[tuple[int, ...], Fraction]] = {}
-    for exponents, factor in expr.poly.to_dict().items():
-        powers = tuple(int(exponents[i]) for i in places)
-        rest = tuple(0 if i in places else int(e) for i, e in enumerate(exponents))
-        grouped.setdefault(rest, {})[powers] = Fraction(int(factor.p), int(factor.q))
-    sums: dict[Multiples, tuple[dict[Any, Any], dict[Any, Any]]] = {}
-    for rest, polynomial in grouped.items():
-        for multiples, (a, b) in fourier_form(polynomial).items():
-            cosines, sines = sums.setdefault(multiples, ({}, {}))
-            _put(cosines, rest, a)
-            _put(sines, rest, b)
-    return {n: (_expr(ring, a), _expr(ring, b)) for n, (a, b) in sums.items()}
-
-
-def _put(terms: dict[Any, Any], exponents: tuple[int, ...], value: Fraction) -> None:
-    if value:
-        terms[exponents] = rational(value)
 
 
 def _expr(ring: Any, terms: Mapping[Any, Any]) -> Expr:

@@ -210,7 +210,7 @@ def test_constraints_hold_what_they_can_in_an_equilibrium() -> None:
     values = [sympy.sympify(side).subs(at) for side in sides]
     assert all(abs(value) < 1e-6 for value in values)
     assert all(abs(sympy.sympify(side).subs({**at, "q1": a + 0.1})) > 1e-3 for side in sides)
-    assert solution.to_json()["results"]["equilibria_stability"] == [[]]
+    assert solution.to_json()["results"]["equilibria_stability"] == [[{"stability": "undecided"}]]
 
 
 BEAD = """

@@ -1,0 +1,168 @@
+"""For which parameters expressions can be 0 together: how far sums of sines and cosines reach.
+
+What fixes an angle at quarter turns is put into the others.  A sum of swings A cos φ + B sin φ, whose
+angles φ are independent, takes every value between -Σ √(A² + B²) and Σ √(A² + B²).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.rationals import rational
+from dynsolve.algebra.ring import Multiples, Ring, fourier_form, positive
+from dynsolve.derivation.elimination import ParameterSigns, rank
+
+QUARTERS = ((0, 1), (1, 0), (0, -1), (-1, 0))
+"""Sine and cosine at quarter turns."""
+
+MOST_BRANCHES = 16
+"""With more combinations of quarter turns nothing is said."""
+
+Swings = dict[Multiples, tuple[Expr, Expr]]
+"""{n: (A, B)} of Σ A cos(n·q) + B sin(n·q)."""
+
+
+def conditions(values: Iterable[Expr], signs: ParameterSigns) -> tuple[Bound, ...] | None:
+    """What the parameters must satisfy for these to be 0 somewhere; None where they never are.
+
+    Each is looked at apart, but for what fixes an angle at quarter turns; nothing is said where the choice
+    of these leaves several conditions of which one is enough.
+    """
+    known = [swings for value in values if (swings := _swings(value)) is not None]
+    left = [swings for swings in known if not _quarters(swings)]
+    choices = [[(n, *at) for n in swings if any(n) for at in _quarters(swings)] for swings in known]
+    choices = [one for one in choices if one]
+    found = []
+    for fixed in product(*choices) if 2 ** len(choices) <= MOST_BRANCHES else [()]:
+        held = [n for n, _, _ in fixed]
+        bounds = [_reach(_at(swings, fixed), held, signs) for swings in left]
+        if None not in bounds:
+            found.append(tuple(dict.fromkeys(bound for one in bounds for bound in one or ())))
+    return _weakest(found, signs) if found else None
+
+
+def without_ends(
+    bounds: Iterable[Bound], nonzero: Iterable[Expr], signs: ParameterSigns
+) -> tuple[Bound, ...]:
+    """Inequalities that are strict where both sides are equal only if one of `nonzero` is 0."""
+    never = {sign * value for value in nonzero for sign in (1, -1)}
+    return tuple(
+        Bound(bound.value, bound.is_strict or never.issuperset(signs.open_factors(bound.value)))
+        for bound in bounds
+    )
+
+
+def _weakest(found: Sequence[tuple[Bound, ...]], signs: ParameterSigns) -> tuple[Bound, ...]:
+    """Those of several conditions, of which one is enough, that follow from each of them."""
+    for one in found:
+        if all(bound in other or signs.implies(bound, other) for other in found for bound in one):
+            return one
+    return ()
+
+
+def fourier_parts(expr: Expr, pairs: Iterable[tuple[int, int]]) -> Swings:
+    """An expression as a sum of swings of some angles, and what holds none, that of the multiples 0.
+
+    `pairs` are the generators of their sines and cosines.
+    """
+    ring = expr.ring
+    places = [place for pair in pairs for place in pair]
+    grouped: dict[tuple[int, ...], dict[tuple[int, ...], Fraction]] = {}
+    for exponents, factor in expr.poly.to_dict().items():
+        powers = tuple(int(exponents[i]) for i in places)
+        rest = tuple(0 if i in places else int(e) for i, e in enumerate(exponents))
+        grouped.setdefault(rest, {})[powers] = Fraction(int(factor.p), int(factor.q))
+    sums: dict[Multiples, tuple[dict[Any, Any], dict[Any, Any]]] = {}
+    for rest, polynomial in grouped.items():
+        for multiples, values in fourier_form(polynomial).items():
+            for terms, value in zip(sums.setdefault(multiples, ({}, {})), values, strict=True):
+                if value:
+                    terms[rest] = rational(value)
+    return {n: (Expr(ring, ring.ctx.from_dict(a)), Expr(ring, ring.ctx.from_dict(b)))
+            for n, (a, b) in sums.items()}  # fmt: skip
+
+
+def _swings(value: Expr) -> Swings | None:
+    """A value as swings about what is constant; None where coordinates stand elsewhere in it."""
+    ring = value.ring
+    moving = (pair for pair in ring.pairs if ring.depends_on_coordinates(ring.generator(pair.sine)))
+    swings = fourier_parts(value, [(pair.sine, pair.cosine) for pair in moving])
+    is_free = not any(ring.depends_on_coordinates(part) for both in swings.values() for part in both)
+    return swings if is_free else None
+
+
+def _quarters(swings: Swings) -> list[tuple[int, int]]:
+    """The quarter turns at which a single swing, and what is constant beside it, come to 0."""
+    moving = [n for n in swings if any(n)]
+    if len(moving) != 1:
+        return []
+    cosine, sine = swings[moving[0]]
+    constant = _constant(swings, cosine.ring)
+    return [(s, c) for s, c in QUARTERS if (cosine * c + sine * s + constant).is_zero]
+
+
+def _constant(swings: Swings, ring: Ring) -> Expr:
+    return next((value for n, (value, _) in swings.items() if not any(n)), ring.zero)
+
+
+def _at(swings: Swings, fixed: Sequence[tuple[Multiples, int, int]]) -> Swings:
+    """Swings where the angles n·q are at quarter turns: φ ± n·q turns as φ does, by that much ahead."""
+    for turned, sine, cosine in fixed:
+        found: Swings = {}
+        for n, (a, b) in swings.items():
+            times, rest = _less(n, turned)
+            for _ in range(abs(times)):
+                s = sine if times > 0 else -sine
+                a, b = a * cosine + b * s, b * cosine - a * s
+            sign, rest = positive(rest)
+            old = found.get(rest, (a.ring.zero, a.ring.zero))
+            found[rest] = (old[0] + a, old[1] + b * sign)
+        swings = {n: both for n, both in found.items() if not all(part.is_zero for part in both)}
+    return swings
+
+
+def _less(n: Multiples, other: Multiples) -> tuple[int, Multiples]:
+    """(k, n - k·other) without the last angle of `other`, where that is possible; else (0, n)."""
+    place = max(i for i, times in enumerate(other) if times)
+    times, left = divmod(n[place], other[place])
+    if left or not times:
+        return 0, n
+    return times, tuple(a - times * b for a, b in zip(n, other, strict=True))
+
+
+def _reach(swings: Swings, held: Sequence[Multiples], signs: ParameterSigns) -> tuple[Bound, ...] | None:
+    """What the parameters must satisfy for a sum of swings to be 0, with some angles `held`; None: never."""
+    moving = [n for n in swings if any(n)]
+    ring = next((both[0].ring for both in swings.values()), None)
+    angles = [[float(i) for i in n] for n in (*moving, *held)]
+    if ring is None or (angles and rank(angles, 0.1) < len(angles)):
+        return ()
+    constant = _constant(swings, ring)
+    if len(moving) == 1:
+        cosine, sine = swings[moving[0]]
+        return _bounds([cosine**2 + sine**2 - constant**2], signs)
+    sizes = [_size(swings[n], signs) for n in moving]
+    if any(size is None for size in sizes):
+        return ()
+    most = sum((size for size in sizes if size is not None), start=ring.zero)
+    return _bounds([most - constant, most + constant], signs)
+
+
+def _size(swing: tuple[Expr, Expr], signs: ParameterSigns) -> Expr | None:
+    """√(A² + B²) where one of them is 0, and the sign of the other is known."""
+    parts = [part for part in swing if not part.is_zero]
+    sizes = [part * sign for part in parts for sign in (1, -1) if signs.is_positive(part * sign)]
+    return sizes[0] if len(parts) == len(sizes) == 1 else None
+
+
+def _bounds(values: Sequence[Expr], signs: ParameterSigns) -> tuple[Bound, ...] | None:
+    """That values are not negative, without what is known; None where one is negative."""
+    open_parts = [signs.open_part(value) for value in values]
+    if any(signs.is_positive(-part) for part in open_parts):
+        return None
+    return tuple(Bound(part, False) for part in open_parts if not part.is_number)

@@ -1,0 +1,156 @@
+"""Where constraints hold the forces: g = A_cᵀ λ, also where the rows of A_c are dependent.
+
+g is a combination of the rows of A_c where these have some rank k, and with gᵀ no more: the minors of
+order k + 1 of both together are 0, and not all those of order k of A_c.  So the sets are found rank by
+rank; at each the sets of less rank are looked at apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from itertools import chain, product
+
+from msgspec import Struct
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import halves
+from dynsolve.algebra.linear_systems import adjugate, nullspace, part, rank_parts
+from dynsolve.algebra.matrix import Matrix, determinant, minors
+from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.singular.sets import (
+    Alternative,
+    Special,
+    TooLong,
+    common_zeros,
+    lies_in,
+    zeros_of_any,
+)
+from dynsolve.robot.model import Robot
+
+MOST_SETS = 8
+"""So many choices of factors in half angles are looked at."""
+
+
+class Settled(Struct, frozen=True):
+    """Alternatives, and of each the sets within it at which there are no multipliers.
+
+    `is_whole` says that nothing was taken away.
+    """
+
+    alternatives: tuple[Alternative, ...]
+    excluded: tuple[tuple[Alternative, ...], ...]
+    is_whole: bool = False
+
+    @property
+    def pairs(self) -> Iterator[tuple[Alternative, tuple[Alternative, ...]]]:
+        """Each with what is excluded."""
+        return zip(self.alternatives, self.excluded, strict=True)
+
+
+class Multipliers(Struct, frozen=True):
+    """A_c and the forces in the columns that no motor holds, gᵀ as a row, and the h that are 0."""
+
+    A: Matrix
+    g: Matrix
+    h: tuple[Expr, ...]
+
+    @staticmethod
+    def of(robot: Robot, columns: Sequence[int], forces: Matrix, A: Matrix, h: Matrix) -> Multipliers:
+        """Those of the columns, from 0."""
+        row = Matrix.of(robot.ring, [[forces[k, 0] for k in columns]])
+        return Multipliers(part(A, tuple(range(A.shape[0])), tuple(columns)), row, h.entries)
+
+    def moved(self, there: Transfer) -> Multipliers:
+        """The same in another ring."""
+        A, g = (Matrix.of(there.target, (map(there, row) for row in one.rows)) for one in (self.A, self.g))
+        return Multipliers(A, g, tuple(map(there, self.h)))
+
+    @property
+    def rank(self) -> int:
+        """That of A_c almost everywhere."""
+        return rank_parts(self.A).rank
+
+    def is_of_energy(self, n: int) -> bool:
+        """Whether an energy decides on stability: all n coordinates are free, all constraints functions."""
+        return len(self.A.rows) == len(self.h) and self.A.shape[1] == n
+
+    def along(self, second: Matrix, at: Callable[[Matrix], Matrix]) -> Matrix | None:
+        """The second derivatives of P - λᵀ h along what A_c leaves free, `at` a configuration.
+
+        They come up to a positive factor; None where the rows of A_c are dependent, or nothing is free.
+        `second` are those of P; `at` may bring a factor, the same in all that it is given at once.
+        """
+        ring, (count, n) = self.A.ring, self.A.shape
+        of_h = [[ring.diff(ring.diff(h, i), j) for j in range(n)] for h in self.h for i in range(n)]
+        rows = at(Matrix.of(ring, [*self.A.rows, *self.g.rows, *second.rows, *of_h])).rows
+        A, g, of_P = (
+            Matrix(ring, lines) for lines in (rows[:count], rows[count : count + 1], rows[count + 1 :])
+        )
+        found = rank_parts(A)
+        if found.rank < count or count == n:
+            return None
+        chosen = part(A, found.rows, found.columns)
+        size = determinant(chosen)
+        multipliers = part(g, (0,), found.columns) @ adjugate(chosen)  # λᵀ times the determinant
+        total = of_P.block(0, n, 0, n).scale(size)
+        for k in range(count):
+            bent = of_P.block(n * (k + 1), n * (k + 2), 0, n)
+            total = total - bent.scale(multipliers[0, k])
+        Z = nullspace(A)
+        return Z.T @ total.scale(size) @ Z
+
+    def zeros(self, rank: int) -> tuple[Expr, ...]:
+        """What is 0 where the forces are held and A_c has this rank."""
+        together = Matrix(self.A.ring, (*self.A.rows, *self.g.rows))
+        return (*minors(together, rank + 1), *self.h)
+
+    def found(self, rows: Sequence[Expr], special: Special) -> tuple[Alternative, ...]:
+        """Where the rows are 0, which stand for `zeros`: solved by half angles where that leaves nothing."""
+        sets = [tuple(chain(*choice)) for choice in product(*map(halves, self.h))]
+        if 1 < len(sets) <= MOST_SETS:
+            by_halves = Special(special.signs)
+            with suppress(TooLong):
+                found = zeros_of_any([(*rows, *one) for one in sets], by_halves)
+                if all(condition.fixes_coordinate for one in found for condition in one):
+                    special.join(by_halves)
+                    return found
+        return common_zeros(rows, special)
+
+    def settled(self, found: Sequence[Alternative], rank: int, special: Special) -> Settled:
+        """The `found` sets, on which `zeros(rank)` are 0, where there are multipliers.
+
+        Sets on which A_c has less rank everywhere are left out, and those found that are in balance there.
+        """
+        whole = Settled(tuple(found), tuple(() for _ in found), True)
+        if not rank or self._holds_where_dependent(rank, special):
+            return whole
+        dependent = tuple(minors(self.A, rank))
+        full = [one for one in found if not lies_in(_values(one), dependent, special)]
+        lost = [common_zeros((*dependent, *_values(one)), special) for one in full]
+        if len(full) == len(found) and not any(lost):
+            return whole
+        less = common_zeros((*self.zeros(rank - 1), *dependent), special)
+        rest = self.settled(less, rank - 1, special)
+        covered = [_values(one) for one, but in rest.pairs if not but]
+        excluded = [
+            tuple(one for one in within if not any(lies_in(_values(one), held, special) for held in covered))
+            for within in lost
+        ]
+        open_sets = [_values(one) for one, but in zip(full, excluded, strict=True) if not but]
+        new = [
+            (one, but)
+            for one, but in rest.pairs
+            if not any(lies_in(_values(one), held, special) for held in open_sets)
+        ]
+        return Settled((*full, *(one for one, _ in new)), (*excluded, *(but for _, but in new)))
+
+    def _holds_where_dependent(self, rank: int, special: Special) -> bool:
+        """Whether forces are held wherever the rows of A_c, of this rank elsewhere, are dependent."""
+        dependent, exactly = (*minors(self.A, rank), *self.h), Special(special.signs)
+        holds = rank == 1 and lies_in(dependent, self.zeros(rank - 1), exactly)
+        return (holds and exactly.is_empty) or not common_zeros(dependent, special)
+
+
+def _values(alternative: Alternative) -> tuple[Expr, ...]:
+    return tuple(condition.expr for condition in alternative)
