@@ -230,7 +230,7 @@ class _Cases(Struct, dict=True):
         return all(condition in one or self._follows_from_some(condition.expr, known) for condition in other)
 
     def _follows_from_some(self, value: Expr, known: Sequence[Expr]) -> bool:
-        """Whether a value is found to be 0 where others are: all of them, or two, which are sooner looked at."""
+        """Whether a value is found to be 0 where all others are, or some two, which are sooner looked at."""
         pairs = combinations(known, 2) if len(known) > 2 else ()
         return self.follows(value, known) or any(self.follows(value, pair) for pair in pairs)
 

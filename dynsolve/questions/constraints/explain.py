@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dynsolve.algebra.linear_systems import adjugate, nullspace, quotient
 from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.link_frame import velocities
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
@@ -30,7 +31,7 @@ from dynsolve.questions.forward_dynamics.derive import Reduced, reduced
 from dynsolve.questions.forward_dynamics.explain import inverse_of_inertia
 from dynsolve.questions.task.explain import with_letters
 
-_KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 0")
+_KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 𝟎")
 """What the constraints ask of the accelerations."""
 
 
@@ -90,8 +91,8 @@ def _matrix(context: Context) -> Step:
     return Step(
         id="Ac",
         title="The constraint matrix",
-        why=say(f"{of_functions * slopes}{of_rates}$𝐀_c 𝐪̇ = 0$."),
-        formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes and not has_rates else "𝐀_c 𝐪̇ = 0"),
+        why=say(f"{of_functions * slopes}{of_rates}$𝐀_c 𝐪̇ = 𝟎$."),
+        formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes and not has_rates else "𝐀_c 𝐪̇ = 𝟎"),
         source=mls("6.1.1"),
         result=(equation(letters.A_C, context.form("Ac")),),
         uses=("hc",) if slopes else (),
@@ -100,25 +101,40 @@ def _matrix(context: Context) -> Step:
 
 
 def _multipliers(context: Context) -> Step:
-    lines = _products(context)
+    lines = (*_rates(context), *_products(context))
+    acting = acting_side(context)
     value = mapped(scalar(context.form("lambda")), with_force_letters(context.robot))
     return Step(
         id="lambda",
         title="The multipliers",
         why=say(
             "The forces of constraint do no work, so they are combinations of the rows of $𝐀_c$: "
-            "{equations}. Put the accelerations that follow into {kept}, and solve.{motors}",
+            "{equations}. That gives the accelerations, {accelerations}; put into {kept} they give {put_in}, "
+            "which is solved for $𝛌$.{motors}",
             equations=equations_of_motion(context),
+            accelerations=formula("𝐪̈ = 𝐃⁻¹ ({acting} + 𝐀_cᵀ 𝛌)", acting=acting),
             kept=_KEPT,
+            put_in=formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ 𝛌 + 𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇ = 𝟎", acting=acting),
             motors=motors_prose(context),
         ),
-        formula=formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting_side(context)),
+        formula=formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting),
         source=mls("6.1.2"),
         lines=lines,
         concluding=("Put in, and cancelled:",) if lines else (),
         result=(equation(letters.LAMBDA, value),),
         detail=Detail.BRIEF,
     )
+
+
+def _rates(context: Context) -> Iterator[Line]:
+    """C q̇ and the rate of the constraint along q̇, where they can be read."""
+    values = context.values
+    turned = context.forms("Cqd")
+    along = context.show(values["Ac_dot"] @ velocities(context.robot))
+    nodes = [formula("𝐂 𝐪̇ = {turned}", turned=turned)] if is_small(turned) else []
+    nodes += [formula("𝐀̇_c 𝐪̇ = {along}", along=scalar(along))] if is_small(along) else []
+    if nodes:
+        yield Line(("The terms of the rates:",), tuple(nodes), is_kept=True)
 
 
 def _products(context: Context) -> tuple[Line, ...]:
@@ -129,11 +145,22 @@ def _products(context: Context) -> tuple[Line, ...]:
         return ()
     square = scalar(context.forms.of(quotient(A @ inverse @ A.T, scale)))
     over = context.forms.of(quotient(inverse, scale))
-    if not is_small(square, over):
+    if is_small(square, over):
+        return (
+            inverse_of_inertia(over),
+            Line(("With it:",), (formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ = {square}", square=square),), is_kept=True),
+        )
+    parts = context.show(inverse), context.show(scale), scalar(context.show(A @ inverse @ A.T))
+    if not all(map(is_small, parts)):
         return ()
+    adjoint, size, square = parts
     return (
-        inverse_of_inertia(over),
-        Line(("With it:",), (formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ = {square}", square=square),), is_kept=True),
+        Line(
+            say("The inverse of $𝐃$ is its adjugate over its determinant:"),
+            (formula("adj 𝐃 = {adjoint}", adjoint=adjoint), formula("det 𝐃 = {size}", size=size)),
+            is_kept=True,
+        ),
+        Line(("With them:",), (formula("𝐀_c adj 𝐃 𝐀_cᵀ = {square}", square=square),), is_kept=True),
     )
 
 
@@ -152,7 +179,7 @@ def _reduced(context: Context) -> Iterator[Step]:
         id="reduced",
         title="The equations without the multipliers",
         why=say(
-            "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 0$. "
+            "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 𝟎$. "
             "Multiplied by $𝐙ᵀ$ the equations of motion lose the forces of constraint."
         ),
         formula=formula(

@@ -285,8 +285,8 @@ def _of_constrained(
 
 _CONSTRAINED_ENERGY = (
     "Along what the constraints leave free, the columns of $𝐙$ with $𝐀_c 𝐙 = 𝟎$, the energy is curved as "
-    "{curved} is, with the $𝛌$ of the equilibrium. Where that is positive definite, the equilibrium is stable; where the energy falls in some "
-    "direction, it is not."
+    "{curved} is, with the $𝛌$ of the equilibrium. Where that is positive definite, the equilibrium is "
+    "stable; where the energy falls in some direction, it is not."
 )
 _CURVED = formula("𝐙ᵀ (∂(𝐠 - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙")
 
