@@ -13,7 +13,7 @@ from dynsolve.algebra.factors import is_positive, squares, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix, minors, parts, work
 from dynsolve.derivation.elimination import ParameterSigns
-from dynsolve.derivation.existence import conditions
+from dynsolve.derivation.existence import conditions, without_ends
 from dynsolve.derivation.singular.losses import Loss, loss, lost_everywhere
 from dynsolve.derivation.singular.zeros import Condition, can_hold, core, exceptions, follows, obstacles
 
@@ -123,16 +123,17 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
     exist = {one: bounds for one in alternatives if (bounds := existence(one)) is not None}
     everywhere = lost_everywhere(jacobian, pivots + rank) if exist else ()
     losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank, everywhere) for one in exist)
+    told = tuple(factor for factor in special.factors if len(factor) <= MOST_SPECIAL_TERMS)
     return SingularSet(
         pivots + rank,
         found,
         tuple(exist),
         losses,
-        tuple(exist.values()),
+        tuple(without_ends(bounds, told, special.signs) for bounds in exist.values()),
         0 if shown is None else pivots,
         shown,
-        tuple(factor for factor in special.factors if len(factor) <= MOST_SPECIAL_TERMS),
-        special.is_open or any(len(factor) > MOST_SPECIAL_TERMS for factor in special.factors),
+        told,
+        special.is_open or len(told) < len(special.factors),
     )
 
 

@@ -179,7 +179,14 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
         gives = "the sum of the angles; the others are known now" if step.others else "this angle"
         why: Prose = (f"The task gives {gives}.",)
     else:
-        why = (*_origin([e.origin for e in step.equations]), *say(_form(step), q=Symbol(step.coordinate)))
+        put_in = list(_sums_put_in(forms, step.equations, before))
+        if put_in and not isinstance(step.equations[0].origin, Given):
+            told = [node for earlier in before for node in _sums_put_in(forms, earlier.equations, before)]
+            put_in = [node for node in put_in if node not in told]
+        why = (
+            *_origin([e.origin for e in step.equations], put_in),
+            *say(_form(step), q=Symbol(step.coordinate)),
+        )
     return Step(
         id=f"inverse_{step.coordinate}",
         title=f"Solving for {to_unicode(Symbol(step.coordinate))}",
@@ -197,17 +204,33 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
     )
 
 
-def _origin(origins: Sequence[Origin]) -> Prose:
-    """How the equations are made."""
+def _sums_put_in(
+    forms: InverseForms, equations: Sequence[Equation], before: Sequence[Solved]
+) -> Iterator[Node]:
+    """The sums of angles that the task gives, put into the components from which equations are made."""
+    assert forms.solved is not None
+    r, known = forms.values[forms.task], {solved.coordinate for solved in before}
+    used = [e.origin.index for e in lineage(equations) if isinstance(e.origin, Given)]
+    for left in forms.solved.solving.solved:
+        if isinstance(left, Remainder) and left.coordinate not in known:
+            k = r.ring.names.index(left.coordinate)
+            if any(not r.ring.diff(r.entries[index], k).is_zero for index in used):
+                yield forms.inverse_formulas.sum_of(left)
+
+
+def _origin(origins: Sequence[Origin], put_in: Sequence[Node]) -> Prose:
+    """How the equations are made; `put_in` are sums that are known."""
+    first = say("{sums} is put in. ", sums=listed(put_in)) if put_in else ()
     match origins[0]:
         case Squared():
             return (
+                *first,
                 "Turning a vector does not change its length: in the sum of the squares the other angles "
                 "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",
             )
         case Turned(_, _, name):
             text = "Turned back by {q}, the components have that angle on the left side alone. "
-            return say(text, q=Symbol(name))
+            return (*first, *say(text, q=Symbol(name)))
         case Given():
             text = "Component|Components {places} of the task"
         case OfPoint(_, joint):
@@ -224,7 +247,10 @@ def _origin(origins: Sequence[Origin]) -> Prose:
                 places.append("xyz"[index])
             case OfTurn(row, column):
                 places.append(f"({row + 1}, {column + 1})")
-    return say(agreeing(f"{text} has|have no other unknown. ", len(origins)), places=listed(places))
+    has = agreeing(f"{text} has|have no other unknown", len(origins))
+    if put_in:
+        return say(f"{has} where {{sums}} is put in. ", places=listed(places), sums=listed(put_in))
+    return say(f"{has}. ", places=listed(places))
 
 
 def _form(step: Solved) -> str:

@@ -227,6 +227,15 @@ class InverseFormulas:
         discriminant = step.linear * step.linear - step.square * step.constant * 4
         return self.form(discriminant * Fraction(1, 4) if _is_even(step.linear) else discriminant)
 
+    def sum_of(self, step: Remainder) -> Node:
+        """The sum of angles that the task gives: q₂ + q₃ = r₃."""
+        angles = sorted(((step.coordinate, step.rate), *step.others), key=lambda one: (len(one[0]), one[0]))
+        turning, given = (
+            [times(rate, [(Symbol(name), 1)]) for name, rate in one] for one in (angles, step.given)
+        )
+        constant = [] if step.rest.is_zero else [self.form(step.rest)]
+        return equation(total([*turning, *constant]), total(given))
+
     def _of_sum(self, step: Remainder) -> Node:
         """The angle that is left of a given sum of angles."""
         given, taken = (
@@ -286,10 +295,11 @@ class InverseForms(SetForms):
     @property
     def without_number(self) -> str:
         """The first parameter that has no number, where `reach` has them; nothing where all have."""
-        return without_number(self.robot, self.values[self._task])
+        return without_number(self.robot, self.values[self.task])
 
     @property
-    def _task(self) -> str:
+    def task(self) -> str:
+        """The name of what is to be reached: the task or the pose."""
         (task,) = self.values.rules["inverse"].inputs
         return task
 
@@ -302,7 +312,7 @@ class InverseForms(SetForms):
         from dynsolve.questions.inverse.target import TargetForms
 
         branches = None if self.solved is None else list(zip(self.inverse, self.when, strict=True))
-        task, form = self.values[self._task], Forms(self.robot, self.values)(self._task)
+        task, form = self.values[self.task], Forms(self.robot, self.values)(self.task)
         return TargetForms(self.robot, task, form, branches)
 
     @cached_property

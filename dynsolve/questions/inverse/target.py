@@ -400,7 +400,7 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
                 branches=listed([str(branch) for branch in one.branches]),
                 boundary=several if len(one.branches) > 1 else "",
             ),
-            result=tuple(_value(forms, one, name) for name in one.formulas),
+            result=tuple(_value(forms, one, name) for name in _in_order(forms, one)),
             notes=tuple(
                 say(agreeing(text, len(names)), q=listed([*map(Symbol, names)]))
                 for names, text in remarks
@@ -415,7 +415,27 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
     yield replace(whole, group=group, normal=NOTED)
 
 
+def _branch(forms: TargetForms, one: Configuration) -> Mapping[str, Node]:
+    """The formulas in letters that a configuration comes from; none where it was found in numbers."""
+    return forms.branches[one.branches[0] - 1][0] if forms.branches and one.branches else {}
+
+
+def _in_order(forms: TargetForms, one: Configuration) -> Iterator[str]:
+    """The coordinates that have a formula, as they are solved for: one that stands in another before it."""
+    names = [*_branch(forms, one), *one.formulas]
+    yield from (name for name in dict.fromkeys(names) if name in one.formulas)
+
+
 def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
+    """q = its formula in letters = that in numbers ≈ its value"""
+    found, in_letters = _in_numbers(forms, one, name), _branch(forms, one).get(name)
+    if in_letters is None or cost(in_letters) > LONGEST or in_letters in found.parts:
+        return found
+    q, *members = found.parts
+    return Relation((q, in_letters, *members), ("=", *found.signs))
+
+
+def _in_numbers(forms: TargetForms, one: Configuration, name: str) -> Relation:
     """q = its formula ≈ its value"""
     formula, value = one.formulas[name], one.numbers[name]
     if rational_value(formula) == 0 or _depends(one, name):
@@ -533,7 +553,8 @@ def _table(forms: TargetForms) -> Table:
                 cell, exact = _number(one.formulas[name], value)
                 if forms.turns(name):
                     cell, exact = _in_degrees(value), _is_of_pi(one.formulas[name])
-                row.append(cell if exact else Row((Words("≈ "), cell)))
+                is_marked = exact or _is_decimal(cell)  # a rounded number gets its sign where it is printed
+                row.append(cell if is_marked else Row((Words("≈ "), cell)))
         if limited:
             row.append("beyond" if one.outside else "within")
         rows.append(tuple(row))
