@@ -142,15 +142,15 @@ def _reach(swings: Swings, held: Sequence[Multiples], signs: ParameterSigns) -> 
     angles = [[float(i) for i in n] for n in (*moving, *held)]
     if ring is None or (angles and rank(angles, 0.1) < len(angles)):
         return ()
-    constant = _constant(swings, ring)
-    if len(moving) == 1:
-        cosine, sine = swings[moving[0]]
-        return _bounds([cosine**2 + sine**2 - constant**2], signs)
-    sizes = [_size(swings[n], signs) for n in moving]
-    if any(size is None for size in sizes):
+    constant, sizes = _constant(swings, ring), [_size(swings[n], signs) for n in moving]
+    known = [size for size in sizes if size is not None]
+    if len(known) == len(sizes):
+        most = sum(known, start=ring.zero)
+        return _bounds([most - constant, most + constant], signs)
+    if len(moving) > 1:
         return ()
-    most = sum((size for size in sizes if size is not None), start=ring.zero)
-    return _bounds([most - constant, most + constant], signs)
+    ((cosine, sine),) = (swings[n] for n in moving)
+    return _bounds([cosine**2 + sine**2 - constant**2], signs)
 
 
 def _size(swing: tuple[Expr, Expr], signs: ParameterSigns) -> Expr | None:

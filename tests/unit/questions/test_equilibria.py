@@ -307,3 +307,131 @@ find: [equilibria]
     known = {"sin": sin, "cos": cos, "q1": pi / 2, "q2": pi}
     for one in alternative:
         assert abs(eval(one.removesuffix(" = 0"), known)) < 1e-9  # noqa: S307
+
+
+LINE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: {near: [lc1, 0, 0]}}
+  - {mass: m2, link: 2, center: {near: [lc2, 0, 0]}}
+constraints: [tip.y]
+find: [equilibria]
+"""
+WALL = LINE.replace("l2}]", "l}]").replace("tip.y", "tip.x")
+"""Links of one length, the tip on an upright line: folded, the row of A_c is 0 where the links are level."""
+
+
+def at_pose(problem: str, **pose: float) -> list[bool]:
+    """Of each alternative whether its equations hold in a pose, and those of no set that is left out."""
+    results = dynsolve.solve(problem).to_json()["results"]
+    values = {
+        "l": 0.7,
+        "m1": 1.3,
+        "m2": 0.4,
+        "lc1": 0.3,
+        "lc2": 0.6,
+        "k": 0.9,
+        "sin": sin,
+        "cos": cos,
+        **pose,
+    }
+
+    def hold(equations: list[str]) -> bool:
+        return all(abs(eval(one.removesuffix(" = 0"), dict(values))) < 1e-9 for one in equations)  # noqa: S307
+
+    sets = results["equilibria"]
+    left_out = results.get("equilibria_except", [[]] * len(sets))
+    return [hold(one) and not any(map(hold, without)) for one, without in zip(sets, left_out, strict=True)]
+
+
+def test_where_a_constraint_holds_nothing_is_no_equilibrium() -> None:
+    """By hand: upright g is 0; folded and level A_c is 0, and g is not."""
+    for upright in (pi / 2, -pi / 2):
+        assert any(at_pose(WALL, q1=upright, q2=0.0)) and any(at_pose(WALL, q1=upright, q2=pi))
+    for level in (0.0, pi):
+        assert not any(at_pose(WALL, q1=level, q2=pi))
+    upright = "answers:\n  equilibria: ['cos(q1) = 0 and sin(q2) = 0']\n"
+    level = "answers:\n  equilibria: ['cos(q1) = 0 and sin(q2) = 0', 'sin(q1) = 0 and cos(q2) = -1']\n"
+    for written, verdict in ((upright, "correct"), (level, "wrong")):
+        assert str(dynsolve.check(WALL, written).answers[0].verdict) == verdict
+
+
+def test_a_cusp_holds_nothing() -> None:
+    """y² = x³: where gᵀ and the row of A_c are dependent, that row is 0, and g is not."""
+    cusp = """
+gravity: [0, -g, 0]
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+constraints: [y*y - x*x*x]
+find: [equilibria]
+"""
+    solution = dynsolve.solve(cusp)
+    assert solution.to_json()["results"]["equilibria"] == []
+    (step,) = (step for step in solution.steps if step.id == "equilibria")
+    assert "no configuration" not in str(step.notes) and "are dependent" in str(step.notes)
+
+
+def test_equal_links_on_a_level_line_are_solved_for() -> None:
+    level = LINE.replace("l2}]", "l}]")
+    assert dynsolve.solve(level).to_json()["results"]["equilibria"] == [["cos(q1) = 0", "1 + cos(q2) = 0"]]
+
+
+@pytest.mark.parametrize(
+    ("problem", "exist"),
+    [
+        (LINE, [["l2 >= l"], ["l >= l2"]]),
+        (LINE.replace("l2}]", "l}]").replace("tip.y", "tip.y - k"), [["2*l >= k"], ["2*l >= k"]]),
+        (
+            LINE.replace("tip.y", "tip.y - k"),
+            [["l + l2 >= k", "k + l2 >= l"], ["k + l >= l2", "l + l2 >= k"]],
+        ),
+    ],
+)
+def test_equilibria_are_told_where_they_are(problem: str, exist: list[list[str]]) -> None:
+    """By hand: one link is upright, and the other reaches the line of the tip from its end."""
+    found = dynsolve.solve(problem).to_json()["results"]["equilibria_exist"]
+    assert [sorted(one) for one in found] == [sorted(one) for one in exist]
+
+
+def test_what_constraints_hold_is_stable_where_the_energy_is_least_along_them() -> None:
+    """One link upright, the other level with it: P = g sin q₁ (m₁ l_c1 + m₂ l - m₂ l_c2 l/l₂) on the line."""
+    results = dynsolve.solve(LINE).to_json()["results"]
+    up, down = results["equilibria_stability"][0]
+    assert (up["q1"], down["q1"]) == ("pi/2", "-pi/2")
+    for m1, lc2 in ((0.2, 1.4), (2.0, 0.3)):
+        at = {"m1": m1, "m2": 1.0, "l": 0.6, "l2": 0.9, "lc1": 0.3, "lc2": lc2}
+        slope = m1 * 0.3 + 0.6 - lc2 * 0.6 / 0.9
+        for point, is_stable in ((up, slope < 0), (down, slope > 0)):
+            assert all(eval(one, dict(at)) for one in point["stable_if"]) is is_stable  # noqa: S307
+            assert any(eval(one, dict(at)) for one in point["unstable_if"]) is not is_stable  # noqa: S307
+
+
+def test_the_check_of_what_constraints_hold_finds_another_stability() -> None:
+    robot = read_problem(LINE).robot
+    values = derive(robot)
+    forms, shown, found = Forms(robot, values), EquilibriaForms(robot, values), values["equilibria"]
+    g = forms("g")
+    given = (robot, g, in_balance(forms, g))
+    cases = [Case(*one) for one in zip(shown.equilibria, found.points, strict=True)]
+    verify_equilibria(*given, cases, constraints=forms("Ac"))
+    turned = [
+        replace(
+            case, points=tuple(replace(p, conditions=(), stability=Stability.STABLE) for p in case.points)
+        )
+        for case in cases
+    ]
+    with pytest.raises(VerificationError, match="stability"):
+        verify_equilibria(*given, turned, constraints=forms("Ac"))
+
+
+def test_a_matrix_that_is_0_on_its_diagonal_is_a_saddle() -> None:
+    saddle = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, alpha: -90deg, a: l1}, {theta: q2*, a: l2}]
+base: Ry(90deg)
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+assume: [m2*l2 > (m1 + m2)*l1]
+find: [equilibria]
+"""
+    _, points = dynsolve.solve(saddle).to_json()["results"]["equilibria_stability"]
+    assert [point["stability"] for point in points] == ["unstable", "unstable"]

@@ -9,6 +9,7 @@ import pytest
 from dynsolve import solve
 from dynsolve.derivation.rules import derive
 from dynsolve.notation.python import to_python
+from dynsolve.notation.tree import Relation, Symbol, names_in
 from dynsolve.problem import read_problem
 from dynsolve.questions.inverse.forms import InverseForms
 from dynsolve.questions.inverse.target import TargetForms
@@ -201,3 +202,37 @@ find: [inverse]
 """
     (step,) = [step for step in solve(arm).steps if step.title == "No closed form"]
     assert "at most four configurations" in str(step.notes)
+
+
+def test_in_numbers_each_value_stands_beside_the_formula_that_gives_it() -> None:
+    """The coordinates come as they are solved for, and a sum of angles that is put in is said."""
+    arm = """
+gravity: none
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+task: [tip.x, tip.y, q1 + q2 + q3]
+values: {l1: 1, l2: 0.8, l3: 0.3}
+reach: [1.1, 0.5, 40deg]
+find: [inverse]
+"""
+    solution = solve(arm)
+    steps = {step.id: step for step in solution.steps}
+    members = [node.parts for node in steps["inverse_1"].result if isinstance(node, Relation)]
+    assert [parts[0] for parts in members] == [Symbol("q2"), Symbol("q1"), Symbol("q3")]
+    for name in ("inverse_q1", "inverse_q2"):
+        told = names_in(*(part for part in steps[name].why if not isinstance(part, str)))
+        assert {"q1", "q2", "q3", "r3"} <= told
+    for parts in members:
+        assert {"r1", "r3"} & names_in(parts[1]) and not {"r1", "r3"} & names_in(*parts[2:])
+
+
+def test_a_rounded_length_in_the_table_has_its_sign_once() -> None:
+    sliding = """
+gravity: none
+dh: [{d: q1*, theta: 0, alpha: -90deg}, {theta: q2*, a: l}, {theta: q3*, a: l}]
+task: [tip.x, tip.z, q2 + q3]
+values: {l: 2}
+reach: [3, l, 60deg]
+find: [inverse]
+"""
+    page = solve(sliding).to_latex()
+    assert r"\approx 3.732" in page and r"\approx \approx" not in page
