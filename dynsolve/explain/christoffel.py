@@ -14,7 +14,7 @@ from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import ending_of_symbols, label_of
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import NOTED, TOLD, Detail, Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate, slopes, varying
 from dynsolve.explain.writing import counted_sum, is_small, listed, spong
 from dynsolve.notation.build import split_sign, times, total
@@ -76,7 +76,14 @@ def christoffel_step(context: Context) -> Step:
             "swapped, which halves the work.",
         ),
         notes=tuple(_zero_note(context, zero)) if nonzero else (),
+        normal=NOTED if any(_is_asked(context, *ijk) for ijk in zero) else TOLD,
     )
+
+
+def _is_asked(context: Context, i: int, j: int, k: int) -> bool:
+    """Whether the exercise asks for a symbol by its name, of indices from 0."""
+    names = {f"c{i + 1}{j + 1}{k + 1}", f"c{j + 1}{i + 1}{k + 1}"}
+    return not names.isdisjoint(context.find)
 
 
 def equal_symbols(context: Context) -> Reference:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 class Context(Struct, frozen=True):
     """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree.
 
+    `find` are the names of what the exercise asks for.
     `normals` are those of a drawing that the table was found from, `lengths` values in m as the
     file has them.  `names` are those that the steps are written in, where they are in some,
     and `introduced` which of them a step brings in, by its id.
@@ -43,6 +44,7 @@ class Context(Struct, frozen=True):
     lengths: Mapping[str, str] = field(default_factory=dict)
     names: Abbreviated | None = None
     introduced: Mapping[str, tuple[Definition, ...]] = field(default_factory=dict)
+    find: tuple[str, ...] = ()
 
     @property
     def wanted(self) -> frozenset[str]:

@@ -50,6 +50,14 @@ _SHORT = 5
 """The terms of an entry of a long regressor for which both ways are tried."""
 
 
+def entry_of(whole: Node, place: tuple[int, ...]) -> Node:
+    """An entry of a matrix; what is said in place of the matrix where it was not worked out."""
+    if not isinstance(whole, tree.Matrix):
+        return whole
+    row, column = place
+    return whole.rows[row][column]
+
+
 class Forms:
     """forms(name): the compact tree of the value of that name, a `tree.Matrix` for a matrix.
 
@@ -109,6 +117,11 @@ class Forms:
         return found
 
     def _make(self, name: str) -> Node:
+        own = quantities(self.robot).get(name)
+        if own is not None and own.is_read_off:
+            if len(own.entry) == 2:
+                return entry_of(self(own.whole), own.entry)
+            return self.christoffel(*own.entry)
         value = self.values[name]
         if isinstance(value, Skipped):
             return tree.Words(f"({value.why})")

@@ -44,6 +44,11 @@ class Quantity(Struct, frozen=True, eq=False):
         """Whether it has no rule of its own: an entry of D, C, g, a Christoffel symbol."""
         return bool(self.entry) and self.rule == self.whole
 
+    @property
+    def form(self) -> str:
+        """The name that its compact form and its numbers go by: that of its rule, where it has its own."""
+        return self.name if self.is_read_off else self.rule
+
     def letter(self, robot: Robot) -> Node:
         """The letter that it is printed with."""
         return self.family.letter(robot, *self.index)

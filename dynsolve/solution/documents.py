@@ -74,7 +74,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import quantities
+from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
@@ -184,24 +184,32 @@ def summary_blocks(
     asked: Sequence[str] = (),
     is_short: bool = True,
     sections: Mapping[Stage, int] = MappingProxyType({}),
+    forms: Callable[[str], Node],
 ) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force, and whatever else the exercise asks for.
 
-    `sections` are the numbers of the stages that are shown.
+    `sections` are the numbers of the stages that are shown; `forms` writes what no step has alone.
     """
     by_id = {step.id: step for step in steps}
     model = by_id.get(ID)
     of_model = in_model(robot) if model else frozenset()
     if not is_short and detail is not Detail.RESULTS:  # what is short of a long model, if it is asked for
         of_model -= {name for name in ("D", "g") if name in by_id and is_small(*by_id[name].result)}
-    others = list(_others([name for name in asked if name not in of_model], robot, steps))
-    if model is None and not others:
+    of_steps, read_off = _parted(robot, (name for name in asked if name not in of_model))
+    others = [*_others(of_steps, robot, steps), *_read_off(read_off, robot, forms)]
+    is_of_forces = model is None and "tau" in asked
+    if model is None and not (others or is_of_forces):
         return
     yield Heading(TITLE, 2, closing=True)
     if model is not None and is_short:
         yield from _model(robot, model, by_id, detail, short)
     elif model is not None:
         yield from _long_model(model, by_id, detail, sections)
+    elif is_of_forces:
+        rows = _forces(robot, by_id)
+        if short is not None and short.at_symbols:
+            yield from _names(robot, by_id, short, [], [step.result[0] for step in rows])
+        yield from _rows(robot, rows)
     yield from others
 
 
@@ -219,7 +227,7 @@ def _model(
     assert model.formula is not None
     yield Formula(model.formula, source=model.source if detail > Detail.RESULTS else "")
     own = [by_id[name] for name in _MATRICES if name in by_id]
-    forces = [by_id[name] for q in robot.coordinates if (name := f"tau{q.index}") in by_id]
+    forces = _forces(robot, by_id)
     if short is not None and short.at_symbols:
         rows = [node for line in model.lines for node in line.formulas]
         yield from _names(robot, by_id, short, own, rows or [step.result[0] for step in forces])
@@ -232,11 +240,21 @@ def _model(
         yield from matrices
     yield from _lines(model)
     if not model.lines and len(forces) == robot.n:
-        lead: Prose = ("Row by row" if len(forces) > 1 else "Multiplied out",)
-        passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
-        lead += (", with ", equation(*passive, ZERO)) if passive else ()
-        yield Text((*lead, Reference(tuple(step.id for step in forces), ", "), ":"))
-        yield Equations(tuple(step.result[0] for step in forces))
+        yield from _rows(robot, forces)
+
+
+def _forces(robot: Robot, by_id: Mapping[str, Step]) -> list[Step]:
+    """The steps of the generalized forces."""
+    return [by_id[name] for q in robot.coordinates if (name := f"tau{q.index}") in by_id]
+
+
+def _rows(robot: Robot, forces: Sequence[Step]) -> Iterator[Block]:
+    """The generalized forces, row by row, and which of them are 0."""
+    lead: Prose = ("Row by row" if len(forces) > 1 else "Multiplied out",)
+    passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
+    lead += (", with ", equation(*passive, ZERO)) if passive else ()
+    yield Text((*lead, Reference(tuple(step.id for step in forces), ", "), ":"))
+    yield Equations(tuple(step.result[0] for step in forces))
 
 
 def _names(
@@ -296,6 +314,33 @@ def _long_model(
     symbols = say("the Christoffel symbols{which}, which make $𝐂$,", which=Reference(("christoffel",)))
     yield Text((*listed([D, symbols, g]), f"{place}."))
     yield from _lines(model)
+
+
+def _parted(robot: Robot, names: Iterable[str]) -> tuple[list[str], list[Quantity]]:
+    """The names of what steps give, and what is asked for alone of a whole that they give: d₁₂ of D."""
+    known = quantities(robot)
+    of_steps: list[str] = []
+    read_off: list[Quantity] = []
+    for name in names:
+        quantity = known.get(name)
+        if quantity is not None and quantity.is_read_off:
+            read_off.append(quantity)
+        else:
+            of_steps.append(name)
+    return of_steps, read_off
+
+
+def _read_off(asked: Iterable[Quantity], robot: Robot, forms: Callable[[str], Node]) -> Iterator[Block]:
+    """Each with its value, and which of them are zero."""
+    values = [(quantity.letter(robot), forms(quantity.form)) for quantity in asked]
+    nonzero = tuple(equation(letter, value) for letter, value in values if value != ZERO)
+    zero = [letter for letter, value in values if value == ZERO]
+    if nonzero:
+        yield Equations(nonzero)
+    if len(zero) == 1:
+        yield Equations((equation(*zero, ZERO),))
+    elif zero:
+        yield Text((*listed(zero), " are 0."))
 
 
 def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
@@ -425,8 +470,8 @@ class _Parts(Struct, dict=True):
 
         derivation = (
             *self.derivation(),
-            *part("the numbers", self.numbers),
             *part("the summary", self.summary),
+            *part("the numbers", self.numbers),
         )
         stated = part("what is given", lambda: self.statement(derivation))
         document = Document((
@@ -483,13 +528,14 @@ class _Parts(Struct, dict=True):
                 yield told.table
 
     def numbers(self) -> Iterator[Block]:
-        """The section of numeric results, where they were asked for."""
+        """The results that are asked for with numbers, and at a state."""
         if self.solution.numbers is not None:
             from dynsolve.solution.numbers.blocks import blocks
 
-            asked = self.solution.problem.find
+            problem = self.solution.problem
             derived = {name for step in self.steps for name in (step.id, *step.also)}
-            yield from blocks(self.solution.numbers, self.detail, asked, derived, self.stages)
+            told = problem.written if self.stages is None else {}
+            yield from blocks(self.solution.numbers, self.detail, problem.find, derived, self.stages, told)
 
     def derivation(self) -> Iterator[Block]:
         """Stages and their steps; in a whole derivation what is shown of it is counted."""
@@ -516,7 +562,14 @@ class _Parts(Struct, dict=True):
         asked, is_short = self.solution.problem.find, self.solution.is_short
         robot, sections = self.solution.robot, self.sections
         return summary_blocks(
-            robot, self.steps, self.detail, self.short, asked=asked, is_short=is_short, sections=sections
+            robot,
+            self.steps,
+            self.detail,
+            self.short,
+            asked=asked,
+            is_short=is_short,
+            sections=sections,
+            forms=self.solution.forms,
         )
 
     def closing(self) -> Iterator[Block]:

@@ -190,7 +190,15 @@ class Dynamics(Struct, frozen=True, dict=True):
 
         problem, units = self.problem, self.problem.units
         lengths = {name: text for name, text in problem.written.items() if units.get(name, "m") == "m"}
-        return Context(self.robot, self.values, self.forms, self.agreement, problem.normals, lengths)
+        return Context(
+            self.robot,
+            self.values,
+            self.forms,
+            self.agreement,
+            problem.normals,
+            lengths,
+            find=problem.find,
+        )
 
     def explain(
         self, stages: Iterable[str] | None = None, short: Abbreviated | None = None

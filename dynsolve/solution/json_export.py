@@ -151,17 +151,27 @@ class _Exporter:
                 case Owner.COORDINATE:
                     _fill(results.setdefault("euler_lagrange", equations), family.json, values)
         results.setdefault("bodies", bodies)
-        results |= {quantity.name: self.value(quantity) for quantity in _asked(robot)}
+        results |= {quantity.name: self.value(quantity) for quantity in self.asked()}
         for stage in ASKED_FOR:
             if stage.value in results and hasattr(question := stage.part("export"), "beside"):
                 results |= dict(question.beside(self.export))
         return results | dict(table_results(self.solution, self.python))
 
+    def asked(self) -> Iterator[Quantity]:
+        """What is exported only where it is asked for, under its own name."""
+        problem = self.solution.problem
+        known, asked = quantities(self.solution.robot), self.solution.robot.questions.asked
+        for name, quantity in known.items():
+            whole = known.get(quantity.whole)
+            is_told = quantity.family.json or (whole is not None and whole.family.json)
+            if name in asked or (name in problem.find and not is_told and name != families.DH.name):
+                yield quantity
+
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
         if quantity.family.kind not in FORMED:
             return quantity.family.stage.part("export").value(self.export, quantity.rule)
-        form = self.forms(quantity.rule)
+        form = self.forms(quantity.form)
         if isinstance(form, Words):  # in brackets, as it stands in a formula
             return {"skipped": form.text[1:-1]}
         if not isinstance(form, Matrix):
@@ -242,12 +252,6 @@ def _exported(robot: Robot) -> Iterator[Family]:
     """The families that `results` has, in their order."""
     stages, has = derived_stages(robot), quantities(robot).owners.has
     return (family for family in FAMILIES if family.json and family.stage in stages and has(family))
-
-
-def _asked(robot: Robot) -> Iterator[Quantity]:
-    """What is exported only where it is asked for, under its own name."""
-    asked = robot.questions.asked
-    return (quantity for quantity in quantities(robot).values() if quantity.name in asked)
 
 
 def _fill(rows: list[dict[str, Any]], key: str, values: list[Any]) -> None:

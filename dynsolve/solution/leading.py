@@ -11,7 +11,7 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
 
 _MODEL = {"D", "C", "g"}
-"""With these the equations of motion are told, row by row and in matrices."""
+"""With these the equations of motion are told in matrices; the forces of long models are told by them."""
 
 _WHOLE_WITH = {
     Stage.JACOBIAN: {"K"},
@@ -25,9 +25,11 @@ _WHOLE_WITH = {
 def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
     """Those of a solution's steps that are asked for, or that such steps are derived from."""
     asked = {_rule(solution, name) for name in solution.problem.find}
-    asked |= _MODEL if "tau" in asked else set()
+    if "tau" in asked:
+        forces = {f"tau{q.index}" for q in solution.robot.coordinates}
+        asked |= forces if solution.is_short else forces | _MODEL
     named = {name: step for step in steps for name in (step.id, *step.also)}
-    if Stage.NEWTON_EULER in {step.stage for step in steps} or asked.isdisjoint(named):
+    if asked.isdisjoint(named):
         return tuple(steps)
     inputs = {name: rule.inputs for name, rule in solution.values.rules.items()}
     inputs |= {rule.name: rule.inputs for rule in course_rules(solution.robot)}

@@ -484,11 +484,12 @@ def _moments(context: Context, i: int) -> Iterator[Part]:
 
 
 def _ends(context: Context) -> Iterator[Step]:
-    """The forces of the motors as the recursions give them, where what the joints hold is told."""
+    """The forces that are asked for as the recursions give them, where what the joints hold is told."""
     told = [
         q
         for q in context.robot.coordinates
-        if all(
+        if not {"tau", q.force}.isdisjoint(context.find)
+        and all(
             f"{'nl' if joint.type is JointType.REVOLUTE else 'fl'}{joint.index}" in context.wanted
             for joint, _ in context.robot.joints_of(q)
         )

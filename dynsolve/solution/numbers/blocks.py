@@ -5,8 +5,8 @@ Which results are shown in numbers, stage by stage.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from itertools import chain
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
 from dynsolve.explain.step import Detail
@@ -16,6 +16,7 @@ from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equati
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import families as of
 from dynsolve.quantities import letters
+from dynsolve.quantities.families.bodies import DH
 from dynsolve.quantities.family import Family, Kind
 from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.owners import heading_of, stages_of
@@ -31,10 +32,8 @@ from dynsolve.solution.numbers.results import Numbers, State, needed
 Shown = tuple[str, Node]
 """The name of a result, and the letter it is shown by."""
 
-_MAIN = (
-    (of.H,), (of.JV,), (of.JW,), (of.P,), (of.K,), (of.L,), (of.FORCE,), (of.D,), (of.C,), (of.CQD,), (of.G,),
-)  # fmt: skip
-"""What an exercise asks for, of the frames the last one."""
+_KINEMATICS = ("Jv", "Jw")
+"""What is shown beside the last frame where nothing is asked for that there is."""
 
 _ALL = (
     (of.A,), (of.H,), (of.JV,), (of.JW,), (of.RC, of.R, of.I), (of.P_BODY,), (of.P,),
@@ -44,24 +43,22 @@ _ALL = (
 """What is shown of one body, or of one coordinate, before the next stands together."""
 
 
-def main_results(robot: Robot) -> dict[Stage, list[Shown]]:
-    """The results that an exercise asks for, by stage."""
-    last = len(robot.joints)
-    shown = (q for q in _members(robot, _MAIN) if q.family is not of.H or q.index == (last,))
-    return _by_stage(robot, chain(shown, _asked(robot)))
+def asked_results(robot: Robot, asked: Collection[str]) -> dict[Stage, list[Shown]]:
+    """The results that an exercise asks for, by stage, as far as they have values."""
+    known, stages = quantities(robot), stages_of(robot)
+    named = {"tau": [q.name for q in known.of_family(of.FORCE)], "J": _KINEMATICS}
+    wanted = {part for name in asked for part in named.get(name, (name,))}
+    found = [q for q in known.values() if q.name in wanted and q.family.stage in stages]
+    if not found and robot.has_table:
+        found = [known[name] for name in (f"H{len(robot.joints)}", *_KINEMATICS)]
+    return _by_stage(robot, (q for q in found if q.family.kind is Kind.VALUE and q.family is not DH))
 
 
-def all_results(robot: Robot) -> dict[Stage, list[Shown]]:
-    """Every result of the derivation, by stage; the tensor and the axes of a point mass say nothing."""
+def all_results(robot: Robot, derived: Collection[str]) -> dict[Stage, list[Shown]]:
+    """What is `derived`, by stage; the tensor and the axes of a point mass say nothing."""
     known = quantities(robot)
     shown = (q for q in _members(robot, _ALL) if q.family not in (of.R, of.I) or known.is_real(q))
-    return _by_stage(robot, chain(shown, _asked(robot)))
-
-
-def _asked(robot: Robot) -> Iterator[Quantity]:
-    """What only this exercise asks, as far as it has values."""
-    asked = robot.questions.asked
-    return (q for q in quantities(robot).values() if q.name in asked and q.family.kind is Kind.VALUE)
+    return _by_stage(robot, (q for q in shown if q.rule in derived))
 
 
 def _members(robot: Robot, groups: Sequence[tuple[Family, ...]]) -> Iterator[Quantity]:
@@ -71,7 +68,7 @@ def _members(robot: Robot, groups: Sequence[tuple[Family, ...]]) -> Iterator[Qua
             yield from of_one
 
 
-def _by_stage(robot: Robot, shown: Iterator[Quantity]) -> dict[Stage, list[Shown]]:
+def _by_stage(robot: Robot, shown: Iterable[Quantity]) -> dict[Stage, list[Shown]]:
     found: dict[Stage, list[Shown]] = {}
     stages = stages_of(robot)
     for quantity in shown:
@@ -80,7 +77,7 @@ def _by_stage(robot: Robot, shown: Iterator[Quantity]) -> dict[Stage, list[Shown
             letter = quantity.letter(robot)
             if quantity.family is of.FORCE:
                 letter = driving_row(robot, robot.coordinates[quantity.index[0] - 1])
-            found.setdefault(stage, []).append((quantity.rule, letter))
+            found.setdefault(stage, []).append((quantity.form, letter))
     return {stage: found[stage] for stage in Stage if stage in found}
 
 
@@ -94,47 +91,43 @@ def blocks(
     asked: Collection[str] = (),
     derived: Collection[str] = (),
     stages: Iterable[str] | None = None,
+    told: Mapping[str, str] = MappingProxyType({}),
 ) -> Iterator[Block]:
-    """The values, what is `asked` and what that is `derived` from with them, and at the state.
+    """The values but for those that are `told`, what is `asked` with them, and at the state.
 
-    Where results alone are shown, only what is asked.
+    Of chosen stages, and at a state, what was `derived` stands before it.
     """
+    robot = numbers.robot
     chosen = None if stages is None else set(stages)
-    names = {"tau": {f"tau{q.index}" for q in numbers.robot.coordinates}}
-    wanted = set().union(*(names.get(name, {name}) for name in asked))
-
-    def led_to(found: dict[Stage, list[Shown]], known: Collection[str]) -> dict[Stage, list[Shown]]:
-        return {stage: [one for one in shown if one[0] in known] for stage, shown in found.items()}
-
+    results = asked_results(robot, asked)
+    led_up = {} if detail <= Detail.BRIEF else all_results(robot, derived)
+    whole = {
+        stage: list(dict.fromkeys((*led_up.get(stage, ()), *results.get(stage, ()))))
+        for stage in Stage
+        if (stage in led_up or stage in results) and (chosen is None or stage in chosen)
+    }
     if numbers.given.entries:
-        yield from _values(numbers)
+        yield from _values(numbers, told)
     if numbers.valued is not None:
-        known = wanted if detail is Detail.RESULTS else {*wanted, *derived}
-        yield from _results(
-            numbers.robot, led_to(main_results(numbers.robot), known), numbers.valued.shown, chosen
-        )
+        shown = results if chosen is None else whole
+        yield from _results(robot, shown, numbers.valued.shown, folded=chosen is not None)
     if numbers.state is not None:
-        shown = main_results(numbers.robot) if detail <= Detail.BRIEF else all_results(numbers.robot)
-        yield from _state(numbers, numbers.state, led_to(shown, {*wanted, *derived}), chosen)
+        yield from _state(numbers, numbers.state, whole)
 
 
 # -- values ----------------------------------------------------------------------------------------
 
 
-def _values(numbers: Numbers) -> Iterator[Block]:
+def _values(numbers: Numbers, told: Mapping[str, str]) -> Iterator[Block]:
     yield Heading("With numbers", 2)
-    words = "Lengths are in m, angles in rad."
-    if numbers.robot.has_dynamics:
-        words = (
-            "Lengths in m, masses in kg, times in s and angles in rad: torques are then in N m, forces in N "
-            "and energies in J."
-        )
-    yield Text((words,))
-    yield _table(
+    yield Text(("In SI units (m, kg, s), angles in rad.",))
+    rows: list[tuple[Node, GivenValue, str]] = [
         (Symbol(name), entry, entry.unit)
         for name in numbers.robot.parameters
-        if (entry := numbers.given.entries.get((name, 0))) is not None
-    )
+        if (entry := numbers.given.entries.get((name, 0))) is not None and told.get(name) != entry.text
+    ]
+    if rows:
+        yield _table(rows)
     if numbers.lacking:
         yield Text((*_names("Without a value, and so still a symbol: ", numbers.lacking), "."))
 
@@ -163,14 +156,14 @@ def _names(words: str, names: Iterable[str]) -> Iterator[Inline]:
 
 
 def _results(
-    robot: Robot, shown: dict[Stage, list[Shown]], tree: Callable[[str], Node], stages: set[str] | None
+    robot: Robot, shown: Mapping[Stage, Sequence[Shown]], tree: Callable[[str], Node], *, folded: bool
 ) -> Iterator[Block]:
     for stage, results in shown.items():
-        if results and (stages is None or stage in stages):
-            formulas = [
-                block for name, letter in results for block in _shown(robot, name, letter, tree(name))
-            ]
+        formulas = [block for name, letter in results for block in _shown(robot, name, letter, tree(name))]
+        if folded:
             yield Fold(heading_of(stage, robot), (*_remark(robot, stage), *formulas))
+        else:
+            yield from (*_remark(robot, stage), *formulas)
 
 
 def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:
@@ -230,9 +223,7 @@ def _is_wide(matrix: Matrix) -> bool:
 # -- a state ---------------------------------------------------------------------------------------
 
 
-def _state(
-    numbers: Numbers, state: State, shown: dict[Stage, list[Shown]], stages: set[str] | None
-) -> Iterator[Block]:
+def _state(numbers: Numbers, state: State, shown: Mapping[Stage, Sequence[Shown]]) -> Iterator[Block]:
     robot = numbers.robot
     yield Heading("At a state", 2)
     rows: list[tuple[Node, GivenValue, str]] = []
@@ -256,4 +247,4 @@ def _state(
     free = needed(state.robot)
     if free:
         yield Text((*_names("Parameters without a value stay symbols: ", free), "."))
-    yield from _results(robot, shown, state.shown, stages)
+    yield from _results(robot, shown, state.shown, folded=True)

@@ -122,8 +122,13 @@ def of_result(robot: Robot, name: str) -> str | Units:
     """
     known = quantities(robot)
     quantity = known.result(name)
-    if quantity is None or quantity.family.dimension is None:
+    if quantity is None:
         return ""
+    if quantity.family.dimension is None:
+        whole = known.get(quantity.whole)
+        if whole is None or whole.shape is None or not quantity.is_read_off:
+            return ""
+        return _unit(whole.family, known.dimension(whole, *quantity.entry))
     if quantity.shape is None:
         return _unit(quantity.family, known.dimension(quantity))
     rows, columns = quantity.shape

@@ -18,9 +18,10 @@ from dynsolve.algebra.linear_systems import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError, Finding
-from dynsolve.explain.forms import Forms, is_numeric, leading_names
+from dynsolve.explain.forms import Forms, entry_of, is_numeric, leading_names
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node
+from dynsolve.quantities.index import quantities
 from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers.given import Given
 from dynsolve.solution.numbers.substitution import (
@@ -62,9 +63,19 @@ class _NumericResults(ABC):
     def plain(self, name: str) -> Node:
         """A result with roots, cosines of numbers and π in it as decimals of 40 digits."""
 
+    def value(self, name: str) -> Any:
+        """A value of the derivation; a Christoffel symbol by its own name."""
+        if name in self.values.rules:
+            return self.values[name]
+        own = quantities(self.robot)[name]
+        return self.values[own.whole][own.entry]
+
     def shown(self, name: str, digits: int = 0) -> Node:
         """A result as it is shown: exact where no decimal goes in, else to so many digits."""
-        value = self.values[name]
+        own = quantities(self.robot).get(name)
+        if own is not None and own.is_read_off and len(own.entry) == 2:
+            return entry_of(self.shown(own.whole, digits), own.entry)
+        value = self.value(name)
         if isinstance(value, Skipped):
             return tree.Words(value.why)
         return rounded(self.plain(name), digits or self.digits) if self.shows_decimals else self(name)
@@ -87,7 +98,7 @@ class Valued(_NumericResults):
 
     def plain(self, name: str) -> Node:
         """A result without roots and the like."""
-        return self.forms.of(_plain(self.values[name])) if has_constants(self.robot.ring) else self(name)
+        return self.forms.of(_plain(self.value(name))) if has_constants(self.robot.ring) else self(name)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +126,7 @@ class State(_NumericResults):
 
     def exact(self, name: str) -> Exact:
         """A result in the exact ring of this state."""
-        value: Any = self.values[name]
+        value = self.value(name)
         if isinstance(value, FractionMatrix):
             return tidy(self._put.ring, ([self._fraction(entry) for entry in row] for row in value.rows))
         return self._put.matrix(value) if isinstance(value, Matrix) else self._put(value)
