@@ -110,7 +110,7 @@ def rotor_steps(context: Context) -> Iterator[Step]:
     carried = [motor for motor in motors if motor.carrier]
     geared = any(motor.ratio != context.robot.ring.one for motor in motors)
     several = "s" if len(motors) > 1 else ""
-    turned = formula("k_r_i q̇_k")
+    turned = formula("k_r_i q̇_k" if geared else "q̇_k")
     if carried:
         turned = Sum((turned, Product((Transpose(letters.bold("z")), letters.bold("omega", Words("link"))))))
     energy = formula("½ I_m_i ({turned})²", turned=turned)
@@ -118,10 +118,12 @@ def rotor_steps(context: Context) -> Iterator[Step]:
         id="Km",
         title=f"Kinetic energy of the rotor{several}",
         why=say(
-            "A rotor turns with the rate of the coordinate $q_k$ that it drives{geared}{carried}. The energy "
-            "of its turning is half its moment of inertia times the square of that.",
-            geared=", times the ratio of its gear" if geared else "",
-            carried="; one that rides on a link is carried round by that link, too" if carried else "",
+            "A rotor turns with the rate of its coordinate $q_k${geared}{carried}. The energy of its "
+            "turning is half its moment of inertia, $I_m_i$, times the square of that.",
+            geared=say(", times the ratio $k_r_i$ of its gear") if geared else "",
+            carried=say("; one that rides on a link turns with that link, too, about its own axis $𝐳$")
+            if carried
+            else "",
         ),
         formula=equation(letters.KM, counted_sum(energy, letters.COUNT, len(motors)) if several else energy),
         source=siciliano("7.1.1"),

@@ -524,12 +524,16 @@ def _gravity(forms: Forms) -> Prose:
         ((axis, entry),) = along
         opposite = leads_with_minus(entry)
         size = -entry if opposite else entry
-        unit = letters.bold(axis, Words("w") if in_world else Number(0))
         told = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
-        told = ("Gravity", *told, " acts along ", Negative(unit) if opposite else unit)
+        told = ("Gravity", *told, " acts ")
+        if robot.has_table:
+            unit = letters.bold(axis, Words("w") if in_world else Number(0))
+            told += ("along ", Negative(unit) if opposite else unit)
+        else:
+            told += (f"{'against' if opposite else 'along'} the axis {axis}",)
     elif along:
         vector = _vector(forms, entries, "m/s^2")
-        ground = "the world" if in_world else "frame 0"
+        ground = "the world" if in_world or not robot.has_table else "frame 0"
         told = ("The acceleration of gravity is ", equation(letters.GRAVITY, vector))
         told += (f" along the axes of {ground}",)
     if "friction" in robot.actions.kinds:
@@ -600,7 +604,9 @@ def _friction(forms: Forms, friction: JointFriction) -> Prose:
 
 def _motor(forms: Forms, motor: Motor) -> Prose:
     """The rotor that turns q₂ has the moment of inertia I_m2 and the gear ratio k_r2; link 1 carries it."""
-    told: Prose = ("The rotor that drives ", Symbol(forms.robot.coordinates[motor.turns].name))
+    q = forms.robot.coordinates[motor.turns]
+    whose = "of" if forms.robot.is_of_motor(q) else "that drives"
+    told: Prose = (f"The rotor {whose} ", Symbol(q.name))
     told += (" has the moment of inertia ", measured(forms.of(motor.inertia), "kg m^2"))
     if motor.ratio != forms.robot.ring.one:
         told += (" and the gear ratio ", forms.of(motor.ratio))

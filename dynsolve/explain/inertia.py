@@ -190,13 +190,10 @@ def _principal(context: Context, body: Body, tensor: algebra.Matrix) -> Prose:
     if any(not tensor[i, j].is_zero for i in range(3) for j in range(3) if i != j):
         return ()
     told: Prose = (" They are principal axes: there are no products of inertia.",)
-    slender = [name for i, name in enumerate("xyz") if tensor[i, i].is_zero]
-    if len(slender) == 1:
-        slender_axis = "xyz".index(slender[0])
-        axis = _axis(context, body, slender[0], f"its {slender[0]}")
-        across = {tensor[i, i] for i in range(3)} - {tensor[slender_axis, slender_axis]}
-        why = ": the body is slender" if len(across) == 1 else ""
-        told += say(f" The moment about {{axis}} is taken as 0{why}.", axis=axis)
+    absent = [name for i, name in enumerate("xyz") if tensor[i, i].is_zero]
+    if len(absent) == 1:
+        axis = _axis(context, body, absent[0], f"its {absent[0]}")
+        told += say(" The moment about {axis} is taken as 0.", axis=axis)
     return told
 
 

@@ -128,7 +128,8 @@ def _kinds(robot: Robot) -> Prose:
         (True, "is an angle (revolute joint)", "are angles (revolute joints)"),
         (False, "is a length (prismatic joint)", "are lengths (prismatic joints)"),
     ):
-        names = [Symbol(q.name) for q in robot.coordinates if turns(q) is turning]
+        own = (q for q in robot.coordinates if not robot.is_of_motor(q))
+        names = [Symbol(q.name) for q in own if turns(q) is turning]
         if names:
             told.append(say("{names} {are}", names=listed(names), are=one if len(names) == 1 else many))
     return say("{one}; {other}", one=told[0], other=told[1]) if len(told) == 2 else told[0]

@@ -37,14 +37,16 @@ COUNTING = ("i", "j", "k", "n", "t")
 def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
     """The coordinates, and the parameters by what they are; without `frames` by no frame."""
     of_joint = "joint " if robot.has_table else ""
-    for kind, what, unit in (
-        (JointType.REVOLUTE, "angle", "rad"),
-        (JointType.PRISMATIC, "displacement", "m"),
+    geared = any(motor.ratio != robot.ring.one for motor in robot.actions.motors)
+    of_motor = "angle|angles of a|the motor|motors" + " behind its|their gear|gears" * geared
+    for is_of_motor, kind, what, unit in (
+        (False, JointType.REVOLUTE, f"{of_joint}angle|angles", "rad"),
+        (False, JointType.PRISMATIC, f"{of_joint}displacement|displacements", "m"),
+        (True, JointType.REVOLUTE, of_motor, "rad"),
     ):
-        names = [q.name for q in robot.coordinates if q.type is kind]
-        many = "s" if len(names) > 1 else ""
+        names = [q.name for q in robot.coordinates if q.type is kind and robot.is_of_motor(q) is is_of_motor]
         if names:
-            yield _named(names, f"{of_joint}{what}{many}: generalized coordinate{many}", unit)
+            yield _named(names, agreeing(f"{what}: generalized coordinate|coordinates", len(names)), unit)
     if robot.given is None and robot.questions.candidates:
         yield _named([one.name for one in robot.questions.candidates], "matrices that are to be judged", "")
     known, has_bodies = meanings(robot), bool(robot.bodies)

@@ -90,6 +90,7 @@ class Role(Enum):
     SHAPE = "dimension|dimensions of a|the body|bodies"
     CENTER = "place of a|the mass centre|centres in its|their link|links"
     POSITION = "length|lengths in the given positions"
+    DIRECTION = "angle|angles in the given positions"
     ROTOR = "moment|moments of inertia of a|the rotor|rotors"
     RATIO = "ratio|ratios of a|the gear|gears"
     STIFFNESS = "stiffness|stiffnesses of a|the spring|springs"
@@ -140,13 +141,16 @@ def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
     for role, name, _ in _places(robot):
         found.setdefault(name, role)
     dimensions, at_state = _dimensions(robot), units_of_values(robot)
+    pairs = (pair.angle for pair in robot.ring.pairs)
+    angles = frozenset(name for angle in pairs for name in names_of(angle))
 
     def unit(name: str, role: Role) -> str:
         own = dimensions.get(name) or at_state.get(name, "")
         if role in _ACTING:
             return _OF_ACTING.get(own, own)
         is_angle = role is Role.REST and dimensions.get(name) == ""
-        return "rad" if is_angle or role in (Role.TURN, Role.DOWN) else own
+        is_angle |= role is Role.OTHER and not own and name in angles
+        return "rad" if is_angle or role in (Role.TURN, Role.DOWN, Role.DIRECTION) else own
 
     def told(name: str) -> Role:
         own = found.get(name, Role.OTHER)
@@ -244,6 +248,7 @@ def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
             yield from _center(robot, body)
         else:
             yield from _untold(Role.POSITION, *map(names_in, body.center.entries))
+            yield from _untold(Role.DIRECTION, *map(angles_in, body.center.entries))
         rates = (rate for turn in body.turns for rate in turn.rates.entries)
         yield from _untold(Role.POSITION, *map(names_in, rates))
     yield from _acting(robot.actions)

@@ -230,6 +230,10 @@ class Robot(Struct, frozen=True):
         """The joints that a coordinate moves, each with the rate of its variable."""
         return tuple((joint, rate) for joint in self.joints for k, rate in joint.rates if k == q.index - 1)
 
+    def is_of_motor(self, q: Coordinate) -> bool:
+        """Whether a coordinate is the angle of a rotor alone: in the table no joint has it."""
+        return self.has_table and not self.joints_of(q)
+
     @property
     def ends_in_a_joint(self) -> bool:
         """Whether the last frame lies in the last joint, and the table does not reach the end of the arm.

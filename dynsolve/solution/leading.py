@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from dynsolve.derivation.rules import course_rules
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
@@ -61,6 +61,8 @@ def _closure(
             step = named.get(name)
             uses = inputs.get(name, ()) if step is None or step.uses is None else step.uses
             waiting += (*uses, *(() if step is None else (step.id, *step.also)))
+            if name == "Cqd" and step is not None and step.detail is Detail.FULL:
+                waiting.append("C")  # which tells it where the rows of 𝐂 𝐪̇ are not shown
 
 
 def _kept(steps: Sequence[Step], wanted: set[str], known: Iterable[str]) -> Iterator[Step]:

@@ -26,7 +26,7 @@ def test_results_with_values_stand_beside_the_symbolic_ones() -> None:
     assert "    τ₁ = (m₂ L₂² + I_1zz) θ̈₁ + 2m₂ L₂ θ̇₁ L̇₂\n" in out
     assert "    τ₁ = (0.05 + L₂²) θ̈₁ + 2L₂ θ̇₁ L̇₂ in N m\n" in out
     assert "    f₂ = L̈₂ - L₂ θ̇₁² in N\n" in out
-    assert "    𝒫 = 7.848 J\n" in out  # m1 g L1/2 + m2 g L1 = 2·9.81·0.2 + 9.81·0.4
+    assert "𝒫" not in out.partition("With numbers")[2]  # it is not asked for
     assert "    I_1zz    0.05    kg m²\n" in out
 
 
@@ -113,7 +113,7 @@ def test_values_of_a_file_count_where_they_are_complete(tmp_path: Path) -> None:
 
 
 def test_reports_carry_the_numbers(tmp_path: Path) -> None:
-    for form, shown in {"--latex": r"\text{N m}", "--html": "N m", "--markdown": "With numbers"}.items():
+    for form, shown in {"--latex": r"\text{N m}", "--html": "N\u00a0m", "--markdown": "With numbers"}.items():
         assert shown in solved(form, *SET, *AT)
 
 

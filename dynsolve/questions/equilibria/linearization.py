@@ -59,6 +59,7 @@ from dynsolve.derivation.link_frame import velocities
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.notation.tree_values import Program, compile_trees, plain_name
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.questions.equilibria.solving import Equilibria, equilibria, wanted_rows
 from dynsolve.robot.model import Robot
 
@@ -187,7 +188,8 @@ def steady_equilibria(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Eq
     for name, _ in robot.questions.model.steady:
         k = robot.ring.names.index(name)
         if any(not robot.ring.diff(entry, k).is_zero for entry in changing):
-            return Skipped(f"{name} is not cyclic: the equations of the others change as it moves")
+            moving = to_unicode(Symbol(name))
+            return Skipped(f"the equations of the others change as {moving} moves: it is not cyclic")
     braked = _braked(robot)
     if braked:
         return Skipped(f"friction acts on {braked} in this motion, and no motor holds it")
@@ -218,14 +220,14 @@ def _braked(robot: Robot) -> str:
         name = robot.coordinates[one.coordinate].name
         is_turning = rates[name, 1] != Number(0)
         if one.coordinate in wanted and is_turning and not (one.viscous.is_zero and one.coulomb.is_zero):
-            return name
+            return to_unicode(Symbol(name))
     at = AtState(ring, rates)
     for damper in robot.actions.dampers:
         parts = [ring.diff(damper.of, k) for k in range(robot.n)]
         speed = sum((p * v for p, v in zip(parts, velocities(robot).entries, strict=True)), start=ring.zero)
         for k in wanted:
             if not at(damper.damping * speed * parts[k]).is_zero:
-                return robot.coordinates[k].name
+                return to_unicode(Symbol(robot.coordinates[k].name))
     return ""
 
 

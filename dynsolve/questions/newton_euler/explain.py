@@ -25,7 +25,7 @@ from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.torque import how_collected
-from dynsolve.explain.writing import is_small, listed, spong, sum_of, turns
+from dynsolve.explain.writing import is_small, listed, side_by_side, spong, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Letter,
@@ -218,7 +218,8 @@ def _links(context: Context) -> Step:
     general = Names.general(context)
     base = say(" In place of gravity the base accelerates upwards, which weighs on every link alike.")
     if context.standard:
-        base = say(" Gravity is turned into each frame too: ${g} = 𝐑_i^0ᵀ 𝐠_0$.", g=general("{g}"))
+        turned = equation(general("{g}"), Product((Transpose(_from_ground(context)), letters.GRAVITY)))
+        base = say(" Gravity is turned into each frame too: {turned}.", turned=turned)
     return Step(
         id="links",
         title="The links, each in its own frame",
@@ -235,6 +236,11 @@ def _links(context: Context) -> Step:
         listed=True,
         uses=tuple(f"A{joint.index}" for joint in context.robot.joints),
     )
+
+
+def _from_ground(context: Context) -> Letter:
+    """R_i^0, or R_i^w where the base is turned or moved in the world."""
+    return letters.bold("R", letters.COUNT, Words("w") if letters.has_base(context.robot) else Number(0))
 
 
 def _known(context: Context, joint: Joint) -> Iterator[Node]:
@@ -360,12 +366,13 @@ def _origin_step(context: Context, joint: Joint) -> Step:
     if not joint.parent and context.standard:
         base = (" The base is at rest.",)
     elif not joint.parent:
-        x, y, z = map(context.show, recursions.lift(context.robot).entries)
-        base = say(
-            " The base accelerates by ${a} = {lift}$, which stands for gravity.",
-            a=link("{a0}"),
-            lift=Transpose(Parenthesized(Row((x, Words(","), y, Words(","), z)))),
-        )
+        robot = context.robot
+        upwards: Node = Negative(letters.GRAVITY)
+        if letters.has_base(robot):
+            upwards = Negative(Product((Transpose(letters.R(robot, 0)), letters.GRAVITY)))
+        entries = [context.show(entry) for entry in recursions.lift(robot).entries]
+        lift = equation(link("{a0}"), upwards, Transpose(Parenthesized(side_by_side(entries))))
+        base = say(" The base accelerates by {lift}, which stands for gravity.", lift=lift)
     why = say(
         "What the origin before has, and what the turning adds over the way from there{slide}.{base}",
         slide="; since the joint slides, also the Coriolis acceleration and its own"

@@ -40,7 +40,7 @@ def _sections(find: str, detail: Detail = Detail.NORMAL) -> list[str]:
         ("K", [*_KINEMATICS, *_ENERGY]),
         ("P", [*_KINEMATICS, *_ENERGY]),
         ("tau1", [*_KINEMATICS, *_ENERGY, *_FORCES]),
-        ("tau, singular", [*_KINEMATICS, _ENERGY[0], *_TASK, *_ENERGY[1:], *_FORCES, "The matrix form"]),
+        ("tau, singular", [*_KINEMATICS, _ENERGY[0], *_TASK, *_ENERGY[1:], *_FORCES]),
         ("D, C, g", [*_KINEMATICS, *_ENERGY, *_FORCES, "The matrix form"]),
     ],
 )
