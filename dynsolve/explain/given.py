@@ -18,6 +18,7 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring_values import value_of
+from dynsolve.derivation.reached import angle_rows
 from dynsolve.document import Block, Formula, Inline, List, Prose, Text
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import leads_with_minus
@@ -32,6 +33,7 @@ from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
 from dynsolve.notation import tree
 from dynsolve.notation.characters import split
+from dynsolve.notation.printing import decimal_text
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     ZERO,
@@ -642,10 +644,12 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     if task is not None and task.entries and not task.is_default:
         yield ("The task is ", equation(letters.TASK, _flat(map(_in_letters, task.entries))), ".")
     if questions.target is not None:
-        yield ("To be reached: ", _target(forms.robot, questions.target), ".")
+        yield ("To be reached: ", _target(forms, questions.target), ".")
     for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
         if value is not None:
-            wanted = equation(letters.bold("r", dots=dots), _flat(map(forms.of, value.entries)))
+            wanted = equation(
+                letters.bold("r", dots=dots), _of_task(forms, map(forms.of, value.entries), dots)
+            )
             yield (f"The task is to have the {'velocity' if dots == 1 else 'acceleration'} ", wanted, ".")
     yield from (_load(forms, load) for load in questions.loads)
     ranges = [
@@ -705,15 +709,44 @@ def _measured(value: Node, unit: str) -> Node:
     return measured(value if exact is None else number(exact), unit)
 
 
-def _target(robot: Robot, target: Target) -> Node:
+def _target(forms: Forms, target: Target) -> Node:
     """The task, or the frame, and what it is to be."""
-    task, values = robot.questions.task, target.values
+    robot, task = forms.robot, forms.robot.questions.task
     if task is None or not task.is_pose:
         left = _flat(map(_in_letters, task.entries)) if task and task.is_default else letters.TASK
-        return equation(left, _flat(values))
+        return equation(left, _of_task(forms, target.values))
+    values = tuple(map(_in_decimals, target.values))
     rows = [(*values[3 * k + 3 : 3 * k + 6], values[k]) for k in range(3)]
     pose = tree.Matrix((*rows, (ZERO, ZERO, ZERO, Number(1))))
     return equation(letters.H(robot, len(robot.joints)), pose)
+
+
+def _of_task(forms: Forms, values: Iterable[Node], dots: int = 0) -> Node:
+    """(0.3, 0.2) m: what the task, or its rate, is to be; (0.3 m, 60°) where it has angles."""
+    written, task = list(values), forms.robot.questions.task
+    if task is not None and task.is_twist:
+        return _flat(map(_in_decimals, written))
+    per = ("", "/s", "/s^2")[dots]
+    kinds = [f"{'rad' if is_angle else 'm'}{per}" for is_angle in angle_rows(forms.values["r"])]
+    if len(set(kinds)) == 1 and all(rational_value(value) is not None for value in written):
+        return Row((_flat(map(_in_decimals, written)), Words(" "), units.node(kinds[0])))
+    return _flat(
+        value if rational_value(value) is None else _with_unit(value, unit)
+        for value, unit in zip(written, kinds, strict=True)
+    )
+
+
+def _with_unit(value: Node, unit: str) -> Node:
+    return Row((_in_decimals(value), Words(" "), units.node(unit)))
+
+
+def _in_decimals(value: Node) -> Node:
+    """A number with a decimal point, where that comes to an end; anything else as it is."""
+    exact = rational_value(value)
+    text = None if exact is None else decimal_text(abs(exact.numerator), exact.denominator)
+    if exact is None or text is None:
+        return value
+    return Negative(Words(text)) if exact < 0 else Words(text)
 
 
 def _load(forms: Forms, load: Load) -> Prose:

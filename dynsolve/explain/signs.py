@@ -83,8 +83,8 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
     taken = {*map(UnicodePrinter().text, own), *map(UnicodePrinter(style).text, shorthands(robot, style))}
     found: dict[Sign, str] = {}
     for (base, count), other in ALTERNATIVES.items():
-        read_as_cosine = (base, count) == ("c", 2) and style.shorthand
-        if read_as_cosine or not taken.isdisjoint(map(UnicodePrinter().text, _scalars(robot, base, count))):
+        is_like_cosine = (base, count) == ("c", 2)  # c₁₂ of 𝐂 reads as one, with or without shorthands
+        if is_like_cosine or not taken.isdisjoint(map(UnicodePrinter().text, _scalars(robot, base, count))):
             found[base, "italic", count] = other
     decimal = style.decimal or digits is not None
     shown = (digits or shown_digits(robot) + MORE_DIGITS) if decimal else 0

@@ -107,6 +107,7 @@ def _units(robot: Robot) -> dict[Node, str]:
     """The one unit of all entries of each letter that has one."""
     length, count = units.si(units.LENGTH), len(robot.joints)
     found: dict[Node, str] = {letters.o(i): length for i in range(count + 1)}
+    found |= {letters.height(letters.index_of(body.name)): length for body in robot.bodies}
     for i in range(1, count + 1):
         _, d, a, _ = letters.columns(robot, Number(i))
         found |= {d: length, a: length}
