@@ -113,7 +113,8 @@ def rotor_steps(context: Context) -> Iterator[Step]:
     turned = formula("k_r_i q̇_k" if geared else "q̇_k")
     if carried:
         turned = Sum((turned, Product((Transpose(letters.bold("z")), letters.bold("omega", Words("link"))))))
-    energy = formula("½ I_m_i ({turned})²", turned=turned)
+    is_sum = geared or carried
+    energy = formula("½ I_m_i ({turned})²" if is_sum else "½ I_m_i {turned}²", turned=turned)
     yield Step(
         id="Km",
         title=f"Kinetic energy of the rotor{several}",

@@ -731,7 +731,7 @@ def _of_task(forms: Forms, values: Iterable[Node], dots: int = 0) -> Node:
     if len(set(kinds)) == 1 and all(rational_value(value) is not None for value in written):
         return Row((_flat(map(_in_decimals, written)), Words(" "), units.node(kinds[0])))
     return _flat(
-        value if rational_value(value) is None else _with_unit(value, unit)
+        _with_unit(value, unit) if rational_value(value) else value
         for value, unit in zip(written, kinds, strict=True)
     )
 

@@ -198,19 +198,18 @@ def summary_blocks(
         of_model -= {name for name in ("D", "g") if name in by_id and is_small(*by_id[name].result)}
     of_steps, read_off = _parted(robot, (name for name in asked if name not in of_model))
     others = [*_others(of_steps, robot, steps), *_read_off(read_off, robot, forms)]
-    is_of_forces = model is None and "tau" in asked
-    if model is None and not (others or is_of_forces):
+    forces = _forces(robot, by_id) if model is None and "tau" in asked else []
+    if model is None and not (others or forces):
         return
     yield Heading(TITLE, 2, closing=True)
     if model is not None and is_short:
         yield from _model(robot, model, by_id, detail, short)
     elif model is not None:
         yield from _long_model(model, by_id, detail, sections)
-    elif is_of_forces:
-        rows = _forces(robot, by_id)
+    elif forces:
         if short is not None and short.at_symbols:
-            yield from _names(robot, by_id, short, [], [step.result[0] for step in rows])
-        yield from _rows(robot, rows)
+            yield from _names(robot, by_id, short, [], [step.result[0] for step in forces])
+        yield from _rows(robot, forces)
     yield from others
 
 
@@ -536,7 +535,15 @@ class _Parts(Struct, dict=True):
             problem = self.solution.problem
             derived = {name for step in self.steps for name in (step.id, *step.also)}
             told = problem.written if self.stages is None else {}
-            yield from blocks(self.solution.numbers, self.detail, problem.find, derived, self.stages, told)
+            yield from blocks(
+                self.solution.numbers,
+                self.detail,
+                problem.find,
+                derived,
+                self.stages,
+                told,
+                self.solution.forms,
+            )
 
     def derivation(self) -> Iterator[Block]:
         """Stages and their steps; in a whole derivation what is shown of it is counted."""

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.terms import ID
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
@@ -33,11 +34,13 @@ def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
         return tuple(steps)
     inputs = {name: rule.inputs for name, rule in solution.values.rules.items()}
     inputs |= {rule.name: rule.inputs for rule in course_rules(solution.robot)}
+    has_rates = "Cqd" in solution.values.rules and not solution.values["Cqd"].is_zero
     wanted, kept = set[str](), tuple[Step, ...]()
     while True:
-        found = set(_closure({*asked, *(step.id for step in kept)}, named, inputs))
+        ids = {*asked, *(step.id for step in kept)}
+        found = set(_closure(ids, named, inputs, has_rates=has_rates))
         if found == wanted:
-            return kept
+            return tuple(step for step in kept if step.id != ID or asked >= _MODEL)
         wanted = found
         kept = tuple(_kept(steps, wanted, named.keys() | inputs.keys()))
 
@@ -49,7 +52,7 @@ def _rule(solution: Dynamics, name: str) -> str:
 
 
 def _closure(
-    names: Iterable[str], named: Mapping[str, Step], inputs: Mapping[str, Sequence[str]]
+    names: Iterable[str], named: Mapping[str, Step], inputs: Mapping[str, Sequence[str]], *, has_rates: bool
 ) -> Iterator[str]:
     """Names and all that they are derived from, by their steps or, without steps, by their rules."""
     seen, waiting = set[str](), list(names)
@@ -61,7 +64,7 @@ def _closure(
             step = named.get(name)
             uses = inputs.get(name, ()) if step is None or step.uses is None else step.uses
             waiting += (*uses, *(() if step is None else (step.id, *step.also)))
-            if name == "Cqd" and step is not None and step.detail is Detail.FULL:
+            if name == "Cqd" and step is not None and step.detail is Detail.FULL and has_rates:
                 waiting.append("C")  # which tells it where the rows of 𝐂 𝐪̇ are not shown
 
 

@@ -92,10 +92,12 @@ def blocks(
     derived: Collection[str] = (),
     stages: Iterable[str] | None = None,
     told: Mapping[str, str] = MappingProxyType({}),
+    forms: Callable[[str], Node] | None = None,
 ) -> Iterator[Block]:
     """The values but for those that are `told`, what is `asked` with them, and at the state.
 
-    Of chosen stages, and at a state, what was `derived` stands before it.
+    Of chosen stages, and at a state, what was `derived` stands before it.  What values do not change is as
+    `forms` has it, and is not repeated.
     """
     robot = numbers.robot
     chosen = None if stages is None else set(stages)
@@ -106,11 +108,18 @@ def blocks(
         for stage in Stage
         if (stage in led_up or stage in results) and (chosen is None or stage in chosen)
     }
+    valued: list[Block] = []
+    if numbers.valued is not None and chosen is not None:
+        valued = list(_results(robot, whole, numbers.valued.shown, folded=True))
+    elif numbers.valued is not None:
+        tree = numbers.valued.shown
+        changed = {
+            stage: [(name, letter) for name, letter in shown if forms is None or tree(name) != forms(name)]
+            for stage, shown in results.items()
+        }
+        valued = list(_results(robot, changed, tree, folded=False))
     if numbers.given.entries:
-        yield from _values(numbers, told)
-    if numbers.valued is not None:
-        shown = results if chosen is None else whole
-        yield from _results(robot, shown, numbers.valued.shown, folded=chosen is not None)
+        yield from _with_heading(_values(numbers, told), valued)
     if numbers.state is not None:
         yield from _state(numbers, numbers.state, whole)
 
@@ -118,9 +127,16 @@ def blocks(
 # -- values ----------------------------------------------------------------------------------------
 
 
+def _with_heading(values: Iterable[Block], results: Sequence[Block]) -> Iterator[Block]:
+    """The values and the results under their heading; nothing where there are none."""
+    told = tuple(values)
+    if told or results:
+        yield Heading("With numbers", 2)
+        yield Text(("In SI units (m, kg, s), angles in rad.",))
+        yield from (*told, *results)
+
+
 def _values(numbers: Numbers, told: Mapping[str, str]) -> Iterator[Block]:
-    yield Heading("With numbers", 2)
-    yield Text(("In SI units (m, kg, s), angles in rad.",))
     rows: list[tuple[Node, GivenValue, str]] = [
         (Symbol(name), entry, entry.unit)
         for name in numbers.robot.parameters

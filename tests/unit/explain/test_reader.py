@@ -172,3 +172,106 @@ def test_a_spring_has_one_order_of_its_terms() -> None:
 def test_that_passive_forces_are_zero_is_said_where_rows_are_in_names_too() -> None:
     text = in_one_line("gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES + "passive: [q2]\nfind: [tau, D, C, g]")
     assert "Row by row, with τ₂ = 0:" in text
+
+
+ARM = "gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES
+
+
+def summary_of(problem: str) -> str:
+    text = page(problem)
+    return text[text.index("Summary") :]
+
+
+def test_what_is_asked_of_a_whole_is_answered_alone_and_zeros_too() -> None:
+    problem = ARM + "find: [d12, g2, C22, c111, c121, c122]\n"
+    told = " ".join(summary_of(problem).split())
+    assert "d₁₂ = m₂ (l₂² + l₁ l₂ c₂)" in told and "g₂ = m₂ g l₂ c₁₂" in told
+    assert "c₁₂₁ = -m₂ l₁ l₂ s₂ " in told  # not how it is derived
+    assert "C₂₂, c₁₁₁ and c₁₂₂ are 0." in told
+    assert "Note: c₁₁₁ and c₂₂₂ are zero. In c₁₂₂ the derivatives cancel" in in_one_line(problem)
+
+
+def test_asked_symbols_stand_in_the_json_as_the_derivatives_of_the_inertia_matrix_give_them() -> None:
+    import sympy
+
+    names = [f"c{i}{j}{k}" for i in (1, 2) for j in (1, 2) for k in (1, 2) if i <= j]
+    solution = dynsolve.solve(ARM + f"find: [{', '.join(names)}]\n")
+    found, D = solution.to_json()["results"], solution.D
+    q = [sympy.Symbol(name, real=True) for name in ("q1", "q2")]
+    for name in names:
+        i, j, k = (int(digit) - 1 for digit in name[1:])
+        slopes = D[k, j].diff(q[i]) + D[k, i].diff(q[j]) - D[i, j].diff(q[k])
+        here = sympy.sympify(found[name], locals={str(s): s for s in D.free_symbols})
+        assert sympy.simplify(here - slopes / 2) == 0
+    assert found["c111"] == "0"
+
+
+def test_with_numbers_there_is_what_is_asked_and_nothing_else() -> None:
+    values = "values: {l1: 0.5, l2: 0.4, m1: 2, m2: 1.5, g: 9.81}\n"
+    solution = dynsolve.solve(ARM + values + "find: [rc2, K2, d12, c111]\n").beside()
+    text = normalize("NFC", report(solution, Format.TEXT).decode())
+    numbers = text[text.index("With numbers") :]
+    assert text.index("Summary") < text.index("With numbers")
+    assert "⎡0.5 c₁ + 0.4 c₁₂⎤" in numbers and "K₂ = 0.5 (" in numbers
+    assert "d₁₂ = 0.24 + 0.3 c₂ in kg m²" in numbers and "c₁₁₁" not in numbers  # 0 is 0
+    assert not re.search(r"𝐇|𝐉|𝒫|𝒦|ℒ|τ₁|𝐃|value", numbers)  # the values stand in what is given
+
+
+def test_after_the_recursions_no_matrix_is_read_off_that_nobody_asks_for() -> None:
+    from dynsolve.robot.questions import Method
+
+    solution = dynsolve.solve(ARM + "find: [tau]\n", method=Method.NEWTON_EULER)
+    told = report(solution, Format.TEXT).decode()
+    assert "The matrix form" not in told and "Row by row:" in told[told.index("Summary") :]
+    asked = dynsolve.solve(ARM + "find: [nl1, wl2]\n")
+    told = report(asked, Format.TEXT).decode()
+    assert "Newton-Euler recursions" in told and "Lagrang" not in told
+
+
+MOTOR = ARM + "springs: [{stiffness: k, of: q2 - th}]\nmotors: [{turns: th*, inertia: Im%s}]\npassive: [q2]\n"
+
+
+@pytest.mark.parametrize(
+    ("gear", "called"), [("", "angle of a motor"), (", ratio: n", "angle of a motor behind")]
+)
+def test_the_angle_of_a_motor_is_no_angle_of_a_joint(gear: str, called: str) -> None:
+    text = in_one_line(MOTOR % gear + "find: [Km]\n")
+    assert "q₁, q₂: joint angles: generalized coordinates" in text and f"t_h: {called}" in text
+    assert "Here q₁ and q₂ are angles (revolute joints)." in text
+    assert "The rotor of t_h has the moment of inertia I_m" in text
+    assert "half its moment of inertia, I_mi, times" in text and ("k_ri" in text) is bool(gear)
+
+
+def test_a_model_without_frames_has_gravity_by_an_axis_of_the_world() -> None:
+    model = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {s: prismatic}
+  bodies: [{mass: m, at: [s*cos(beta), 0, s*sin(beta)]}]
+find: [g]
+"""
+    text = in_one_line(model)
+    assert "Gravity g acts against the axis z; there is no friction." in text
+    assert "β: angle in the given positions (rad)" in text and "parameter of the problem" not in text
+
+
+def test_numbers_to_be_reached_and_heights_have_their_units() -> None:
+    arm = "gravity: none\ndh: [{theta: q1*, a: 0.3}, {theta: q2*, a: 0.2}]\n"
+    text = in_one_line(arm + "task: [tip.x, tip.y]\nreach: [0.1, -0.35]\nfind: [inverse]\n")
+    assert "To be reached: 𝐫 = (0.1, -0.35) m." in text
+    text = in_one_line(arm + "task: [tip.x, q1 + q2]\nreach: [0.1, 30deg]\nfind: [inverse]\n")
+    assert "To be reached: 𝐫 = (0.1 m, 30°)." in text
+    lift = "gravity: [0, 0, -9.81]\ndh: [{theta: q1*, d: 0.05}]\nmasses: [{mass: 2, link: 1}]\nfind: [P]\n"
+    assert "η₁ = 0.05 m" in in_one_line(lift)
+
+
+def test_the_base_of_the_modified_recursions_accelerates_along_its_own_axes() -> None:
+    arm = "convention: modified\ngravity: [0, 0, -g]\nbase: Ry(90deg)\ndh: [{theta: q1*}, {a: l1}]\n"
+    text = in_one_line(arm + "masses: [{mass: m1, link: 2, center: [lc, 0, 0]}]\nfind: [al1]\n")
+    assert "𝐚₀⁰ = -(𝐑₀^w)ᵀ 𝐠₀ = (-g, 0, 0)ᵀ" in text
+
+
+def test_the_entries_of_the_coriolis_matrix_have_one_letter() -> None:
+    for stem in ("cartesian-pp", "planar-2r"):
+        text = page(stem, Detail.FULL)
+        assert "Cₖⱼ" in text and "cₖⱼ" not in text
