@@ -13,7 +13,7 @@ from dynsolve.explain.step import Detail
 from dynsolve.explain.terms import driving_row
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation, walk
-from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.quantities import families as of
 from dynsolve.quantities import letters
 from dynsolve.quantities.families.bodies import DH
@@ -114,7 +114,11 @@ def blocks(
     elif numbers.valued is not None:
         tree = numbers.valued.shown
         changed = {
-            stage: [(name, letter) for name, letter in shown if forms is None or tree(name) != forms(name)]
+            stage: [
+                (name, letter)
+                for name, letter in shown
+                if forms is None or to_unicode(tree(name)) != to_unicode(forms(name))
+            ]
             for stage, shown in results.items()
         }
         valued = list(_results(robot, changed, tree, folded=False))
