@@ -9,7 +9,7 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Number, Relation, Row, Words, walk, with_children
+from dynsolve.notation.tree import Node, Number, Relation, Row, Words, has_part, with_children
 
 
 def marked(node: Node, style: Style) -> Node:
@@ -40,7 +40,7 @@ def marked_among_words(node: Node, style: Style) -> Node:
     >>> to_unicode(marked_among_words(Number(1, 3), style), style)
     '≈ 0.333333'
     """
-    in_equation = any(isinstance(part, Relation) for part in walk(node))
+    in_equation = has_part(node, lambda part: isinstance(part, Relation))
     if in_equation or not is_rounded(node, style):
         return marked(node, style)
     return Row((Words("≈ "), node))
@@ -48,4 +48,4 @@ def marked_among_words(node: Node, style: Style) -> Node:
 
 def is_rounded(node: Node, style: Style) -> bool:
     """Whether a number in a formula is printed rounded."""
-    return any(isinstance(part, Number) and style.rounds(part) for part in walk(node))
+    return has_part(node, lambda part: isinstance(part, Number) and style.rounds(part))

@@ -292,6 +292,19 @@ def walk(*nodes: Node) -> Iterator[Node]:
         pending += _READERS[type(node)](node)[::-1]
 
 
+def has_part(node: Node, test: Callable[[Node], bool]) -> bool:
+    """Whether a test holds for a formula or a part of it; a part that recurs is asked once."""
+    pending, asked = [node], set()
+    while pending:
+        part = pending.pop()
+        if id(part) not in asked:
+            if test(part):
+                return True
+            asked.add(id(part))
+            pending += _READERS[type(part)](part)
+    return False
+
+
 def names_in(*nodes: Node) -> set[str]:
     """The names of all symbols in trees."""
     return {part.name for part in walk(*nodes) if isinstance(part, Symbol)}

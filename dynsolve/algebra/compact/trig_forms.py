@@ -306,7 +306,7 @@ def _option(form: TrigForm) -> _Option:
 def _price_beside(option: _Option, uses: Counter[TrigMonomial]) -> float:
     """The price where other coefficients are written with some monomials."""
     terms = zip(option.items, option.trig_prices, strict=True)
-    return option.price - SHARED * sum(price for (mono, _), price in terms if uses[mono])
+    return option.price - SHARED * sum(price for (mono, _), price in terms if uses.get(mono))
 
 
 def _angle_price(multiples: Multiples) -> int:
