@@ -119,11 +119,12 @@ def _plus_first(terms: list[Node]) -> list[Node]:
 
 def _is_velocity(term: Node) -> bool:
     """Whether a term is a velocity, or a sum of velocities, times lengths or angles."""
-    inner = split_sign(term)[1]
-    factors = inner.factors if isinstance(inner, Product) else (inner,)
-    moving = [factor for factor in factors if _dots(factor)]
-    others = [factor for factor in factors if not (_dots(factor) or isinstance(factor, Number))]
-    return bool(others) and len(moving) == 1 and _dots(moving[0]) == 1 and not isinstance(moving[0], Power)
+    factors = [factor for factor in factors_of(split_sign(term)[1]) if not isinstance(factor, Number)]
+    moving = [(dots, factor) for factor in factors if (dots := _dots(factor))]
+    if len(moving) != 1 or len(factors) == 1:
+        return False
+    ((dots, factor),) = moving
+    return dots == 1 and not isinstance(factor, Power)
 
 
 def _dots(node: Node) -> int:

@@ -131,18 +131,25 @@ class FormulaSplitter:
         self.ruler = ruler
         self.fine = fine
         self.fraction = fraction
+        self._memory: dict[tuple[int, str], tuple[Node, list[Piece]]] = {}
 
     def pieces(self, node: Node, sign: str = "") -> list[Piece]:
         """The pieces of a formula, with a sign of a relation before it."""
+        known = self._memory.get((id(node), sign))
+        if known is None:
+            known = self._memory[id(node), sign] = (node, list(self._pieces(node, sign)))
+        return known[1]
+
+    def _pieces(self, node: Node, sign: str) -> Iterator[Piece]:
         builder = _Builder(self.notation.joined)
         if sign:
             builder.add(self.notation.relation(sign), RELATION)
         self._put(builder, node, 0)
-        return list(builder.pieces())
+        return builder.pieces()
 
     def _put(self, builder: _Builder, node: Node, level: int) -> None:
         match node:
-            case Relation(parts, signs) if holds_matrix(node) or self._is_wide(node):
+            case Relation(parts, signs) if self._is_wide(node) or holds_matrix(node):
                 self._put(builder, parts[0], level)
                 for sign, part in zip(signs, parts[1:], strict=True):
                     builder.gap(level, RELATION_BREAK)
@@ -218,7 +225,7 @@ class FormulaSplitter:
         for i, factor in enumerate(factors):
             if narrow and isinstance(factor, Function):  # never broken, and it keeps its distance
                 narrow.append(factor)
-            elif holds_matrix(factor) or self._is_wide(factor):
+            elif self._is_wide(factor) or holds_matrix(factor):
                 self._together(builder, narrow, after=i > len(narrow))
                 if i and (not narrow or holds_matrix(factor)):
                     builder.gap(level, FACTOR_BREAK, self.notation.times)
