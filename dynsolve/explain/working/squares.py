@@ -170,10 +170,9 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     ring, components = context.robot.ring, [x for x in velocity.entries if not x.is_zero]
     found = list(_by_rates(context, components))
     sorted_out = total([whole for _, whole, _ in found])
-    tactics: list[Tactic] = [
-        ("The squares of its entries:", _sum_of_squares(context, components)),
-        ("Multiplied out, and sorted by the products of the rates:", sorted_out),
-    ]
+    tactics: list[Tactic] = [("Multiplied out, and sorted by the products of the rates:", sorted_out)]
+    if velocity != context.values[f"v{body.name}"]:
+        tactics.insert(0, ("The squares of its entries:", _sum_of_squares(context, components)))
     used = [identities(ring, bracket, context.show(value)) or () for bracket, _, value in found]
     if not any(used):
         return _chain(context, body, tactics, collected(sorted_out, context.form(f"Kv{body.name}")))
