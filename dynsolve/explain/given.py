@@ -632,6 +632,18 @@ AT_STATE = frozenset({"Q", "tau_static", "qd", "qdd", "nullspace", "rangespace",
 """What is computed at the state that a file gives."""
 
 
+def holds_at_state(robot: Robot, name: str) -> bool:
+    """Whether a result holds at the given state alone."""
+    return bool(robot.questions.state.values) and name.rstrip("0123456789") in AT_STATE
+
+
+def at_the_state(robot: Robot) -> Text:
+    """At q₁ = 30°, q₂ = 60°:"""
+    values = robot.questions.state.values
+    given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in values])
+    return Text(say("At {given}:", given=given))
+
+
 def _questions(forms: Forms) -> Iterator[Prose]:
     """Constraints, task, target, state, forces from outside, limits and assumptions."""
     robot, questions = forms.robot, forms.robot.questions

@@ -37,7 +37,8 @@ COUNTING = ("i", "j", "k", "n", "t")
 def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
     """The coordinates, and the parameters by what they are; without `frames` by no frame."""
     of_joint = "joint " if robot.has_table else ""
-    geared = any(motor.ratio != robot.ring.one for motor in robot.actions.motors)
+    own = (motor for motor in robot.actions.motors if robot.is_of_motor(robot.coordinates[motor.turns]))
+    geared = any(motor.ratio != robot.ring.one for motor in own)
     of_motor = "angle|angles of a|the motor|motors" + " behind its|their gear|gears" * geared
     for is_of_motor, kind, what, unit in (
         (False, JointType.REVOLUTE, f"{of_joint}angle|angles", "rad"),

@@ -40,7 +40,7 @@ from dynsolve.document import (
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.given import AT_STATE, CALLED, statement, to_be_found
+from dynsolve.explain.given import CALLED, at_the_state, holds_at_state, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID
@@ -345,14 +345,12 @@ def _read_off(asked: Iterable[Quantity], robot: Robot, forms: Callable[[str], No
 
 def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
     """What else is asked for: what holds everywhere, then, said so, what holds at the given state alone."""
-    state = robot.questions.state.values
-    at_state = [name for name in asked if state and name.rstrip("0123456789") in AT_STATE]
+    at_state = [name for name in asked if holds_at_state(robot, name)]
     for name in (name for name in asked if name not in at_state):
         yield from _asked_for(name, robot, steps)
     found = [block for name in at_state for block in _asked_for(name, robot, steps)]
     if found:
-        given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in state])
-        yield Text(say("At {given}:", given=given))
+        yield at_the_state(robot)
         yield from found
 
 

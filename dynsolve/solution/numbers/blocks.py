@@ -6,9 +6,11 @@ Which results are shown in numbers, stage by stage.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from types import MappingProxyType
 
 from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
+from dynsolve.explain.given import at_the_state, holds_at_state
 from dynsolve.explain.step import Detail
 from dynsolve.explain.terms import driving_row
 from dynsolve.notation.printing import PLAIN
@@ -121,7 +123,10 @@ def blocks(
             ]
             for stage, shown in results.items()
         }
-        valued = list(_results(robot, changed, tree, folded=False))
+        here = partial(holds_at_state, robot)
+        valued = list(_results(robot, _those(changed, lambda name: not here(name)), tree, folded=False))
+        if found := list(_results(robot, _those(changed, here), tree, folded=False)):
+            valued += (at_the_state(robot), *found)
     if numbers.given.entries:
         yield from _with_heading(_values(numbers, told), valued)
     if numbers.state is not None:
@@ -129,6 +134,12 @@ def blocks(
 
 
 # -- values ----------------------------------------------------------------------------------------
+
+
+def _those(shown: Mapping[Stage, Sequence[Shown]], wanted: Callable[[str], bool]) -> dict[Stage, list[Shown]]:
+    """The results of which the names are wanted, of stages that have some."""
+    kept = {stage: [one for one in results if wanted(one[0])] for stage, results in shown.items()}
+    return {stage: results for stage, results in kept.items() if results}
 
 
 def _with_heading(values: Iterable[Block], results: Sequence[Block]) -> Iterator[Block]:
