@@ -18,7 +18,7 @@ import numpy as np
 
 from dynsolve import document
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, walk
+from dynsolve.notation.tree import Node, Symbol, walk
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot.model import Convention
 from tests.strangers.mechanism import NEAR, Mechanism, names_of, near, plain, rank
@@ -670,9 +670,9 @@ def _axes_meet(m: Mechanism, s: Sentence) -> bool:
 # ranks
 
 
-@says("# is not cyclic: the equations of the others change as it moves.")
+@says("The equations of the others change as # moves: it is not cyclic.")
 def _not_cyclic(m: Mechanism, s: Sentence) -> bool:
-    (q,) = [q for q in m.coordinates if q.lower() == s.words[0].lower()]
+    (q,) = [q for q in m.coordinates if to_unicode(Symbol(q)) == s.words[0]]
     others = [k for k, name in enumerate(m.coordinates) if name != q]
     return m.changes(lambda p: m.result("tau", p)[others], (q,))
 

@@ -20,7 +20,6 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import friction_steps, in_recursions, rotor_moments, spring_steps
 from dynsolve.explain.context import MOST_JOINTS, Context
-from dynsolve.explain.jacobian import ZERO
 from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.terms import driving_row
@@ -201,7 +200,7 @@ def _sum(context: Context, key: str, title: str, why: Prose, name: Node, parts: 
         id=key,
         title=title,
         why=why,
-        formula=equation(name, sum_of([term for term, _ in parts]) if parts else ZERO),
+        formula=equation(name, sum_of([term for term, _ in parts])) if parts else None,
         source=context.by_convention("7.6", "6.5"),
         lines=lines,
         concluding=("Added:",) if lines else (),

@@ -275,3 +275,17 @@ def test_the_entries_of_the_coriolis_matrix_have_one_letter() -> None:
     for stem in ("cartesian-pp", "planar-2r"):
         text = page(stem, Detail.FULL)
         assert "Cₖⱼ" in text and "cₖⱼ" not in text
+
+
+def test_what_holds_at_the_state_is_told_to_with_numbers_too() -> None:
+    asked = "velocity: [0.1, 0]\nstate: {q1: 30deg, q2: 60deg}\nfind: [r, qd]\n"
+    solution = dynsolve.solve("gravity: none\n" + TWO_LINKS + "values: {l1: 0.5, l2: 0.3}\n" + asked).beside()
+    text = normalize("NFC", report(solution, Format.TEXT).decode())
+    before, _, after = text[text.index("With numbers") :].partition("At q₁ = 30°, q₂ = 60°:")
+    assert "𝐫 = " in before and "𝐪̇ ≈ " in after  # -0.1/0.3 rad/s
+
+
+def test_only_a_motor_with_a_gear_is_behind_one() -> None:
+    motors = "motors: [{turns: q1, inertia: I1, ratio: n}, {turns: th*, inertia: I2}]\n"
+    text = in_one_line(ARM + motors + "find: [Km]\n")
+    assert "t_h: angle of a motor: generalized coordinate" in text

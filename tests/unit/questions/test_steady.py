@@ -93,9 +93,9 @@ def test_angles_that_no_parameters_allow_are_left_out() -> None:
 @pytest.mark.parametrize(
     ("problem", "why"),
     [
-        (ARM.replace("q1: W", "q2: W"), "q2 is not cyclic"),
-        (f"{ARM}friction: {{q1: b}}\npassive: [q1]\n", "friction acts on q1"),
-        (f"{ARM}dampers: [{{damping: b, of: q1 - q2}}]\n", "friction acts on q2"),
+        (ARM.replace("q1: W", "q2: W"), "change as q₂ moves: it is not cyclic"),
+        (f"{ARM}friction: {{q1: b}}\npassive: [q1]\n", "friction acts on q₁"),
+        (f"{ARM}dampers: [{{damping: b, of: q1 - q2}}]\n", "friction acts on q₂"),
     ],
 )
 def test_a_motion_that_is_not_steady_is_refused(problem: str, why: str) -> None:
