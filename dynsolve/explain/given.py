@@ -445,7 +445,7 @@ def _tensors(forms: Forms) -> Prose:
 
 
 def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
-    """Moments of inertia about axes through the mass centres: of body 1 I₁, about that parallel to 𝐳₁; ..."""
+    """Moments of inertia about axes through the mass centres: body 1 has I₁ about that parallel to 𝐳₁; ..."""
     found = [(body, _alike(_nonzero(body))) for body in bodies if _nonzero(body)]
     told: Prose = ()
     is_one_each = len(found) in (1, len(bodies))
@@ -460,14 +460,24 @@ def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
             about = "; that of {body}, about such an axis parallel to {axis}, is "
         return (*told, ". ")
     for body, own in found:
-        axes = [_axis(forms, body, axis) for alike in own.values() for axis in alike]
-        values = listed([measured(forms.of(value), "kg m^2") for value in own])
-        that = "that" if len(axes) == 1 else "those"
-        told += ("; " if told else "", f"of {name_of(body)} ", *values)
-        told += (f", about {that} parallel to ", *listed(axes))
+        told += ("; " if told else "", f"{name_of(body)} has ")
+        one_each = all(len(alike) == 1 for alike in own.values())
+        groups = (
+            [(list(own), [axis for (axis,) in own.values()])]
+            if one_each
+            else [([value], alike) for value, alike in own.items()]
+        )
+        told += listed([_about_axes(forms, body, *group) for group in groups])
     several = any(len(_nonzero(body)) > 1 for body in bodies)
     rest = "; the other entries of the tensors are taken as 0" if several else ""
     return ("Moments of inertia about axes through the mass centres: ", *told, f"{rest}. ") if told else ()
+
+
+def _about_axes(forms: Forms, body: Body, values: Sequence[Expr], axes: Sequence[str]) -> Prose:
+    """I_x and I_y about those parallel to 𝐱₁ and 𝐲₁; one value about all of these axes."""
+    those = "that" if len(axes) == 1 else "those"
+    shown = listed([measured(forms.of(value), "kg m^2") for value in values])
+    return (*shown, f" about {those} parallel to ", *listed([_axis(forms, body, axis) for axis in axes]))
 
 
 def _nonzero(body: Body) -> list[tuple[str, Expr]]:

@@ -8,7 +8,9 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.units import ACCELERATION, ENERGY, FORCE, PER_SECOND, Dimension, times
 
 
-def _of_link(stem: str, base: str, dimension: Dimension, dots: int = 0, *spellings: str) -> Family:
+def _of_link(
+    stem: str, base: str, dimension: Dimension, dots: int = 0, *spellings: str, unit: str = ""
+) -> Family:
     return Family(
         name=f"{stem}{{i}}",
         owner=Owner.ROW,
@@ -16,15 +18,18 @@ def _of_link(stem: str, base: str, dimension: Dimension, dots: int = 0, *spellin
         shape=(3, 1),
         letter=lambda robot, i: letters.in_link(base, i, dots),
         dimension=dimension,
+        unit=unit,
         spellings=spellings,
     )
 
 
-WL = _of_link("wl", "omega", PER_SECOND, 0, "omega{i}", "w{i}")
+WL = _of_link("wl", "omega", PER_SECOND, 0, "omega{i}", "w{i}", unit="rad/s")
 """ω_i of frame i."""
 
 
-WDL = _of_link("wdl", "omega", times(PER_SECOND, PER_SECOND), 1, "omegadot{i}", "omega{i}dot", "alpha{i}")
+WDL = _of_link(
+    "wdl", "omega", times(PER_SECOND, PER_SECOND), 1, "omegadot{i}", "omega{i}dot", "alpha{i}", unit="rad/s^2"
+)
 """ω̇_i of frame i."""
 
 
@@ -48,7 +53,7 @@ FL = _of_link("fl", "f", FORCE, 0, "f{i}")
 """The force that the link before exerts on link i."""
 
 
-NL = _of_link("nl", "n", ENERGY, 0, "n{i}", "mu{i}")
+NL = _of_link("nl", "n", ENERGY, 0, "n{i}", "mu{i}", unit="N m")
 """The moment that the link before exerts on link i, about o_{i-1}, in the modified convention about o_i."""
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))

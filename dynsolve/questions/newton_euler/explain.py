@@ -42,6 +42,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.questions.newton_euler import recursions
+from dynsolve.robot import units
 from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 from dynsolve.robot.questions import Method
 
@@ -369,8 +370,11 @@ def _origin_step(context: Context, joint: Joint) -> Step:
         upwards: Node = Negative(letters.GRAVITY)
         if letters.has_base(robot):
             upwards = Negative(Product((Transpose(letters.R(robot, 0)), letters.GRAVITY)))
-        entries = [context.show(entry) for entry in recursions.lift(robot).entries]
-        lift = equation(link("{a0}"), upwards, Transpose(Parenthesized(side_by_side(entries))))
+        values = recursions.lift(robot).entries
+        row: Node = Transpose(Parenthesized(side_by_side([context.show(entry) for entry in values])))
+        if all(entry.is_number for entry in values):
+            row = Row((row, Words(" "), units.node("m/s^2")))
+        lift = equation(link("{a0}"), upwards, row)
         base = say(" The base accelerates by {lift}, which stands for gravity.", lift=lift)
     why = say(
         "What the origin before has, and what the turning adds over the way from there{slide}.{base}",

@@ -131,7 +131,7 @@ MOMENTS = [
     ("planar-2r", "parallel to 𝐳₁ is I₁; that of body 2, about such an axis parallel to 𝐳₂, is I₂. "),
     (
         "spherical-rrp",
-        "of body 1 I₁, about that parallel to 𝐳₀; of body 2 I₂, about those parallel to 𝐱₂ and 𝐲₂; "
+        "body 1 has I₁ about that parallel to 𝐳₀; body 2 has I₂ about those parallel to 𝐱₂ and 𝐲₂; "
         "the other entries of the tensors are taken as 0. ",
     ),
 ]
