@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from math import lcm, prod
+from math import isqrt, lcm, prod
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.factors import is_positive, ratio, trig_factors, trig_quotient
+from dynsolve.algebra.factors import is_positive, numeric_roots, ratio, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.elimination import turn_of
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
@@ -35,6 +36,7 @@ from dynsolve.notation.tree import (
     Relation,
     Sum,
     equation,
+    names_in,
 )
 from dynsolve.robot.model import Robot
 
@@ -134,6 +136,8 @@ class SetForms:
     def _signed(self, expr: Expr) -> tuple[Node, Expr]:
         """±expr with the sign that leaves fewer minus signs, as a formula and as it is."""
         form = self.compactor(expr.ring).form
+        for one in _as_one_swing(expr):
+            expr = min(expr, one, key=lambda e: cost(form(e)))
         return min(((form(e), e) for e in (expr, -expr)), key=lambda both: _minus_signs(both[0]))
 
     def compactor(self, ring: Ring) -> Compactor:
@@ -149,11 +153,28 @@ def _cases(places: Sequence[int]) -> str:
     return f"Cases {', '.join(first)} and {last}" if first else f"Case {last}"
 
 
+def _as_one_swing(expr: Expr) -> Iterator[Expr]:
+    """s + √3 c over its length 2, which is sin(θ + 60°), where the ring has that length; else nothing."""
+    turn = turn_of(expr)
+    if turn is None or turn.is_one_sided or not turn.rest.is_zero:
+        return
+    squared = turn.cosine**2 + turn.sine**2
+    if not squared.is_number:
+        return
+    ring, number = expr.ring, Fraction(squared.number)
+    for root, square in ((ring.one, 1), *((ring.generator(i), n) for i, n in numeric_roots(ring).items())):
+        whole = number * square  # √number = √whole / √square
+        above, below = isqrt(abs(whole.numerator)), isqrt(whole.denominator)
+        if above**2 == whole.numerator and below**2 == whole.denominator:
+            yield expr * root * Fraction(below, above)
+            return
+
+
 def without_number(node: Node) -> Node:
-    """2 (a + b) and (a + b)/2 as a + b"""
+    """2 (a + b), √2 (a + b) and (a + b)/2 as a + b"""
     match node:
-        case Product((Number(), *rest)):
-            return _bare(times(1, [(factor, 1) for factor in rest]))
+        case Product(factors) if any(not names_in(factor) for factor in factors):
+            return _bare(times(1, [(factor, 1) for factor in factors if names_in(factor)]))
         case Quotient(numerator, Number()):
             return without_number(_bare(numerator))
     return node
