@@ -11,14 +11,15 @@ from fractions import Fraction
 from itertools import product
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Multiples, Ring, fourier_form, positive
 from dynsolve.derivation.elimination import ParameterSigns, rank
 
-QUARTERS = ((0, 1), (1, 0), (0, -1), (-1, 0))
-"""Sine and cosine at quarter turns."""
+DEGREES = {(0, 1): 0, (1, 0): 90, (0, -1): 180, (-1, 0): 270}
+"""The quarter turns in degrees, by their sine and cosine."""
 
 MOST_BRANCHES = 16
 """With more combinations of quarter turns nothing is said."""
@@ -87,23 +88,38 @@ def fourier_parts(expr: Expr, pairs: Iterable[tuple[int, int]]) -> Swings:
             for n, (a, b) in sums.items()}  # fmt: skip
 
 
+def quarter_turn(value: Expr) -> tuple[Angle, list[tuple[int, int]]] | None:
+    """The angle, and its sines and cosines, at whose quarter turns alone a value is 0; None of any other."""
+    swings = _swings(value)
+    if swings is None or not (turns := _quarters(swings)):
+        return None
+    (multiples,) = (n for n in swings if any(n))
+    terms = (pair.angle * times for pair, times in zip(_turning(value.ring), multiples, strict=True))
+    return sum(terms, start=Angle.zero()), turns
+
+
+def _turning(ring: Ring) -> list[Pair]:
+    return [pair for pair in ring.pairs if ring.depends_on_coordinates(ring.generator(pair.sine))]
+
+
 def _swings(value: Expr) -> Swings | None:
     """A value as swings about what is constant; None where coordinates stand elsewhere in it."""
     ring = value.ring
-    moving = (pair for pair in ring.pairs if ring.depends_on_coordinates(ring.generator(pair.sine)))
-    swings = fourier_parts(value, [(pair.sine, pair.cosine) for pair in moving])
+    swings = fourier_parts(value, [(pair.sine, pair.cosine) for pair in _turning(ring)])
     is_free = not any(ring.depends_on_coordinates(part) for both in swings.values() for part in both)
     return swings if is_free else None
 
 
 def _quarters(swings: Swings) -> list[tuple[int, int]]:
-    """The quarter turns at which a single swing, and what is constant beside it, come to 0."""
+    """The quarter turns at which a single swing with a constant is 0; none where it is 0 elsewhere, too."""
     moving = [n for n in swings if any(n)]
     if len(moving) != 1:
         return []
     cosine, sine = swings[moving[0]]
     constant = _constant(swings, cosine.ring)
-    return [(s, c) for s, c in QUARTERS if (cosine * c + sine * s + constant).is_zero]
+    found = [(s, c) for s, c in DEGREES if (cosine * c + sine * s + constant).is_zero]
+    is_double = (cosine**2 + sine**2 - constant**2).is_zero
+    return found if len(found) == 2 - is_double else []
 
 
 def _constant(swings: Swings, ring: Ring) -> Expr:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import chain, product
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -507,19 +507,6 @@ def _stable(m: Mechanism, s: Sentence) -> bool:
     if point is None:
         raise Unknown
     return m.is_stable(point, s.words[1], still) and not any(m.changes(m.at_rest, (q,)) for q in still)
-
-
-@says(
-    "<In these equilibria|In case #|In every configuration>: the signs of the second derivatives depend on "
-    "the ...."
-)
-def _signs_depend(m: Mechanism, s: Sentence) -> bool:
-    def signs(p: Point) -> Any:
-        return np.sign(np.round(np.linalg.eigvalsh(m.stiffness(p)), 6))
-
-    return any(
-        np.any(signs(p) != signs(m.point())) for p in chain(m.points(), map(m.point, m.right_angles()))
-    )
 
 
 @says("Every leading minor is positive in every configuration[ exactly if {&}].")

@@ -7,7 +7,6 @@ from itertools import combinations
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive, squares, trig_factors
 from dynsolve.algebra.inequality import Bound
@@ -278,19 +277,16 @@ def _may_vanish(factor: Expr) -> bool:
     return factor.ring.depends_on_coordinates(factor) and not is_positive(factor) and not is_positive(-factor)
 
 
-def _merged(alternatives: list[Alternative]) -> Iterator[Alternative]:
+def _merged(alternatives: Sequence[Alternative]) -> list[Alternative]:
     """q = 0 or q = π together as sin q = 0, and the same for the quarter turns."""
-    left = list(alternatives)
-    while left:
-        one = left.pop(0)
-        for other in left:
-            joined = _joined(one, other)
-            if joined is not None:
-                left.remove(other)
-                left.insert(0, joined)
-                break
-        else:
-            yield one
+    found = list(alternatives)
+    for one, other in combinations(alternatives, 2):
+        joined = _joined(one, other)
+        if joined is not None:
+            found[found.index(one)] = joined
+            found.remove(other)
+            return _merged(found)
+    return found
 
 
 def _joined(one: Alternative, other: Alternative) -> Alternative | None:
@@ -299,12 +295,9 @@ def _joined(one: Alternative, other: Alternative) -> Alternative | None:
         return None
     a, b = mine.pop().expr, theirs.pop().expr
     ring = a.ring
-    for name, kind in ring.coordinates:
-        if kind == "revolute":
-            for whole, part in ((ring.sin, ring.cos), (ring.cos, ring.sin)):
-                unit = part(Angle.of(name))
-                values = {unit - ring.one, unit + ring.one}
-                if {a, b} == values:
-                    kept = [c for c in one if c.expr != a]
-                    return (*kept, Condition(whole(Angle.of(name))))
+    for pair in ring.pairs:
+        sine, cosine = ring.generator(pair.sine), ring.generator(pair.cosine)
+        for whole, part in ((sine, cosine), (cosine, sine)):
+            if {a, b} == {part - ring.one, part + ring.one}:
+                return (*(c for c in one if c.expr != a), Condition(whole))
     return None

@@ -175,7 +175,8 @@ def verify_equilibria(
         for program, without, case in zip(programs, left_out, cases, strict=True):
             at = zero_near(robot, program, start) if case.zeros else start
             if at is not None and not (
-                is_zero(forces, at) and (holds(at) or any(_lies_in(robot, one, at) for one in without))
+                _lies_in(robot, forces, at)
+                and (holds(at) or any(_lies_in(robot, one, at) for one in without))
             ):
                 raise VerificationError("something moves in an equilibrium; this is a fault of dynsolve")
             none = (zero_near(robot, one, start) for one in without)

@@ -220,8 +220,10 @@ def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
 
 def _special(shown: EquilibriaForms, case: SpecialCase) -> Prose:
     """What is an equilibrium for parameters of which a factor is 0."""
-    forces = shown.special_forces(case)
     where = shown.comparison(case.factor, "=")
+    if case.forces is None:
+        return say("Where {where}, there may be others.", where=where)
+    forces = shown.special_forces(case)
     if forces is None:
         return say("Where {where}, there is no equilibrium.", where=where)
     if not forces:
@@ -300,7 +302,7 @@ def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[N
     ]
     said = _VERDICTS[point.stability]
     if point.is_open:
-        said = ("the signs of the second derivatives depend on the configuration",)
+        said = ("put the values into the second derivatives",)
     if point.conditions:
         said = say("stable where {all}", all=listed([*map(shown.inequality, point.conditions)]))
     if point.falls:

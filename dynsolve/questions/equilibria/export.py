@@ -55,12 +55,13 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
 
 def _special(one: SpecialCase, shown: EquilibriaForms, printer: PythonPrinter) -> dict[str, Any]:
     """Parameters for which the equilibria are others, and what these are there, as `equilibria` has them."""
+    where = {"where": plain_inequality(shown.comparison(one.factor, "="), printer)}
+    if one.forces is None:
+        return where
     forces = shown.special_forces(one)
     equations = [] if forces is None else [[f"{printer.text(force)} = 0" for force in forces]]
-    return {
-        "where": plain_inequality(shown.comparison(one.factor, "="), printer),
-        "equilibria": equations,
-    }
+    exist = {"exist": inequalities(shown, printer, one.exist)} if one.exist else {}
+    return {**where, "equilibria": equations, **exist}
 
 
 def angles(values: Values) -> dict[str, str]:

@@ -52,6 +52,7 @@ class EquilibriaForms(SetForms):
 
     def special_forces(self, case: SpecialCase) -> tuple[Node, ...] | None:
         """What must be 0 for special parameters, without what never is; None where it cannot be."""
+        assert case.forces is not None
         if any(is_positive(force) or is_positive(-force) for force in case.forces):
             return None
         return tuple(dict.fromkeys(map(self.vanishing, case.forces)))

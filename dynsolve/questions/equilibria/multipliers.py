@@ -9,15 +9,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from fractions import Fraction
 from itertools import chain, product
 
 from msgspec import Struct
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import halves
 from dynsolve.algebra.linear_systems import adjugate, nullspace, part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, minors
+from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.existence import DEGREES, quarter_turn
+from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import (
     Alternative,
     Special,
@@ -26,10 +32,15 @@ from dynsolve.derivation.singular.sets import (
     lies_in,
     zeros_of_any,
 )
+from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.robot.model import Robot
 
 MOST_SETS = 8
 """So many choices of factors in half angles are looked at."""
+
+
+class Unsolved(Exception):
+    """Conditions are left that fix no coordinate."""
 
 
 class Settled(Struct, frozen=True):
@@ -107,14 +118,13 @@ class Multipliers(Struct, frozen=True):
 
     def found(self, rows: Sequence[Expr], special: Special) -> tuple[Alternative, ...]:
         """Where the rows are 0, which stand for `zeros`: solved by half angles where that leaves nothing."""
-        sets = [tuple(chain(*choice)) for choice in product(*map(halves, self.h))]
-        if 1 < len(sets) <= MOST_SETS:
+        choices = list(product(*map(halves, self.h)))
+        if 1 < len(choices) <= MOST_SETS:
             by_halves = Special(special.signs)
-            with suppress(TooLong):
-                found = zeros_of_any([(*rows, *one) for one in sets], by_halves)
-                if all(condition.fixes_coordinate for one in found for condition in one):
-                    special.join(by_halves)
-                    return found
+            with suppress(TooLong, Unsolved):
+                sets = [one for choice in choices for one in _solved(rows, choice, by_halves)]
+                special.join(by_halves)
+                return zeros_of_any(sets)
         return common_zeros(rows, special)
 
     def settled(self, found: Sequence[Alternative], rank: int, special: Special) -> Settled:
@@ -154,3 +164,76 @@ class Multipliers(Struct, frozen=True):
 
 def _values(alternative: Alternative) -> tuple[Expr, ...]:
     return tuple(condition.expr for condition in alternative)
+
+
+# Equations with half angles: where one gives an angle by others, that is put in
+
+
+def _solved(
+    rows: Sequence[Expr], choice: Sequence[Sequence[Expr]], special: Special
+) -> Iterator[tuple[Expr, ...]]:
+    """Where rows and a choice of factors in half angles are 0; raises Unsolved where that is not seen."""
+    zeros = (*rows, *chain(*choice))
+    found = common_zeros(zeros, special)
+    if not all(condition.fixes_coordinate for one in found for condition in one):
+        ring = rows[0].ring
+        relation = next(filter(None, map(_angle_given, choice)), None)
+        if relation is None:
+            raise Unsolved
+        name, angle = relation
+        smaller = search_ring(ring, (), {name: angle})
+        there, back = Transfer(ring, smaller, {name: angle}), Transfer(smaller, ring)
+        apart = Special(ParameterSigns())
+        for one in common_zeros([there(zero) for zero in zeros], apart):
+            yield from (_at_points(ring, turns, name, angle) for turns in product(*map(_turns, one)))
+        for factor in apart.factors:
+            special.add(back(factor))
+        special.is_open |= apart.is_open
+    else:
+        yield from map(_values, found)
+
+
+def _angle_given(factor: Sequence[Expr]) -> tuple[str, Angle] | None:
+    """The angle that is given by others where a factor in half angles is 0: q₂ = 180° - 2q₁."""
+    found = quarter_turn(sum((part * part for part in factor), start=factor[0].ring.zero))
+    if found is None or len(found[1]) != 1:
+        return None
+    angle, ((sine, cosine),) = found
+    for atom, rate in angle.terms:
+        if abs(rate) == 1:
+            name = atom[0][0]
+            rest = Angle((), Fraction(DEGREES[sine, cosine])) - angle + Angle.of(name, rate)
+            return name, rest * rate
+    return None
+
+
+def _turns(condition: Condition) -> list[tuple[str, Fraction]]:
+    """The angles in degrees that a condition on one coordinate leaves; raises Unsolved of any other."""
+    found = quarter_turn(condition.expr)
+    if found is None or len(found[0].terms) != 1 or found[0].terms[0][1] != 1:
+        raise Unsolved
+    name = found[0].terms[0][0][0][0]
+    return [(name, Fraction(DEGREES[turn])) for turn in found[1]]
+
+
+def _at_points(
+    ring: Ring, turns: Sequence[tuple[str, Fraction]], name: str, angle: Angle
+) -> tuple[Expr, ...]:
+    """What is 0 where angles are at quarter turns, and one more is given by these."""
+    at = dict(turns)
+    total = angle.degrees
+    for atom, rate in angle.terms:
+        if atom[0][0] not in at:
+            raise Unsolved
+        total += rate * at[atom[0][0]]
+    if total % 90:
+        raise Unsolved
+    return tuple(_at_turn(ring, one, degrees) for one, degrees in (*at.items(), (name, total)))
+
+
+def _at_turn(ring: Ring, name: str, degrees: Fraction) -> Expr:
+    angle = Angle.of(name)
+    kind, sign = {0: (ring.cos, 1), 90: (ring.sin, 1), 180: (ring.cos, -1), 270: (ring.sin, -1)}[
+        int(degrees % 360)
+    ]
+    return kind(angle) - ring.one * sign

@@ -90,7 +90,7 @@ class Point(Struct, frozen=True):
     in any motion along the equilibria, in which the others follow these.  Where the stability is
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
-    sides are equal nothing is said.  `is_open` says that the signs depend on the configuration.
+    sides are equal nothing is said.  `is_open` says that signs hold coordinates, and are not seen.
     """
 
     values: Values
@@ -311,11 +311,11 @@ TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 class SpecialCase(Struct, frozen=True):
     """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0.
 
-    `exist` is what the parameters must satisfy for that.
+    `exist` is what the parameters must satisfy for that; without forces it is not known what is one.
     """
 
     factor: Expr
-    forces: tuple[Expr, ...]
+    forces: tuple[Expr, ...] | None
     exist: tuple[Bound, ...] = ()
 
 
@@ -404,14 +404,14 @@ def equilibria(
             special.add(condition.multiplier(second.entries))
         curvature = Curvature(second, signs.beside(nonzero=special.factors), may_be_held, constrained)
         points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
-    told = special.factors if settled and settled.is_whole else {}
-    short = [factor for factor in told if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
+    is_whole = settled is not None and settled.is_whole
+    short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
     return Equilibria(
         left,
         tuple(found),
         points,
         tuple(without_ends(exist, short, signs) for exist in found.values()),
-        tuple(_special_case(factor, map(there, wanted), signs) for factor in short),
+        tuple(_special_case(factor, map(there, wanted) if is_whole else None, signs) for factor in short),
         special.is_open or len(short) < len(special.factors),
         tuple(excluded.get(one, ()) for one in found),
         settled is None or settled.is_whole,
@@ -419,7 +419,9 @@ def equilibria(
     )
 
 
-def _special_case(factor: Expr, forces: Iterable[Expr], signs: ParameterSigns) -> SpecialCase:
+def _special_case(factor: Expr, forces: Iterable[Expr] | None, signs: ParameterSigns) -> SpecialCase:
+    if forces is None:
+        return SpecialCase(factor, None)
     left = _modulo(factor, forces)
     exist = conditions(left, signs)
     return SpecialCase(factor, (factor.ring.one,)) if exist is None else SpecialCase(factor, left, exist)

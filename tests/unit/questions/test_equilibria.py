@@ -10,14 +10,19 @@ import sympy
 from msgspec.structs import replace
 
 import dynsolve
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.rules import derive
+from dynsolve.derivation.search_ring import search_ring
+from dynsolve.derivation.singular.sets import Special, common_zeros
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Function, Number, Product, Quotient, Relation, Symbol, equation, walk
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.check import Case, in_balance, verify_equilibria
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.solving import Stability
+from dynsolve.questions.equilibria.solving import Stability, multipliers
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
 
 
@@ -347,6 +352,7 @@ def at_pose(problem: str, **pose: float) -> list[bool]:
 
 def test_where_a_constraint_holds_nothing_is_no_equilibrium() -> None:
     """By hand: upright g is 0; folded and level A_c is 0, and g is not."""
+    assert dynsolve.solve(WALL).to_json()["results"]["equilibria"] == [["cos(q1) = 0", "sin(q2) = 0"]]
     for upright in (pi / 2, -pi / 2):
         assert any(at_pose(WALL, q1=upright, q2=0.0)) and any(at_pose(WALL, q1=upright, q2=pi))
     for level in (0.0, pi):
@@ -355,6 +361,27 @@ def test_where_a_constraint_holds_nothing_is_no_equilibrium() -> None:
     level = "answers:\n  equilibria: ['cos(q1) = 0 and sin(q2) = 0', 'sin(q1) = 0 and cos(q2) = -1']\n"
     for written, verdict in ((upright, "correct"), (level, "wrong")):
         assert str(dynsolve.check(WALL, written).answers[0].verdict) == verdict
+
+
+def test_where_a_constraint_holds_nothing_is_taken_out_of_what_is_not_solved_for() -> None:
+    robot = read_problem(WALL).robot
+    values, there = derive(robot), Transfer(robot.ring, search_ring(robot.ring, (), {}))
+    held = multipliers(robot, values["g"], values["Ac"], values["hc"]).moved(there)
+    special = Special(ParameterSigns())
+    whole = held.settled(common_zeros(held.zeros(1), special), 1, special)
+    ((curve, without),) = whole.pairs
+    names, poses = [q.name for q in robot.coordinates], [(0.0, pi), (pi, pi)]
+    (point,) = without
+    for q1, q2 in poses:
+        at = {
+            "l": 0.7,
+            "m1": 1.3,
+            "m2": 0.4,
+            "lc1": 0.3,
+            "lc2": 0.6,
+            **dict(zip(names, (q1, q2), strict=True)),
+        }
+        assert all(abs(evaluate(one.expr, at)) < 1e-9 for one in (*curve, *point))
 
 
 def test_a_cusp_holds_nothing() -> None:
