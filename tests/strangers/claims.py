@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import islice, product
 from typing import Any
 
 import numpy as np
@@ -497,16 +497,24 @@ def _holds(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {&}|In these equilibria|In every configuration>: <stable|not stable>[, but for {&}, along which "
-    "nothing changes]."
+    "<At {&}|In these equilibria|In case #|In every configuration>: <stable|not stable>[, but for {&}, along "
+    "which nothing changes]."
 )
 def _stable(m: Mechanism, s: Sentence) -> bool:
     still = names_of(tuple(node for node in s.formulas if isinstance(node, tree.Symbol)))
     told = tuple(node for node in s.formulas if not isinstance(node, tree.Symbol))
-    point = m.posed(told) if told else m.solved(m.at_rest, m.coordinates, 0)
-    if point is None:
+    points = list(_equilibria(m, s, told))
+    if not points:
         raise Unknown
-    return m.is_stable(point, s.words[1], still) and not any(m.changes(m.at_rest, (q,)) for q in still)
+    are_still = not any(m.changes(m.at_rest, (q,)) for q in still)
+    return are_still and all(m.is_stable(point, s.words[-1], still) for point in points)
+
+
+def _equilibria(m: Mechanism, s: Sentence, told: tuple[Node, ...], seed: int = 0) -> Iterator[Point]:
+    """Those that a sentence is about: at what is told, or in the case that it names."""
+    cases = m.equilibria(told, seed)
+    named = s.words[0].startswith("In case") and int(s.words[0].split()[-1])
+    yield from (point for number, point in cases if point is not None and (not named or number == named))
 
 
 @says("Every leading minor is positive in every configuration[ exactly if {&}].")
@@ -670,11 +678,15 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
     return m.is_stable(m.where(step.display_after()[int(s.words[0]) - 1]), s.words[1])
 
 
-@says("At {}: <stable|not stable> where {}, <stable|not stable> where {}.")
+@says(
+    "<At {}|In these equilibria|In case #>: <stable|not stable> where {}, <stable|not stable> where {}.",
+)
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
-    for kind, condition in zip(s.words, s.formulas[1:], strict=True):
-        seeds = [seed for seed in range(20) if m.holds(condition, m.point(seed=seed))]
-        if not seeds or not all(m.is_stable(m.posed(s.formulas[:1], seed), kind) for seed in seeds[:3]):
+    *told, first, second = s.formulas
+    for kind, condition in zip(s.words[-2:], (first, second), strict=True):
+        seeds = (seed for seed in range(60) if m.holds(condition, m.point(seed=seed)))
+        points = list(islice((point for seed in seeds for point in _equilibria(m, s, tuple(told), seed)), 3))
+        if not points or not all(m.is_stable(point, kind) for point in points):
             return False
     return True
 
@@ -849,6 +861,7 @@ Only the other joints move it to its place, and the wrist then turns the hand: p
   decoupled.
 The last joint does not move its own axis: the first two turn that to where it is to be ...
 Combined, without factors that are never 0:
+With the constraints, without factors that are never 0:
 The parameters are the same.
 What is left of ℒ where nothing moves, with the opposite sign.
 Along what the constraints leave free, the columns of {} with {}, the energy is curved as {} is, with the {}

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import product
 from random import Random
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -187,9 +188,42 @@ class Mechanism:
     def is_stable(self, point: Point, kind: str, still: tuple[str, ...] = ()) -> bool:
         """Whether an equilibrium is of this kind, without what stands still or is kept turning."""
         free = [k for k, q in enumerate(self.coordinates) if q not in still and q not in self.steady]
-        curved = np.linalg.eigvalsh(self.stiffness(point)[np.ix_(free, free)])
+        force, slopes, along = (
+            self.at_rest(point),
+            self.stiffness(point),
+            np.eye(len(self.coordinates))[:, free],
+        )
+        if self.solution.robot.questions.constraints:
+            A = self.result("Ac", point)
+            pull = np.linalg.lstsq(A.T, force, rcond=None)[0]
+            held = [
+                self.slope(lambda p: self.result("Ac", p).T @ pull, point, 0, {q: 1.0})
+                for q in self.coordinates
+            ]
+            force, slopes = force - A.T @ pull, slopes - np.transpose(held)
+            along = np.linalg.svd(A)[2][len(A) :].T
+        curved = np.linalg.eigvalsh(along.T @ slopes @ along)
         right = np.all(curved > NEAR) if kind == "stable" else np.any(curved < -NEAR)
-        return bool(right) and near(self.at_rest(point)[free], 0)
+        return bool(right) and near(force[free], 0)
+
+    @cached_property
+    def _equilibria(self) -> list[list[CodeType]]:
+        found = self.solution.to_json()["results"]["equilibria"]
+        return [[compile(text.removesuffix(" = 0"), "<equilibria>", "eval") for text in one] for one in found]
+
+    def equilibria(self, told: tuple[Node, ...], seed: int = 0) -> Iterator[tuple[int, Point | None]]:
+        """Of each alternative, by its number, a state in which coordinates are what equations say."""
+        here = self.posed(told, seed)
+        given = names_of(tuple(part for part in walk(*told) if isinstance(part, tree.Symbol)))
+        free = tuple(q for q in self.coordinates if q not in given and q not in self.steady)
+        for number, codes in enumerate(self._equilibria, 1):
+
+            def off(p: Point, codes: list[CodeType] = codes) -> Any:
+                known = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "pi": np.pi}
+                return np.array([eval(code, dict(known), dict(p.names)) for code in codes], dtype=float)  # noqa: S307
+
+            point = self.solved(off, free, seed, here) if free and codes else here
+            yield number, point if point is not None and near(off(point), 0) else None
 
     def posed(self, conditions: tuple[Node, ...], seed: int = 0) -> Point:
         """The state in which coordinates are what equations say, q₂ = 90°."""
@@ -242,9 +276,11 @@ class Mechanism:
             raise Unknown
         return found
 
-    def solved(self, off: Callable[[Point], Any], free: tuple[str, ...], seed: int) -> Point | None:
+    def solved(
+        self, off: Callable[[Point], Any], free: tuple[str, ...], seed: int, start: Point | None = None
+    ) -> Point | None:
         """A state in which `off` is 0, by Newton's method."""
-        here = self.point(seed=seed)
+        here = start or self.point(seed=seed)
         for _ in range(15):
             slopes = np.transpose([self.slope(off, here, seed, {q: 1.0}) for q in free])
             change = np.linalg.lstsq(slopes, off(here), rcond=1e-9)[0]

@@ -27,7 +27,7 @@ ONE = RING.one
 
 
 def found_on_grid(values: list[Expr], numbers: dict[str, float]) -> bool:
-    """Whether the last changes its sign or is 0 along a line on which one angle moves and the others stay 0."""
+    """Whether the last changes its sign or is 0 along a line on which the others stay 0."""
     *fixed, last = values
     lines = [[(x, y + turned * x) for x in GRID] for y in GRID for turned in (0, -1)]
     lines += [[(x, y) for y in GRID] for x in GRID]
