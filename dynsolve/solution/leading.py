@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dynsolve.derivation.rules import course_rules
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import ID
+from dynsolve.notation.tree import Node, walk
+from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
@@ -28,7 +30,8 @@ def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
     asked = {_rule(solution, name) for name in solution.problem.find}
     if "tau" in asked:
         forces = {f"tau{q.index}" for q in solution.robot.coordinates}
-        asked |= forces if solution.is_short else forces | _MODEL
+        told = walk(*(node for step in steps if step.id in forces for node in step.result))
+        asked |= forces if _entries_of_D(solution).isdisjoint(told) else forces | _MODEL
     named = {name: step for step in steps for name in (step.id, *step.also)}
     if asked.isdisjoint(named):
         return tuple(steps)
@@ -43,6 +46,12 @@ def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
             return tuple(step for step in kept if step.id != ID or asked >= _MODEL)
         wanted = found
         kept = tuple(_kept(steps, wanted, named.keys() | inputs.keys()))
+
+
+def _entries_of_D(solution: Dynamics) -> set[Node]:
+    """What the forces of long models are written in."""
+    places = range(1, solution.robot.n + 1)
+    return {letters.entry("d", i, j) for i in places for j in places}
 
 
 def _rule(solution: Dynamics, name: str) -> str:
