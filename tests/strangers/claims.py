@@ -742,7 +742,10 @@ def _rank(m: Mechanism, s: Sentence) -> bool:
     return True
 
 
-@says("The rank is # in every configuration[, as the minors are never all 0 at once].")
+@says(
+    "The rank of {} is # in every configuration[, as <the minors are never all 0 at once|no factor of the "
+    "minor becomes 0>]."
+)
 def _rank_everywhere(m: Mechanism, s: Sentence) -> bool:
     """At random states, and where the coordinates are right angles and 0."""
     at = [m.point(seed=seed) for seed in range(10)]

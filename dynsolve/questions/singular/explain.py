@@ -45,7 +45,7 @@ def steps(context: Context) -> Iterator[Step]:
         )
         return
     yield replace(_rank(context, forms, found), group=_SETS)
-    yield replace(_alternatives(forms, found), group=_SETS, normal=NOTED)
+    yield replace(_alternatives(forms, found, _letter(context)), group=_SETS, normal=NOTED)
     lost = Group("singular_lost", "What is lost", (), _in_general(context), _LOST)
     for case in range(len(found.losses)):
         yield replace(_loss(context, forms, found, case), group=lost if all(forms.lost_here) else None)
@@ -109,16 +109,20 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
     )
 
 
-def _alternatives(forms: SingularForms, found: SingularSet) -> Step:
+def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:
     cases, special = forms.singular, tuple(_of_special(forms, found))
     none = ""
     if found.rank > found.pivots:
-        never = "the minors are never all 0 at once" if len(found.minors) > 1 else "no factor of it becomes 0"
+        never = (
+            "the minors are never all 0 at once"
+            if len(found.minors) > 1
+            else "no factor of the minor becomes 0"
+        )
         none = f", as {never}"
     step = Step(
         id="singular",
         title="No singular configuration",
-        why=(f"The rank is {found.rank} in every configuration{none}.",),
+        why=say("The rank of ${J}$ is {rank} in every configuration{none}.", J=J, rank=found.rank, none=none),
         detail=Detail.BRIEF,
         notes=special,
         hint=("A product is 0 where one of its factors is. Constant lengths are not 0.",),

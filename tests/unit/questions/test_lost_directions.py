@@ -82,7 +82,7 @@ def test_an_arm_of_full_rank_says_that_its_minors_are_never_0_at_once() -> None:
     upright = UPRIGHT.replace("a: a1", "d: l0").replace("[tip.x, tip.y, tip.z]", "twist")
     steps = dynsolve.solve(upright).explain(["singular"])
     told = [_words(step.why) for step in steps if step.id == "singular"]
-    assert told == ["The rank is 2 in every configuration, as the minors are never all 0 at once."]
+    assert told == ["The rank of J_r is 2 in every configuration, as the minors are never all 0 at once."]
     minors = next(
         step for step in dynsolve.solve(upright).explain(["singular"]) if step.id == "singular_minors"
     )
