@@ -223,14 +223,17 @@ def bar_or_lines(title: str, quiet: bool = False) -> Iterator[Advance | None]:
         with progress(title, quiet) as advance:
             yield advance
         return
-    start = said = time.monotonic()
+    said = time.monotonic()
+    first, since = 0, said  # what was done when it was first told: before it there were preparations
 
     def line(done: int, of: int) -> None:
-        nonlocal said
+        nonlocal said, first, since
         now = time.monotonic()
-        if now - said > EVERY:
+        if not first:
+            first, since = done, now
+        elif now - said > EVERY:
             said = now
-            left = (now - start) / done * (of - done)
+            left = (now - since) / (done - first) * (of - done)
             click.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
 
     yield line

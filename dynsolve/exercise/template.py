@@ -108,6 +108,9 @@ def _letters(problem: Problem) -> Iterator[Letter]:
         names = [node.name for sign in line.signs for node in walk(sign) if isinstance(node, Symbol)]
         meaning = line.words if isinstance(line.words, str) else to_unicode(line.words)
         yield Letter(", ".join(names), meaning, line.unit)
+    questions = problem.robot.questions
+    if "inverse" in questions.asked and questions.target is None:
+        yield Letter(", ".join(questions.reached), "values of the task that are to be reached", "")
 
 
 def _blanks(problem: Problem) -> Iterator[Blank]:

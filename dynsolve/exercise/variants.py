@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from fractions import Fraction
@@ -96,20 +97,28 @@ class Variant(Struct, frozen=True):
 # -- the family --------------------------------------------------------------------------------------
 
 
-def family_of(item: Item, seed: str, pool: ProcessPoolExecutor) -> Family:
-    """The family of a problem; raises ProblemError for a variant that is no problem."""
+def family_of(item: Item, seed: str, pool: ProcessPoolExecutor, step: Callable[[], None]) -> Family:
+    """The family of a problem, with a `step` for each structure that was measured.
+
+    Raises ProblemError for a variant that is no problem.
+    """
     variation = item.variation
-    structures = (
-        [variation.structure_of(k) for k in _measured(variation.structures, seed)] if variation else [{}]
-    )
+    structures = [variation.structure_of(k) if variation else {} for k in _measured(_structures(item), seed)]
     texts = [variation.choose(one) if variation else item.text for one in structures]
-    names = tuple(item.problem.marks)
-    counted = dict(enumerate(pool.map(partial(_counted, item.problem.file, names), texts)))
+    counted: dict[int, Mapping[str, Hardness]] = {}
+    for one in pool.map(partial(_counted, item.problem.file, tuple(item.problem.marks)), texts):
+        counted[len(counted)] = one
+        step()
     left = equally_hard(counted, variation.within) if variation else counted
     return Family(item, variation, tuple(structures[k] for k in left), tuple(left.values()))
 
 
-def _measured(count: int, seed: str) -> Iterable[int]:
+def _structures(item: Item) -> int:
+    """In how many ways the structure of a problem can be chosen."""
+    return item.variation.structures if item.variation else 1
+
+
+def _measured(count: int, seed: str) -> Collection[int]:
     """All of so many structures, or as many as are measured, chosen by the seed."""
     if count <= MOST_STRUCTURES:
         return range(count)
@@ -190,22 +199,33 @@ def vary(
     """Draw each student's variants, and write the folder; returns the families.  `students` have names.
 
     Raises UsageError for a family that is too poor or a folder with other variants, ProblemError for a
-    faulty variant, before anything is written.
+    faulty variant, before anything is written.  `progress` is told of structures and students together.
     """
     forms = forms or Forms()
     marks = {item.stem: dict(item.problem.marks) for item in problems.items}
+    steps = itertools.count(1)
+    of = sum(len(_measured(_structures(item), seed)) for item in problems.items) + len(students)
+
+    def step() -> None:
+        if progress is not None:
+            progress(next(steps), of)
+
     with ProcessPoolExecutor(jobs or os.cpu_count() or 1, mp_context=get_context("spawn")) as pool:
-        families = [family_of(item, seed, pool) for item in problems.items]
+        families = [family_of(item, seed, pool, step) for item in problems.items]
         drawn = [draw(family, list(students), seed) for family in families]
         own = {student: [each[student] for each in drawn] for student in students}
         _check_same(folder, own)
         (folder / VARIANT_KEYS).mkdir(parents=True, exist_ok=True)
-        due = [student for student in students if not _is_there(folder, student, own[student], forms)]
+        due = []
+        for student in students:
+            if _is_there(folder, student, own[student], forms):
+                step()
+            else:
+                due.append(student)
         write = partial(_write, problems.title, marks, folder, forms)
         names, variants = [students[student] for student in due], [own[student] for student in due]
-        for done, _ in enumerate(pool.map(write, due, names, variants), 1):
-            if progress is not None:
-                progress(done, len(due))
+        for _ in pool.map(write, due, names, variants):
+            step()
     write_changed(folder / VARIANTS_TABLE, _table(own).encode())
     if plot.is_there():
         write_changed(folder / "variants.svg", plot.to_svg(_counted_of(own)))

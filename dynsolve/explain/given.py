@@ -59,7 +59,7 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.actions import JointFriction, Motor
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
-from dynsolve.robot.questions import TIP, Load, Target
+from dynsolve.robot.questions import TIP, Load
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
 if TYPE_CHECKING:
@@ -666,7 +666,9 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     if task is not None and task.entries and not task.is_default:
         yield ("The task is ", equation(letters.TASK, _flat(map(_in_letters, task.entries))), ".")
     if questions.target is not None:
-        yield ("To be reached: ", _target(forms, questions.target), ".")
+        yield ("To be reached: ", _reached(forms, questions.target.values), ".")
+    elif "inverse" in questions.asked:
+        yield ("To be reached: ", _reached(forms, [*map(Symbol, questions.reached)]), ".")
     for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
         if value is not None:
             wanted = equation(
@@ -731,13 +733,13 @@ def _measured(value: Node, unit: str) -> Node:
     return measured(value if exact is None else number(exact), unit)
 
 
-def _target(forms: Forms, target: Target) -> Node:
+def _reached(forms: Forms, values: Sequence[Node]) -> Node:
     """The task, or the frame, and what it is to be."""
     robot, task = forms.robot, forms.robot.questions.task
     if task is None or not task.is_pose:
         left = _flat(map(_in_letters, task.entries)) if task and task.is_default else letters.TASK
-        return equation(left, _of_task(forms, target.values))
-    values = tuple(map(_in_decimals, target.values))
+        return equation(left, _of_task(forms, values))
+    values = tuple(map(_in_decimals, values))
     rows = [(*values[3 * k + 3 : 3 * k + 6], values[k]) for k in range(3)]
     pose = tree.Matrix((*rows, (ZERO, ZERO, ZERO, Number(1))))
     return equation(letters.H(robot, len(robot.joints)), pose)

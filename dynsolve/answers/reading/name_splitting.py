@@ -29,7 +29,7 @@ from dynsolve.quantities.letters import key
 # Runs of letters cut into the names of the problem: `m_2gL_1` is m_2, g and L_1
 
 _LONGEST_RUN = 60
-_FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
+_FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc sgn sign".split())
 _CALLS = frozenset(
     "sin cos tan sqrt cot sec csc Sin Cos Tan Sqrt SIN COS Derivative diff Diff Matrix matrix Rational "
     "transpose Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np "
@@ -108,7 +108,7 @@ def _pieces(
     """The fewest names, `others` among them, that make up a run of letters; the run where there are none."""
     if _known(text, vocabulary, naming) or text in _CALLS or len(text) > _LONGEST_RUN:
         return [text]
-    if called and vocabulary.has_inverse_functions and _INVERSE.fullmatch(text):
+    if called and _is_inverse(text, vocabulary):
         return [text]
     starts = _starts(text)
     ends = [*starts[1:], len(text)]
@@ -123,10 +123,15 @@ def _pieces(
             final = end == len(text)
             good = _known(piece, vocabulary, naming) or (final and open_end and len(piece) == 1)
             good = good or (piece in _FUNCTIONS and (not final or called)) or key(piece) in others
+            good = good or (final and called and _is_inverse(piece, vocabulary))
             if good:
                 found = [piece, *rest]
         best[start] = found
     return best[starts[0]] or [text]
+
+
+def _is_inverse(piece: str, vocabulary: Vocabulary) -> bool:
+    return vocabulary.has_inverse_functions and _INVERSE.fullmatch(piece) is not None
 
 
 def _starts(text: str) -> list[int]:

@@ -53,15 +53,27 @@ def test_one_slip_is_the_only_thing_that_is_wrong(name: str, form: TemplateForma
     assert [a.name for a in report.answers if a.verdict is Verdict.WRONG] == ["g"]
 
 
+IN_WORD = [
+    "planar-2r",  # matrices
+    "planar-2r-friction",  # sgn
+    "inf3480-rpr",  # a set, branches
+    "inf3480-rprr-drawn",  # the table
+    "inertia-candidates",  # verdicts
+    "knife-edge",  # constraints
+]
+"""A problem for each kind of answer."""
+
+
 @pytest.mark.skipif(pandoc() is None, reason="the extra `office` is not installed")
-def test_a_word_document_is_read_back() -> None:
+@pytest.mark.parametrize("name", IN_WORD)
+def test_a_word_document_is_read_back(name: str) -> None:
     from dynsolve.exercise.sheet import to_docx
 
-    empty = template(solved("planar-2r").problem, TemplateFormat.DOCX)
-    report = judged("planar-2r", empty, TemplateFormat.DOCX)
+    empty = template(solved(name).problem, TemplateFormat.DOCX)
+    report = judged(name, empty, TemplateFormat.DOCX)
     assert {answer.verdict for answer in report.answers} == {Verdict.MISSING}
-    page = to_docx(filled("planar-2r", TemplateFormat.MARKDOWN))
-    assert judged("planar-2r", page, TemplateFormat.DOCX).all_correct
+    page = to_docx(filled(name, TemplateFormat.MARKDOWN))
+    assert judged(name, page, TemplateFormat.DOCX).all_correct
 
 
 # -- filled in with the key --------------------------------------------------------------------------
@@ -146,7 +158,7 @@ def _reported(page: str, made: Template, solution: Solution, results: Any, wrong
         elif blank.kind in (Kind.EQUATIONS, Kind.CONDITIONS):
             told = [" and ".join(each) if isinstance(each, list) else each for each in value]
             items = "".join(f"- {each}\n" for each in told)
-            page = page.replace(f"{blank.name}:\n", f"{blank.name}:\n{items}", 1)
+            page = page.replace(f"{blank.name}:\n", f"{blank.name}:\n\n{items}", 1)
         elif blank.kind is Kind.VERDICTS:
             own = [one.name for one in solution.robot.questions.candidates]
             said = dict.fromkeys(own, value) if "verdict" in value else value

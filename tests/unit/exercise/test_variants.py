@@ -146,6 +146,11 @@ def test_a_family_is_near_its_median_and_the_largest() -> None:
     assert sorted(equally_hard(found, Fraction(1, 10))) == ["a", "b", "c"]
 
 
+def test_a_family_may_have_no_member_at_its_median() -> None:
+    found = {k: {"D": Hardness(30, terms, 40, 1, 20)} for k, terms in enumerate((7, 9, 7, 9))}
+    assert len(equally_hard(found, Fraction(1, 10))) == 4
+
+
 @pytest.fixture(scope="module")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Six students, a problem that varies and one that does not."""
@@ -155,6 +160,17 @@ def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with_files(folder, {"roster.csv": "\n".join(["student", *names])})
     vary(load_set(str(folder / "set")), students_of(folder / "roster.csv"), SEED, folder / "out", jobs=1)
     return folder
+
+
+def test_progress_is_told_of_structures_and_of_students(course: Path) -> None:
+    told: list[tuple[int, int]] = []
+
+    def progress(done: int, of: int) -> None:
+        told.append((done, of))
+
+    students = students_of(course / "roster.csv")
+    vary(load_set(str(course / "set")), students, SEED, course / "out", jobs=1, progress=progress)
+    assert told == [(done, 8 + 1 + 6) for done in range(1, 8 + 1 + 6 + 1)]
 
 
 def rows(folder: Path) -> list[dict[str, str]]:

@@ -13,6 +13,7 @@ RUNS = [
     ("m1", "m1"),
     ("m_2gl_1", "m_2 g l_1"),
     ("m1gsin(q1)", "m1 g sin ( q1 )"),
+    ("m_{1}sgn(q1)", "m_{1} sgn ( q1 )"),
     ("gravity", "gravity"),
     ("x_{m1g}", "x_{m1g}"),
 ]
