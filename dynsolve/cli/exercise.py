@@ -183,6 +183,8 @@ def vary(
             click.echo(f"{family.item.stem}: {variants} of {structures}", err=True)
             for left in family.left_out:
                 click.echo(f"  {left}: in no variant, as it would not be as hard as the others", err=True)
+            for path in family.idle:
+                click.echo(f"  {path}: changes no answer", err=True)
         told = agreeing(f"{len(students)} student|students", len(students))
         click.echo(f"{told}: see {output / 'variants.csv'}", err=True)
     return ExitCode.DONE

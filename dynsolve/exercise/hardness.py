@@ -12,8 +12,10 @@ share of it, or 1, whichever is more; and no count is 0 for one and not for anot
 
 from __future__ import annotations
 
+import re
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
+from hashlib import sha256
 from statistics import median
 from typing import Any, TypeVar
 
@@ -23,25 +25,30 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.own_steps import DerivationSlips
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.verdict import Submission
+from dynsolve.derivation.graph import Skipped
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost
-from dynsolve.notation.tree import Node, Relation
+from dynsolve.notation.tree import ZERO, Node, Relation
 from dynsolve.problem.model import Problem
+from dynsolve.quantities.families import DH
 from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import quantities
+from dynsolve.robot.model import Robot
 from dynsolve.solution.solution import solve
 
 COUNTS = ("steps", "terms", "operations", "identities", "slips")
 
 
 class Hardness(Struct, frozen=True):
-    """The counts of one result."""
+    """The counts of one result; `result` is the same where it is the same, `names` are those in it."""
 
     steps: int
     terms: int
     operations: int
     identities: int
     slips: int
+    result: str = ""
+    names: frozenset[str] = frozenset()
 
     @property
     def counts(self) -> tuple[int, ...]:
@@ -57,6 +64,13 @@ def hardness(problem: Problem, names: Iterable[str]) -> dict[str, Hardness]:
     found = {}
     for name in names:
         quantity = quantities(problem.robot)[name]
+        if quantity.family is DH:
+            found[name] = _of_table(problem.robot)
+            continue
+        value = solution.values[quantity.rule]
+        if isinstance(value, Skipped):
+            found[name] = NO_RESULT
+            continue
         leading = solution.values.leading_to([quantity.rule])
         identities = sum(
             any(isinstance(part, Relation) for part in line.by)
@@ -65,15 +79,33 @@ def hardness(problem: Problem, names: Iterable[str]) -> dict[str, Hardness]:
             for line in step.lines
         )
         shown = solution.forms(quantity.rule) if quantity.family.kind in FORMED else None
-        value = solution.values[quantity.rule]
         found[name] = Hardness(
             steps=len(leading),
             terms=_terms(value),
             operations=_terms(value) if shown is None else _operations(shown),
             identities=identities,
             slips=_slips(slips, quantity.rule, value),
+            **_identity(value),
         )
     return found
+
+
+NO_RESULT = Hardness(0, 0, 0, 0, 0)
+"""What is counted where an asked result is not there, as for a state that is no equilibrium."""
+
+_ADDRESS = re.compile(r" at 0x[0-9a-f]+")
+_NAME = re.compile(r"[^\W\d]\w*?(?=(?:_d?dot)?\b)")
+
+
+def _of_table(robot: Robot) -> Hardness:
+    """A table is read off the figure: its rows, and the cells that are not 0."""
+    cells = [cell for joint in robot.joints for cell in joint.written if cell != ZERO]
+    return Hardness(len(robot.joints), len(cells), len(cells), 0, 0, **_identity(cells))
+
+
+def _identity(value: Any) -> dict[str, Any]:
+    text = _ADDRESS.sub("", repr(value))
+    return {"result": sha256(text.encode()).hexdigest(), "names": frozenset(_NAME.findall(text))}
 
 
 def _terms(value: Any) -> int:

@@ -16,7 +16,7 @@ import io
 import itertools
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
@@ -73,6 +73,29 @@ class Family(Struct, frozen=True):
             if all(structure[part.path] != text for structure in self.structures)
         )
 
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """What varies and changes no answer: parts of the structure, letters and numbers."""
+        if self.variation is None:
+            return ()
+        results = [tuple(one.result for one in each.values()) for each in self.hardness]
+        names = {name for each in self.hardness for one in each.values() for name in one.names}
+        target = self.item.problem.robot.questions.target
+        names |= {name for name, _ in target.numbers} if target else set()
+        varied = [part.path for part in self.variation.structure if self._is_idle(part.path, results)]
+        numbers = [part.path for part in self.variation.numbers]
+        named = [*numbers, *(name for name, others in self.variation.letters.items() if len(others) > 1)]
+        return (*varied, *(path for path in named if path.rpartition(".")[2] not in names))
+
+    def _is_idle(self, path: str, results: Sequence[tuple[str, ...]]) -> bool:
+        """Whether structures that differ in this part alone have the same results, where there are such."""
+        alike: dict[tuple[tuple[str, str], ...], list[tuple[str, ...]]] = {}
+        for structure, own in zip(self.structures, results, strict=True):
+            others = tuple((other, text) for other, text in structure.items() if other != path)
+            alike.setdefault(others, []).append(own)
+        compared = [found for found in alike.values() if len(found) > 1]
+        return bool(compared) and all(len(set(found)) == 1 for found in compared)
+
     def variant(self, number: int) -> Variant:
         """One of them, counted from 0."""
         place, dressing = number % len(self.structures), number // len(self.structures)
@@ -97,7 +120,7 @@ class Variant(Struct, frozen=True):
 # -- the family --------------------------------------------------------------------------------------
 
 
-def family_of(item: Item, seed: str, pool: ProcessPoolExecutor, step: Callable[[], None]) -> Family:
+def family_of(item: Item, seed: str, pool: Executor, step: Callable[[], None]) -> Family:
     """The family of a problem, with a `step` for each structure that was measured.
 
     Raises ProblemError for a variant that is no problem.

@@ -20,10 +20,13 @@ from dynsolve.problem.bodies import ParsedTensor
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record
 from dynsolve.problem.reader import Reading, read_file, read_problem, read_whole
+from dynsolve.problem.variation import FORMULA, TEXT, faulty_alternatives, scalars
 from dynsolve.problem.yaml_nodes import MappingNode, Span
+from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.geometry import Links, elementary
 from dynsolve.robot.model import Body, Robot
 from dynsolve.robot.shapes import AXES, KINDS
+from dynsolve.robot.units import INERTIA, LENGTH, MASS, describe
 
 Remark = tuple[Span, str, str]
 """Where something deserves a look, what it is, and what to do."""
@@ -156,8 +159,6 @@ def remarks(reading: Reading) -> tuple[Finding, ...]:
         source = reading.faults.source
         found += [source.finding(*span, message, help, code) for span, message, help in check(reading)]
     if reading.variation is not None:
-        from dynsolve.problem.variation import faulty_alternatives
-
         found += faulty_alternatives(reading.variation, reading.faults.source, read_problem)
     return tuple(sorted(found, key=lambda finding: (finding.line, finding.column)))
 
@@ -406,7 +407,39 @@ def unasked(reading: Reading) -> Iterator[Remark]:
             yield reading.fields.key_span(key), message, help
 
 
+def not_positive(reading: Reading) -> Iterator[Remark]:
+    """A length, a mass or a moment of inertia that may vary to 0 or below it."""
+    robot = reading.problem.robot
+    for part in reading.variation.numbers if reading.variation else ():
+        name = _normal(part.path.removeprefix("values."))
+        if name not in robot.parameters:
+            continue
+        dimension = Dimensions(robot.ring, robot).of(robot.ring.symbol(name))
+        low = [text for text in part.alternatives if _NUMBER.fullmatch(text) and Fraction(text) <= 0]
+        if dimension in (LENGTH, MASS, INERTIA) and low:
+            yield part.told, f"{name} is {describe(dimension)}, and may be {low[0]}", "let it vary above 0"
+
+
+def kept_letter(reading: Reading) -> Iterator[Remark]:
+    """A letter that varies, in words that keep it: outside of dollar signs."""
+    letters = reading.variation.letters if reading.variation else ()
+    names = "|".join(re.escape(name) for name in letters if name not in _ENGLISH)
+    words = [reading.fields.get(key) for key in ("title", "remarks", TEXT)] if names else []
+    for start, end in (span for node in words if node is not None for span in scalars(node)):
+        plain = FORMULA.sub(lambda found: " " * len(found[0]), reading.faults.source.text[start:end])
+        for found in re.finditer(rf"(?<!\w)(?:{names})(?!\w)", plain):
+            span = (start + found.start(), start + found.end())
+            help = f"leave it out; in the formulas of `text`, ${found[0]}$, it is changed"
+            yield span, f"{found[0]} varies, and these words keep it", help
+
+
+_NUMBER = re.compile(r"[-+]?\d+(?:\.\d+|/0*[1-9]\d*)?")
+_ENGLISH = ("a", "A", "I")
+"""Letters that are words, too."""
+
 CHECKS = (
+    not_positive,
+    kept_letter,
     unused_value,
     ambiguous_name,
     similar_names,

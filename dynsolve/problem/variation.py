@@ -43,7 +43,7 @@ from dynsolve.problem.yaml_nodes import (
 )
 
 KEY, LETTERS, WITHIN, ABSENT, TEXT = "vary", "letters", "within", "absent", "text"
-_FORMULA = re.compile(r"\$[^$]*\$")
+FORMULA = re.compile(r"\$[^$]*\$")
 WIDTH = Fraction(1, 10)
 """How far from the median a variant may be, as a share of it, unless the file says otherwise."""
 
@@ -57,11 +57,15 @@ _HELP = PROBLEM[KEY].help
 
 
 class Part(Struct, frozen=True):
-    """A part of the file that varies: the way to it, where it stands, and what may stand there."""
+    """A part of the file that varies: the way to it, where it stands, and what may stand there.
+
+    `told` is where `vary` names it.
+    """
 
     path: str
     span: Span
     alternatives: tuple[str, ...]
+    told: Span
     places: tuple[Span, ...] = ()
     """Where the alternatives of a list stand in the file."""
 
@@ -166,9 +170,9 @@ def _names(root: MappingNode, text: str) -> Iterator[Span]:
     """Where names of symbols may stand: in values, in keys of mappings by symbol, in formulas of words."""
     for key, value in root.entries:
         if key.decoded == TEXT:
-            yield from (found.span() for found in _FORMULA.finditer(text, *value.span))
+            yield from (found.span() for found in FORMULA.finditer(text, *value.span))
         elif key.decoded not in _WORDS:
-            yield from _within(value, key.decoded in _BY_SYMBOL)
+            yield from scalars(value, key.decoded in _BY_SYMBOL)
 
 
 _BY_SYMBOL = frozenset({
@@ -177,18 +181,19 @@ _BY_SYMBOL = frozenset({
 """The keys whose own keys are names of symbols."""
 
 
-def _within(node: YamlNode, by_symbol: bool) -> Iterator[Span]:
+def scalars(node: YamlNode, by_symbol: bool = False) -> Iterator[Span]:
+    """Where the texts of a node stand, the keys of a mapping `by_symbol` among them."""
     match node:
         case ScalarNode():
             yield node.span
         case ListNode():
             for item in node.items:
-                yield from _within(item, by_symbol=False)
+                yield from scalars(item)
         case MappingNode():
             for key, value in node.entries:
                 if by_symbol:
                     yield key.span
-                yield from _within(value, key.decoded in _BY_SYMBOL)
+                yield from scalars(value, key.decoded in _BY_SYMBOL)
 
 
 # -- reading -----------------------------------------------------------------------------------------
@@ -257,7 +262,10 @@ def _variation(
             alternatives = _alternatives(faults, value, name.decoded)
             if span is not None and alternatives:
                 places = tuple(item.span for item in value.items) if isinstance(value, ListNode) else ()
-                parts.append(Part(name.decoded, span, alternatives, places))
+                parts.append(Part(name.decoded, span, alternatives, name.span, places))
+    for part in parts:
+        if whole := next((one.path for one in parts if part.path.startswith(f"{one.path}.")), ""):
+            faults.error(part.told, f"{part.path} is a part of {whole}, which varies too", "keep one of them")
     if not (parts or letters) and not faults.errors:
         faults.error(key.span, "nothing varies", _HELP)
     moved = tuple(_behind(part, begin, end, len(text)) for part in parts)
@@ -289,8 +297,10 @@ def _place(faults: Faults, root: MappingNode, name: ScalarNode) -> Span | None:
         if following is None:
             if k == 0 and len(steps) == 1 and step in PROBLEM.names:
                 return (0, 0)
-            way = ".".join(steps[: k + 1])
+            way, last = ".".join(steps[: k + 1]), steps[-1]
             usual = "give it there, so that it has a place; list items are counted from 1: masses.1.center"
+            if k == 0 and step in PROBLEM.names:
+                usual = f"give {step} with {last} in it, or let the whole of it vary: {step}: [absent, ...]"
             help = did_you_mean(step, known) or usual
             faults.error(name.span, f"the file has no {way}", help)
             return None

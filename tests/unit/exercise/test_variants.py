@@ -2,6 +2,7 @@
 
 import csv
 import sqlite3
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from fractions import Fraction
 from pathlib import Path
@@ -12,7 +13,7 @@ import pytest
 from dynsolve.errors import ProblemError, UsageError
 from dynsolve.exercise import plot
 from dynsolve.exercise.hardness import COUNTS, Hardness, equally_hard, hardness
-from dynsolve.exercise.variants import MOST_STRUCTURES, _measured, students_of, vary
+from dynsolve.exercise.variants import MOST_STRUCTURES, Family, _measured, family_of, students_of, vary
 from dynsolve.grading.public import grade
 from dynsolve.grading.set_file import load_set
 from dynsolve.problem.lint import lint_text
@@ -82,6 +83,8 @@ def test_letters_change_where_they_are_names() -> None:
     ("vary", "said"),
     [
         ("{dh.3.a: [l1, l2]}", "the file has no dh.3"),
+        ("{springs.1: [absent, {stiffness: k}]}", "the file has no springs"),
+        ("{dh.1: [{theta: q1*}, {d: q1*}], dh.1.a: [l1, l2]}", "dh.1.a is a part of dh.1"),
         ("{gravty: [none, [0, 0, -g]]}", "the file has no gravty"),
         ("{gravity: [[0, -g, 0]]}", "gravity needs at least two alternatives"),
         ("{values.m1: {from: 2, to: 1, step: 1}}", "this range is empty"),
@@ -240,6 +243,48 @@ def test_a_family_that_is_too_poor_says_how_many_it_has(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="arm has 2 variants that are equally hard, for 3 students"):
         vary(load_set(str(file)), dict.fromkeys("abc", ""), SEED, tmp_path / "out", jobs=1)
     assert not (tmp_path / "out").exists()
+
+
+ASKED = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies:
+    - {mass: M, at: [x, 0, 0]}
+    - {mass: m, at: [x + l*sin(theta), -l*cos(theta), 0]}
+passive: [theta]
+linearize: {x: 0, theta: 0}
+values: {l: 0.4, M: 2, m: 1, g: 9.81}
+vary:
+  gravity: [[0, -g, 0], [0, g, 0]]
+  model.bodies.2.at: ['[x + l*sin(theta), -l*cos(theta), 0]', '[x + l*cos(theta), l*sin(theta), 0]']
+  values.M: {from: 1, to: 2, step: 0.5}
+  letters: {M: [M, m0], l: [l, a], x: [x, s]}
+find: [g, linear_A]
+""".replace("'", "")
+
+
+def family(text: str, file: Path) -> Family:
+    (item,) = load_set(str(with_files(file.parent, {file.name: text}) / file.name)).items
+    with ThreadPoolExecutor(1) as pool:
+        return family_of(item, SEED, pool, lambda: None)
+
+
+def test_a_variant_without_a_result_is_left_out(tmp_path: Path) -> None:
+    found = family(ASKED, tmp_path / "cart.yaml")
+    assert found.left_out == ("model.bodies.2.at: [x + l*cos(theta), l*sin(theta), 0]",)
+    assert len(found.structures) == 2
+
+
+def test_what_changes_no_answer_is_told(tmp_path: Path) -> None:
+    assert family(ASKED.replace("linear_A", "P"), tmp_path / "cart.yaml").idle == ("values.M", "M", "x")
+    assert family(ASKED.replace("g, linear_A", "D"), tmp_path / "cart.yaml").idle == ("gravity", "x")
+
+
+def test_a_table_may_be_asked_for(tmp_path: Path) -> None:
+    found = family(ARM.replace("find: [D, g]", "find: [DH, g]"), tmp_path / "arm.yaml")
+    assert {one["DH"].counts for one in found.hardness} == {(2, 4, 4, 0, 0)}
+    assert "friction" in found.idle
 
 
 def test_each_is_graded_by_his_own_variant(course: Path, tmp_path: Path) -> None:

@@ -21,6 +21,10 @@ def body(fields: str) -> str:
 FINDINGS = {
     "unused-value": "values: {l1: 1, «L2»: 3}\n" + MASS,
     "unused-value of a unit": "units: {«q»: m}\n" + MASS,
+    "not-positive": "values: {l1: 1}\nvary: {«values.l1»: {from: -0.5, to: 1, step: 0.5}}\n" + MASS,
+    "not-positive of a mass": "values: {m2: 1}\nvary: {«values.m2»: [0, 1/2]}\n" + MASS,
+    "kept-letter": "title: Find «l1» here\nvary: {letters: {l1: [l1, a1]}}\n" + MASS,
+    "kept-letter in a text": "text: Of $l1$ and «l1»\nvary: {letters: {l1: [l1, a1]}}\n" + MASS,
     "gravity-upward": "gravity: «[0, 0, g]»\n" + MASS,
     "gravity-upward in numbers": "gravity: «[0, 0, 9.81]»\n" + MASS,
     "unasked velocity": "«velocity»: [vx, vy]\nfind: [Jr]\n" + PLANAR,
