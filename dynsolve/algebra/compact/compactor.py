@@ -321,9 +321,9 @@ class Compactor:
         for e, f in terms.items():
             polynomials.setdefault(e[width:], {})[e[:width]] = f
         collected: dict[TrigMonomial, Terms] = {}
-        for rest, form in self._groups[g].forms.choose(polynomials).items():
+        for rest, form, factor in self._groups[g].forms.choose(polynomials):
             for mono, f in form:
-                collected.setdefault(mono, {})[rest] = f
+                collected.setdefault(mono, {})[rest] = f * factor
         parts = []
         for mono, part in collected.items():
             sign, trig = self._atoms.trig_monomial(mono, g)

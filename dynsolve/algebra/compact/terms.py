@@ -21,10 +21,8 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import gcd, isqrt, lcm
-from operator import index
 from typing import Any, NamedTuple, TypeVar
 
-from flint import Ordering, fmpq_mpoly_ctx
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -144,19 +142,36 @@ def read_terms(
         tuple((g, len(places)) for g, places in present), rest["leading"], rest["parameter"], rest["rate"]
     )
     order = [*(i for _, places in present for i in places), *layout.symbols]
-    if not order:
-        return layout, {(): _factor(expr.poly.leading_coefficient())}
-    # Reading through a ring of these generators alone is several times faster.  FLINT has one context for
-    # one name and size, and projects nothing onto the polynomial's own: so it has another name.
-    small = fmpq_mpoly_ctx.get(("term", len(order)), Ordering.lex)
-    place = {i: k for k, i in enumerate(order)}
-    projected = expr.poly.project_to_context(small, {i: place[i] for i in used})
-    exponents, factors = projected.monoms(), projected.coeffs()  # to_dict() takes twice as long
-    return layout, {tuple(map(index, e)): _factor(f) for e, f in zip(exponents, factors, strict=True)}
+    names = expr.poly.context().names()
+    known = {names[i]: (place, 1) for place, i in enumerate(order)}
+    return layout, dict(sorted(_read(str(expr.poly), known, len(order)), reverse=True))
 
 
-def _factor(value: Any) -> Rational:
-    return int(value.p) if value.q == 1 else Fraction(int(value.p), int(value.q))
+def _read(text: str, known: dict[str, tuple[int, int]], width: int) -> Iterator[tuple[Exponents, Rational]]:
+    """The terms of a polynomial as FLINT writes it; its own lists have an object for each exponent.
+
+    `known` says place and exponent of a factor, and is added to.
+
+    >>> list(_read("-2*x*y^2 + 1/3*x", {"x": (0, 1), "y": (1, 1)}, 2))
+    [((1, 2), -2), ((1, 0), Fraction(1, 3))]
+    """
+    for term in text.replace(" - ", " + -").split(" + "):
+        exponents = [0] * width
+        sign, factor = (-1, term[1:]) if term[0] == "-" else (1, term)
+        number: Rational = sign
+        for part in factor.split("*"):
+            found = known.get(part)
+            if found is None and part[0].isdigit():
+                numerator, _, denominator = part.partition("/")
+                number = sign * (
+                    Fraction(int(numerator), int(denominator)) if denominator else int(numerator)
+                )
+                continue
+            if found is None:
+                name, _, exponent = part.partition("^")
+                found = known[part] = (known[name][0], int(exponent))
+            exponents[found[0]] = found[1]
+        yield tuple(exponents), number
 
 
 # Polynomials in atoms as dictionaries {monomial

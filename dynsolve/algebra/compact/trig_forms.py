@@ -263,12 +263,12 @@ class FormChoice:
 
     def __init__(self, forms: Callable[[TrigPolynomial], list[TrigForm]] = trig_forms) -> None:
         self._forms = forms
-        self._made: dict[frozenset[tuple[Exponents, Rational]], list[_Option]] = {}
+        self._made: dict[frozenset[tuple[Exponents, Rational]] | Exponents, list[_Option]] = {}
 
     def choose(
         self, polynomials: Mapping[Exponents, TrigPolynomial]
-    ) -> dict[Exponents, list[tuple[TrigMonomial, Rational]]]:
-        """The chosen form of each polynomial as (monomial, factor).
+    ) -> Iterator[tuple[Exponents, tuple[tuple[TrigMonomial, Rational], ...], Rational]]:
+        """(key, the terms of the chosen form, the factor of all of them) of each polynomial.
 
         The keys are the monomials in parameters whose coefficients the polynomials are.
         """
@@ -280,18 +280,19 @@ class FormChoice:
                 uses.subtract(mono for mono, _ in chosen[key].items)
                 chosen[key] = min(made, key=lambda option: _price_beside(option, uses))
                 uses.update(mono for mono, _ in chosen[key].items)
-        return {key: [(m, f * options[key][1]) for m, f in option.items] for key, option in chosen.items()}
+        return ((key, chosen[key].items, factor) for key, (_, factor) in options.items())
 
     def _options(self, polynomial: TrigPolynomial) -> tuple[list[_Option], Rational]:
         """(forms, the cheapest first; the factor they are to be multiplied with)"""
+        key: frozenset[tuple[Exponents, Rational]] | Exponents
         if len(polynomial) == 1:
-            ((exponents, scale),) = polynomial.items()
-            key: frozenset[tuple[Exponents, Rational]] = frozenset(((exponents, 1),))
+            ((key, scale),) = polynomial.items()
         else:
             key, scale = primitive(polynomial)
         made = self._made.get(key)
         if made is None:
-            made = self._made[key] = sorted(map(_option, self._forms(dict(key))), key=lambda o: o.price)
+            whole: TrigPolynomial = {key: 1} if isinstance(key, tuple) else dict(key)
+            made = self._made[key] = sorted(map(_option, self._forms(whole)), key=lambda o: o.price)
         return made, scale
 
 
