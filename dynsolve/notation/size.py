@@ -92,9 +92,8 @@ def _size(node: Node, known: dict[int, _Plain], level: int, most: Size) -> _Plai
             return _LEAF
         nodes, depths, terms, degrees = zip(*sizes, strict=True)
         found = 1 + sum(nodes), 1 + max(depths), *_RULES[kind](node, terms, degrees, most)
-        for measure, here, bound in zip(Size._fields, found, most, strict=True):
-            if here > bound:
-                raise TooLargeError(measure)
+        if found[0] > most[0] or found[1] > most[1] or found[2] > most[2] or found[3] > most[3]:
+            raise TooLargeError(next(m for m, a, b in zip(Size._fields, found, most, strict=True) if a > b))
         known[id(node)] = found
     return found
 

@@ -51,16 +51,17 @@ def times() -> None:
     sympy = cost([sys.executable, "-c", "import sympy"], runs=2 * RUNS)
     print(f"python -c 'import sympy': {sympy.seconds:.2f} s")
     cases = [
-        ("--help", ["--help"], 0.8),
-        ("solve in3140-rp", ["solve", problem("in3140-rp")], 2),
+        ("--help", ["--help"], 0.3),
+        ("lint in3140-rp", ["lint", problem("in3140-rp")], 0.5),
+        ("solve in3140-rp", ["solve", problem("in3140-rp")], 0.8),
         ("solve puma560-first3", ["solve", problem("puma560-first3")], None),
-        ("solve puma560 --json", ["solve", problem("puma560"), "--json"], 10),
+        ("solve puma560 --json", ["solve", problem("puma560"), "--json"], 6),
         ("solve puma560 --latex", ["solve", problem("puma560"), "--latex"], 20),
-        ("solve panda-7r --json", ["solve", problem("panda-7r"), "--json"], 40),
+        ("solve panda-7r --json", ["solve", problem("panda-7r"), "--json"], 16),
     ]
     print(f"{'command':<24}{'seconds':>9}{'ratio':>8}{'at most':>9}{'peak MiB':>10}")
     for name, arguments, most in cases:
-        used = cost([*DYNSOLVE, *arguments], runs=1 if most == 40 else RUNS)
+        used = cost([*DYNSOLVE, *arguments], runs=1 if most == 16 else RUNS)
         ratio, bound = used.seconds / sympy.seconds, "" if most is None else f"{most:g}"
         print(f"{name:<24}{used.seconds:>9.2f}{ratio:>8.2f}{bound:>9}{used.mebibytes:>10.0f}")
 
