@@ -134,6 +134,11 @@ MOMENTS = [
         "body 1 has I₁ about that parallel to 𝐳₀; body 2 has I₂ about those parallel to 𝐱₂ and 𝐲₂; "
         "the other entries of the tensors are taken as 0. ",
     ),
+    (
+        "gravity: none\ndh: [{theta: q1*, a: l1}]\n"
+        "masses: [{mass: m, link: 1, center: tip, inertia: {xx: A, yy: B, zz: B}}]\n",
+        "body 1 has A about that parallel to 𝐱₁ and B about those parallel to 𝐲₁ and 𝐳₁; ",
+    ),
 ]
 
 
