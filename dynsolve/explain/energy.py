@@ -10,6 +10,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps, potential_steps
 from dynsolve.explain.context import Context
+from dynsolve.explain.inertia import is_its_links, orientation_named
 from dynsolve.explain.jacobian import (
     BESIDE,
     ZERO,
@@ -330,11 +331,12 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
     return replace(
         step,
         why=say(
-            "$𝓘_{i} = 𝐑_{i} {I} 𝐑_{i}ᵀ$ is the tensor along the axes of the {ground}. Along the body's own "
-            "axes it is {I}, and the angular velocity is {own}.",
+            "$𝓘_{i} = 𝐑_{i} {I} 𝐑_{i}ᵀ${where} is the tensor along the axes of the {ground}. Along the "
+            "body's own axes it is {I}, and the angular velocity is {own}.",
             i=i,
             I=tensor,
             ground=context.ground,
+            where=say(" with {R}", R=orientation_named(context, body)) if is_its_links(body) else "",
             own=own.name,
         ),
         formula=equation(*step.formula.parts, half),

@@ -26,7 +26,7 @@ from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matr
 from dynsolve.explain.parameter_meanings import angles_in
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
-from dynsolve.notation.tree import ZERO, Node, Product, Symbol
+from dynsolve.notation.tree import ZERO, Negative, Node, Product, Symbol
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
@@ -93,7 +93,7 @@ class Forms:
             found = self._make(name)
             quantity = quantities(self.robot).of_rule(name)
             if quantity is not None and quantity.family in _ENERGIES:
-                found = number_in_front(found)
+                found = _without_minus(number_in_front(found))
             self._made[name] = found
         return found
 
@@ -234,6 +234,18 @@ class Forms:
         """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed."""
         R, tensor = self.matrix(f"R{body}").rows, self.matrix(f"I_body{body}")
         return tree.Matrix(tuple(tuple(_sandwich(left, tensor, right) for right in R) for left in R))
+
+
+def _without_minus(node: Node) -> Node:
+    """An energy that begins with no minus where a sum in it can take that: -½ (a - b) q̇² is ½ (b - a) q̇²."""
+    if not (isinstance(node, Negative) and isinstance(node.argument, Product)):
+        return node
+    factors = node.argument.factors
+    for k, factor in enumerate(factors):
+        if isinstance(factor, tree.Sum) and any(isinstance(term, Negative) for term in factor.terms):
+            terms = sorted(map(negated, factor.terms), key=lambda term: isinstance(term, Negative))
+            return Product((*factors[:k], tree.Sum(tuple(terms)), *factors[k + 1 :]))
+    return node
 
 
 def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ...]) -> Node:

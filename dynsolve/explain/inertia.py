@@ -287,6 +287,17 @@ def has_link_axes(body: Body) -> bool:
     return not body.is_point and axes.kind is AxesKind.LINK and axes.rotation == one
 
 
+def is_its_links(body: Body) -> bool:
+    """Whether R_2 is that of frame 2, and not told in a step of its own."""
+    return has_link_axes(body) and body.name == str(body.link)
+
+
+def orientation_named(context: Context, body: Body) -> Node:
+    """R_2 where it has been told what it is, else R_2 = R_2^0."""
+    R = letters.of_body("R", body, "bold")
+    return equation(R, letters.R(context.robot, body.link)) if is_its_links(body) else R
+
+
 def lies_as_drawn(body: Body) -> bool:
     """Whether the body-attached axes are those of the world in the pose of a drawing."""
     return body.axes.kind is AxesKind.LINK and body.axes.written == "base"
@@ -295,7 +306,6 @@ def lies_as_drawn(body: Body) -> bool:
 def _rotation(context: Context, body: Body, tells: bool) -> Step:
     R = letters.of_body("R", body, "bold")
     why, product, notes = _orientation(context, body)
-    is_its_links = has_link_axes(body) and body.name == str(body.link)  # R_2 is that of frame 2
     is_unneeded = _is_kept(context, body) and f"R{body.name}" not in context.wanted
     return Step(
         id=f"R{body.name}",
@@ -308,7 +318,7 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         notes=_right_frame(context, body.link) if tells else notes,
         said="axes of the link" if has_link_axes(body) else "",
         uses=(),
-        detail=Detail.FULL if is_unneeded or is_its_links else Detail.NORMAL,
+        detail=Detail.FULL if is_unneeded or is_its_links(body) else Detail.NORMAL,
     )
 
 
@@ -385,7 +395,11 @@ def _base_tensor(context: Context, body: Body) -> Step:
             why,
             w=letters.of_body("omega", body, "bold"),
             ground=context.ground,
-            leads=say("{R} leads from the body's axes to those of the {ground}.", R=R, ground=context.ground),
+            leads=say(
+                "{R} leads from the body's axes to those of the {ground}.",
+                R=orientation_named(context, body),
+                ground=context.ground,
+            ),
             I=tensor,
             turning=turning.why,
         ),

@@ -187,7 +187,9 @@ def _told(line: Line, style: Style) -> Line:
     if sines:  # the first sine and cosine, and the first of a sum, or else the next
         of_sums = [node for node in sines if isinstance(node.argument, Sum)]
         examples = dict.fromkeys([*sines[:2], *(of_sums or sines[2:])[:2]])
-        return replace(line, meaning=side_by_side([equation(node, _written_out(node)) for node in examples]))
+        told = side_by_side([equation(node, _written_out(node)) for node in examples])
+        is_whole = len(examples) == len(sines)
+        return replace(line, meaning=told if is_whole else Row((told, Words(", and so on"))))
     changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
     if changed:
         spong = GREEK.get(changed[0].base, changed[0].base)

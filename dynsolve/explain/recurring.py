@@ -327,7 +327,13 @@ def exchanged(terms: Sequence[Node], part: Collection[Node], one: Node) -> tuple
 
 
 def rewritten(node: Node, leaf: Callable[[Node], Node]) -> Node:
-    """A tree of sums and products, what these are made of changed, added and multiplied anew."""
+    """A tree of sums, products and quotients, what these are made of changed, added and multiplied anew.
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> h = Symbol("h")
+    >>> to_unicode(rewritten(Negative(Quotient(h, Number(2))), lambda leaf: Negative(h) if leaf == h else leaf))
+    'h/2'
+    """
     match node:
         case Sum(terms):
             return total([rewritten(term, leaf) for term in terms])
@@ -335,6 +341,8 @@ def rewritten(node: Node, leaf: Callable[[Node], Node]) -> Node:
             return negated(rewritten(argument, leaf))
         case Product(factors):
             return times(1, [(rewritten(factor, leaf), 1) for factor in factors])
+        case Quotient(numerator, denominator):
+            return times(1, [(rewritten(numerator, leaf), 1), (rewritten(denominator, leaf), -1)])
     return leaf(node)
 
 

@@ -17,8 +17,10 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Prose, Text, Uses
+from dynsolve.notation.build import factors_of
 from dynsolve.notation.extent import BINARY, FLAT, PARENTHESIS, RELATION, Ruler
 from dynsolve.notation.tree import (
+    ONE,
     Cross,
     Function,
     Negative,
@@ -189,7 +191,7 @@ class FormulaSplitter:
                 builder.add(self.notation.text(node), self.ruler.width(node))
 
     def _quotient(self, builder: _Builder, node: Quotient, level: int) -> None:
-        """A long fraction as a / (b); of another one 1/b stands before what is above."""
+        """A long fraction as a / (b); of another one 1/b, or 2/b, stands before what else is above."""
         numerator, denominator = node.numerator, node.denominator
         if self._is_long_fraction(node):
             self._factor(builder, numerator, level)
@@ -197,11 +199,13 @@ class FormulaSplitter:
             builder.add(self.notation.relation("/"), BINARY)
             self._enclosed(builder, denominator, level)
             return
-        builder.add(self.notation.text(Quotient(Number(1), denominator)), self.ruler.width(denominator) + 0.4)
-        if isinstance(numerator, Product):
-            self._product(builder, numerator.factors, level)
+        first, *rest = factors_of(numerator)
+        number, factors = (first, rest) if isinstance(first, Number) else (ONE, [first, *rest])
+        builder.add(self.notation.text(Quotient(number, denominator)), self.ruler.width(denominator) + 0.4)
+        if len(factors) > 1:
+            self._product(builder, factors, level)
         else:
-            self._factor(builder, numerator, level)
+            self._factor(builder, factors[0], level)
 
     def _sum(self, builder: _Builder, terms: Sequence[Node], level: int) -> None:
         whole = level > 0 and not self._is_wide(Sum(tuple(terms)))

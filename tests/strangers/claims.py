@@ -399,7 +399,9 @@ def _diagonal(m: Mechanism, s: Sentence) -> bool:
     return all(near(D, np.diag(np.diag(D))) for D in (m.result("D", p) for p in m.points()))
 
 
-@says("[So {} at rest alone: ][So ]{} is positive definite[ for positive parameters].")
+@says(
+    "[So {} at rest alone: ][So ]{} is positive definite[ for positive parameters[ and tensors of bodies]]."
+)
 def _definite(m: Mechanism, s: Sentence) -> bool:
     return all(np.min(np.linalg.eigvalsh(m.result("D", p))) > 0 for p in m.points(5))
 
@@ -792,7 +794,7 @@ def _no_torque(m: Mechanism, s: Sentence) -> bool:
 
 GENERAL = """
 Each {} leads one frame further along the arm, so it multiplies from the right.
-Let all parameters be positive.
+Let all parameters be positive[, and the tensors those of bodies].
 {} is symmetric, and may depend on the coordinates, but on no rate.
 Read off[ from the forces] and assembled directly: the same {&}.
 The tensor along the body's own axes put in:
@@ -802,12 +804,12 @@ With the square of a rate it is centrifugal: it remains where that coordinate al
 With the product of two rates it is a Coriolis term: it needs both to move.
 A point mass has no extent, so its tensor about its own mass centre is zero and it has no rotational energy.
 Below the energy is worked out along the body's own axes, where the tensor is {}.
-[Along the body's own axes][From there along the body's own axes, by {}][Along the axes of frame #][, with
-  ...]:
+[Along the body's own axes[, multiplied out]][From there along the body's own axes, by {}][Along the axes
+  of frame #][, with ...]:
 Along the body's own axes it is {}, and the angular velocity is {}.
 Verified: ...
 The other results that are asked for agree with independent computations in numbers.
-{} is the tensor along the axes of the <base|world>.
+{}[ with {}] is the tensor along the axes of the <base|world>.
 By Sylvester's criterion[, which may start from either end of the diagonal,] it remains to show that the
   determinant[s] below <is|are> positive.
 The sum is the same {}, entry by entry.
@@ -836,7 +838,7 @@ Multiplied out, {} is a sum of ...
 Those that are combinations of others are left out, and so are factors that are positive, as masses and
   lengths of the table are.
 A motor gives the component of what its joint holds along the joint's axis; the bearings hold the others.
-Joint i moves the links from {} on like one body.
+A joint moves all links after it like one body.
 The coefficients that occur, ...
 {} lies along each joint axis in the direction that is given.
 #; {}; slides along; {}; {}

@@ -139,7 +139,7 @@ def _identities(values: Iterable[Node]) -> str:
 def _on_symbols(context: Context) -> Prose:
     """What halves the symbols, and why many are each other's opposites."""
     carried = say(
-        "Joint i moves the links from $i$ on like one body, so $d_jk$ does not depend on $q_i$ where $i ≤ j$ "
+        "A joint moves all links after it like one body, so $d_jk$ does not depend on $q_i$ where $i ≤ j$ "
         "and $i ≤ k$; there $c_ijk = -c_ikj$. "
     )
     return say(

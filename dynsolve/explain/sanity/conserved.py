@@ -228,7 +228,7 @@ def dependence_step(context: Context) -> Step | None:
     k = robot.coordinates[-1].index
     form = context.show(context.values["D"][k - 1, k - 1])
     why = say(
-        "Joint i moves the links from $i$ on like one body. So no $d_jk$ depends on $q_i$ where $i ≤ j$ and "
+        "A joint moves all links after it like one body. So no $d_jk$ depends on $q_i$ where $i ≤ j$ and "
         "$i ≤ k$. {last}",
         last=on_last_entry(context),
     )
@@ -249,10 +249,11 @@ def dependence_step(context: Context) -> Step | None:
 def on_last_entry(context: Context) -> Prose:
     """What the last entry of the diagonal is."""
     last = context.robot.coordinates[-1]
+    ((joint, _),) = context.robot.joints_of(last)
     return say(
         "{entry} is constant: of all that joint {joint} moves, it is the {what}.",
         entry=letters.entry("d", last.index, last.index),
-        joint=last.index,
+        joint=joint.index,
         what="moment of inertia about its axis" if turns(last) else "mass",
     )
 

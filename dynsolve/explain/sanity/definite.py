@@ -49,6 +49,7 @@ from dynsolve.notation.tree import (
     number,
 )
 from dynsolve.quantities import letters
+from dynsolve.robot.model import Body
 
 LONGEST = 60
 """The operations of a determinant up to which it is of use to a reader."""
@@ -65,17 +66,46 @@ def definite_step(context: Context) -> Step | None:
     return _by_entries(context) or _by_bodies(context)
 
 
-def _step(context: Context, why: Prose, lines: tuple[Line, ...] = (), concluding: Prose = ()) -> Step:
+def _step(
+    context: Context,
+    why: Prose,
+    lines: tuple[Line, ...] = (),
+    concluding: Prose = (),
+    *,
+    by_energies: bool = False,
+) -> Step:
+    """The step; `by_energies` says that it rests on that no body's kinetic energy is negative."""
     has_parameters = bool(context.robot.parameters)
+    open_tensors = by_energies and not all(_is_of_a_body(context, body) for body in context.robot.bodies)
     return Step(
         id="definite",
         title="Check: the inertia matrix is positive definite",
-        why=say("{assumed}{why}", assumed="Let all parameters be positive. " * has_parameters, why=why),
+        why=say(
+            "{assumed}{why}",
+            assumed=f"Let all parameters be positive{_TENSORS[0] * open_tensors}. " * has_parameters,
+            why=why,
+        ),
         source=spong("7.5.1"),
         lines=lines,
         concluding=concluding,
-        outcome=say(f"$𝐃$ is positive definite{' for positive parameters' * has_parameters}."),
+        outcome=say(
+            f"$𝐃$ is positive definite{' for positive parameters' * has_parameters}"
+            f"{_TENSORS[1] * (open_tensors and has_parameters)}."
+        ),
         is_task=False,
+    )
+
+
+_TENSORS = ", and the tensors those of bodies", " and tensors of bodies"
+
+
+def _is_of_a_body(context: Context, body: Body) -> bool:
+    """Whether a tensor is seen to be one of a body, whatever positive numbers its parameters are."""
+    rows = context.values[f"I_body{body.name}"].rows
+    return all(
+        all(factor >= 0 for factor in entry.poly.coeffs()) if i == j else entry.is_zero
+        for i, row in enumerate(rows)
+        for j, entry in enumerate(row)
     )
 
 
@@ -98,8 +128,10 @@ def _by_entries(context: Context) -> Step | None:
                 return None
             determinants += found
     why = _diagonal(context, firsts)
+    by_energies = not all(_is_positive(context, context.show(context.values["D"][k, k])) for k in firsts)
     if not determinants:
-        return _step(context, say("{why} All other entries are zero, so $𝐃$ is positive definite.", why=why))
+        why = say("{why} All other entries are zero, so $𝐃$ is positive definite.", why=why)
+        return _step(context, why, by_energies=by_energies)
     parts = listed([_block(context, block) for block in all_blocks])
     from_the_end = any(first != block[0] for first, block in zip(firsts, all_blocks, strict=True))
     several = len(determinants) > 1
@@ -119,7 +151,7 @@ def _by_entries(context: Context) -> Step | None:
         last="the last expression of each" if several else "the last expression",
         least=listed([_never_zero(context, each.form) for each in determinants]),
     )
-    return _step(context, why, tuple(lines), concluding)
+    return _step(context, why, tuple(lines), concluding, by_energies=by_energies)
 
 
 def _first(context: Context, block: Sequence[int]) -> int | None:
@@ -214,7 +246,7 @@ def _by_bodies(context: Context) -> Step | None:
         rotor=" and no rotor" if robot.actions.motors else "",
     )
     concluding = say("So $𝐪̇ᵀ 𝐃 𝐪̇ = 0$ at rest alone: $𝐃$ is positive definite.")
-    return _step(context, why, (Line((), tuple(lines)),), concluding)
+    return _step(context, why, (Line((), tuple(lines)),), concluding, by_energies=True)
 
 
 def blocks(D: Matrix) -> list[list[int]]:

@@ -32,12 +32,12 @@ from dynsolve.robot.model import Body, Robot
 
 
 def along_own_axes(context: Context, body: Body) -> bool:
-    """Whether the energy of a body is worked out along its own axes, without 𝓘; not of long arms.
+    """Whether the energy of a body is worked out along its own axes, without 𝓘.
 
     All bodies of an arm are treated alike: along their own axes, if that is the shorter way for one.
     Where the moments about all axes are equal, 𝓘 is known without any rotation.
     """
-    if not context.is_short or not _is_turned(context, body):
+    if not _is_turned(context, body):
         return False
     return any(_is_shorter(context, each) for each in context.robot.bodies if _is_turned(context, each))
 
@@ -142,6 +142,9 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
         if quantity != "w":
             text = "{R} turns about the axis of the columns of {x}, and leaves them as they are:"
         return Turned(own, whole, (Line(say(text, R=R, x=letter), (equation(whole, letter),)),), f"R{b}")
+    if not context.is_short:
+        by = say("Along the body's own axes, multiplied out:")
+        return Turned(own, whole, (Line(by, (equation(whole, context.show(own)),)),), f"R{b}")
     if leans(context.robot):
         return Turned(own, whole, tuple(_by_frame_0(context, body, quantity, letter)), "H0")
     line = product_line(context, "Along the body's own axes", [whole], rotation, value)

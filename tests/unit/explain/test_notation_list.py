@@ -185,7 +185,7 @@ MEANINGS = [
     ("in3140-rp", "θ, d, a, α", "columns of the Denavit-Hartenberg table", "rad, m, m, rad"),
     ("inf3480-rrp-drawn", "θ, d, a, α", "columns of the Denavit-Hartenberg table", "rad, m, m, rad"),
     ("elbow-3r", "s₁, c₁, …, s₂₃, c₂₃",
-     "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃), c₂₃ = cos(θ₂ + θ₃)", ""),
+     "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃), c₂₃ = cos(θ₂ + θ₃), and so on", ""),
     ("cartesian-pp", "𝐂, Cₖⱼ",
      "matrix of the Coriolis and centrifugal terms, its entries; Spong writes c for the entries", "kg/s"),
     ("elbow-3r", "𝐂, Cₖⱼ",
