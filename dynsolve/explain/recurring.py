@@ -331,7 +331,8 @@ def rewritten(node: Node, leaf: Callable[[Node], Node]) -> Node:
 
     >>> from dynsolve.notation.unicode import to_unicode
     >>> h = Symbol("h")
-    >>> to_unicode(rewritten(Negative(Quotient(h, Number(2))), lambda leaf: Negative(h) if leaf == h else leaf))
+    >>> half = Negative(Quotient(h, Number(2)))
+    >>> to_unicode(rewritten(half, lambda leaf: Negative(h) if leaf == h else leaf))
     'h/2'
     """
     match node:
