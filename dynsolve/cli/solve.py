@@ -140,8 +140,8 @@ def solve(
     """Derive a robot's dynamics step by step, verified.
 
     The stages, in order: kinematics, jacobian, task, singular, inverse, rates, inertia,
-    energy, lagrangian, torque, vectorized, parameters, equilibria, forward_dynamics,
-    task_inertia, definite, statics, constraints. A robot without masses has none of the
+    energy, lagrangian, torque, vectorized, parameters, constraints, equilibria, forward_dynamics,
+    task_inertia, definite, statics. A robot without masses has none of the
     dynamics; task, singular, inverse, rates, and those from parameters on are there where a file
     asks for something of them. With --method newton-euler one stage, newton_euler, leads from the
     kinematics to the forces.
