@@ -26,6 +26,7 @@ from dynsolve.cli.numbers import (
     stems,
 )
 from dynsolve.errors import ExitCode, Finding, ProblemError, UsageError
+from dynsolve.render.files import write_whole
 
 # `dynsolve problems`: the library that comes with dynsolve
 
@@ -63,13 +64,9 @@ def new(file: str, like: str | None, all_: bool, force: bool) -> None:
         click.echo(text, nl=False)
         return
     path = Path(file)
-    try:
-        with path.open("w" if force else "x", encoding="utf-8") as stream:
-            stream.write(text)
-    except FileExistsError:
-        raise UsageError(f"{file} exists; --force overwrites it") from None
-    except OSError as error:
-        raise UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    if path.exists() and not force:
+        raise UsageError(f"{file} exists; --force overwrites it")
+    write_whole(path, text.encode())
     click.echo(f"wrote {file}; now: dynsolve solve {file}", err=True)
 
 

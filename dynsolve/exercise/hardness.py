@@ -141,7 +141,8 @@ def equally_hard(
 ) -> dict[Variant, Mapping[str, Hardness]]:
     """The largest family of variants that are as hard as each other; the first of several that are as large.
 
-    A family is sought around each variant, with all that may be in one with it, and with those near it alone.
+    A family is sought around each variant, among those near it: in a wider one whoever is drawn may have
+    a median that others are far from.
 
     >>> easy, hard = Hardness(4, 9, 12, 0, 30), Hardness(4, 15, 22, 0, 33)
     >>> sorted(equally_hard({1: {"D": easy}, 2: {"D": hard}, 3: {"D": hard}}, Fraction(1, 10)))
@@ -150,10 +151,9 @@ def equally_hard(
     families: dict[tuple[Variant, ...], dict[Variant, Mapping[str, Hardness]]] = {}
     for each in found.values():
         middle = {name: own.counts for name, own in each.items()}
-        for reach in (2, 1):
-            begun = {variant: own for variant, own in found.items() if _is_near(own, middle, within, reach)}
-            family = _around_its_median(begun, within)
-            families[tuple(family)] = family
+        begun = {variant: own for variant, own in found.items() if _is_near(own, middle, within)}
+        family = _around_its_median(begun, within)
+        families[tuple(family)] = family
     return max(families.values(), key=len, default={})
 
 
@@ -173,11 +173,9 @@ def _around_its_median(
     return family
 
 
-def _is_near(
-    own: Mapping[str, Hardness], middle: Mapping[str, Sequence[float]], within: Fraction, reach: int = 1
-) -> bool:
+def _is_near(own: Mapping[str, Hardness], middle: Mapping[str, Sequence[float]], within: Fraction) -> bool:
     return all(
-        abs(count - of) <= reach * max(float(within) * of, 1.0) and (count == 0) == (of == 0)
+        abs(count - of) <= max(float(within) * of, 1.0) and (count == 0) == (of == 0)
         for name, each in own.items()
         for count, of in zip(each.counts, middle[name], strict=True)
     )

@@ -271,9 +271,8 @@ def yaml_word(reading: Reading) -> Iterator[Remark]:
 
 
 def unstarred(reading: Reading) -> Iterator[Remark]:
-    """A name in theta that looks like a joint variable, without its star."""
-    for row in reading.parsed.table.rows:
-        cell = row.cells["theta"]
+    """A name in theta or d that looks like a joint variable, without its star."""
+    for cell in (row.cells[column] for row in reading.parsed.table.rows for column in ("theta", "d")):
         for name in cell.names:
             if not name.star and split(name.name)[0] in ("theta", "q") and split(name.name)[1]:
                 message = f"{name.name} has no star, so it is a constant"

@@ -205,7 +205,7 @@ def test_a_sheet_a_template_and_variants_are_written(tmp_path: Path) -> None:
 
 def test_new_says_why_it_cannot_write(tmp_path: Path) -> None:
     ran = dynsolve("new", str(tmp_path / "no" / "such" / "folder.yaml"))
-    assert ran.code == 2 and "cannot be written" in ran.err
+    assert ran.code == 2 and "there is no folder" in ran.err
 
 
 def test_schema_is_a_json_schema() -> None:

@@ -40,6 +40,7 @@ FINDINGS = {
     "similar-names": body("mass: m_2, link: 1").replace("m_2", "«m_2»"),
     "similar-names by case": body("mass: lc1, link: 1, center: tip, inertia: {zz: «Lc1»}"),
     "yaml-word": body("mass: «null», link: 1"),
+    "unstarred slide": "dh:\n  - {theta: q1*}\n  - {d: «q2»}\n",
     "unstarred": "dh:\n  - {theta: q1*}\n  - {theta: «q2»}\n",
     "moves-no-mass": PLANAR.replace("theta2*", "«theta2*»") + "masses: [{mass: m1, link: 1}]",
     "no-tool-row": "convention: modified\ndh: [{theta: q1*}, {theta: «q2*», a: l1}]\n",
