@@ -218,10 +218,10 @@ def _solved(name: str, method: MethodName, edition: int | None, quiet: bool) -> 
 
 def _report(solution: Solution, output: Output, view: _View) -> bytes:
     from dynsolve.explain.step import Detail
-    from dynsolve.solution.reports import rendered, report, report_style
+    from dynsolve.solution.reports import rendered, report
 
     if view.hint:
-        style = report_style(solution, view.star)
+        style = solution.starred(view.star)
         return rendered(solution.hint(view.hint), style, output.format, view.fragment)
     return report(
         solution,
@@ -239,7 +239,6 @@ def _print_document(solution: Solution, view: _View, follows_another: bool) -> N
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.solution.documents import solution_document
-    from dynsolve.solution.reports import report_style
 
     if follows_another:
         click.echo()
@@ -248,4 +247,4 @@ def _print_document(solution: Solution, view: _View, follows_another: bool) -> N
     else:
         detail = Detail[view.detail.name]
         document = solution_document(solution, detail, view.stages, Abbreviate(view.abbreviate))
-    print_document(document, report_style(solution, view.star))
+    print_document(document, solution.starred(view.star))

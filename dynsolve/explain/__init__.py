@@ -25,7 +25,8 @@ Everything a step is made from is in its `Context`: the robot, its exact values 
     given, placed_bodies, mass_centers, actions, matrix_factors, body_parts, terms
                          what several steps of the stages are made of
     working, sanity      the lines between a formula and its result; checks that a person can do on a model
-    set_forms            sets of configurations, inequalities: what several questions write
+    set_forms, inequalities
+                         sets of configurations, and what bounds them: what several questions write
     notation_list, signs, textbook_letters, parameter_meanings
                          what the signs of a report mean
     hint                 hints (`--hint`), made of the same steps: what to do, without its results

@@ -23,12 +23,12 @@ from dynsolve.document import Block, Formula, Inline, List, Prose, Text
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import leads_with_minus
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.inertia import has_link_axes, is_moved, lies_as_drawn, stays_with_base
 from dynsolve.explain.kinematics import turned
 from dynsolve.explain.mass_centers import Place, ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles, units_of_values
-from dynsolve.explain.set_forms import SetForms
 from dynsolve.explain.textbook_letters import Line
 from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
 from dynsolve.notation import tree
@@ -710,7 +710,7 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     said: list[tuple[Prose, Sequence[Bound]]] = [((), questions.model.assumed)]
     if questions.candidates and forms.robot.given is None:  # each has its own
         said = [((" of ", Symbol(one.name)), one.assumed) for one in questions.candidates]
-    written = SetForms(forms.robot, forms.values)
+    written = Inequalities(forms.robot)
     for of, assumed in said:
         if assumed:
             yield ("Assumed", *of, ": ", *listed([written.inequality(bound) for bound in assumed]), ".")

@@ -1,4 +1,4 @@
-"""Sets of configurations as formulas: what is 0 together, under which conditions, and inequalities."""
+"""Sets of configurations as formulas: what is 0 together, and under which conditions."""
 
 from __future__ import annotations
 
@@ -6,14 +6,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from math import isqrt, lcm, prod
-from typing import TYPE_CHECKING, Any
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.factors import is_positive, numeric_roots, ratio, trig_factors, trig_quotient
+from dynsolve.algebra.factors import is_positive, numeric_roots, ratio, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix as Values
-from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
 from dynsolve.derivation.graph import Derivation, Skipped
@@ -21,7 +18,8 @@ from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
-from dynsolve.explain.forms import is_numeric, leading_names, parallel_coordinates
+from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.writing import as_row, listed, side_by_side
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
@@ -33,22 +31,18 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Product,
     Quotient,
-    Relation,
     Sum,
     equation,
     names_in,
 )
 from dynsolve.robot.model import Robot
 
-if TYPE_CHECKING:
-    pass
 
-
-class SetForms:
+class SetForms(Inequalities):
     """The formulas of sets of equations of one robot, by the names of their rules."""
 
     def __init__(self, robot: Robot, values: Derivation) -> None:
-        self.robot = robot
+        super().__init__(robot)
         self.values = values
 
     def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
@@ -57,29 +51,6 @@ class SetForms:
         if isinstance(found, Skipped):
             return ()
         return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
-
-    def inequality(self, bound: Bound) -> Relation:
-        """l W² > g, with either side positive."""
-        return self.comparison(bound.value, ">" if bound.is_strict else "≥")
-
-    def comparison(self, value: Expr, sign: str) -> Relation:
-        """A value compared with 0: what is positive of it on one side, what is negative on the other.
-
-        A positive factor that both sides share is left out, but not of matrices to be judged, whose
-        parameters may be negative.
-        """
-        ring = value.ring
-        has_both = len({factor < 0 for factor in value.poly.coeffs()}) == 2
-        if has_both and not self.robot.questions.candidates:
-            for shared, exponent in trig_factors(value):
-                if is_positive(shared):
-                    value = trig_quotient(value, shared**exponent) or value
-        sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
-        for exponents, factor in value.poly.to_dict().items():
-            sides[factor < 0][exponents] = abs(factor)
-        form = self.compactor(ring).form
-        left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
-        return Relation((left, right), (sign,))
 
     def existence(self, name: str, exist: Sequence[Sequence[Bound]]) -> Iterator[Prose]:
         """For which parameters the alternatives of a set are there that are not for all."""
@@ -139,12 +110,6 @@ class SetForms:
         for one in _as_one_swing(expr):
             expr = min(expr, one, key=lambda e: cost(form(e)))
         return min(((form(e), e) for e in (expr, -expr)), key=lambda both: _minus_signs(both[0]))
-
-    def compactor(self, ring: Ring) -> Compactor:
-        """The compactor of a ring of the search: the values of the task lead its sums, then masses."""
-        named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
-        leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
-        return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
 
 
 def _cases(places: Sequence[int]) -> str:

@@ -156,6 +156,14 @@ class Dynamics(Struct, frozen=True, dict=True):
         """How the formulas of a report look: s_1 for sin θ_1, and no sign with two meanings."""
         return report_style(self.robot, self.digits)
 
+    def starred(self, star: bool) -> Style:
+        """The style in which every joint variable carries its mark, where `star` asks for it."""
+        return (
+            replace(self.style, stars=frozenset(q.name for q in self.robot.coordinates))
+            if star
+            else self.style
+        )
+
     def picture(self, star: bool = False) -> Picture:
         """The manipulator with its frames, drawn once however many reports show it.
 

@@ -59,7 +59,7 @@ def report(
         from dynsolve.solution.json_export import to_json
 
         return (dumps(to_json(solution, abbreviate), ensure_ascii=False) + "\n").encode()
-    style = report_style(solution, star)
+    style = solution.starred(star)
     details = tuple(Detail) if format is Format.HTML else (detail,)
     drawn = _drawn(solution.problem, style) if format in PICTURED else None
     documents = solution_documents(solution, details, stages, Abbreviate(abbreviate), drawn)
@@ -106,13 +106,6 @@ def _with_picture(documents: Iterable[Document], solution: Dynamics, star: bool)
         return replace(document, blocks=(*blocks[:place], picture, *blocks[place:]))
 
     return tuple(map(pictured, documents))
-
-
-def report_style(solution: Dynamics, star: bool = False) -> Style:
-    """How a solution's formulas look; with `star` every joint variable carries its mark."""
-    if not star:
-        return solution.style
-    return replace(solution.style, stars=frozenset(q.name for q in solution.robot.coordinates))
 
 
 def rendered(document: Document, style: Style, format: Format, fragment: bool) -> bytes:

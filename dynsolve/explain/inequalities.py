@@ -1,0 +1,50 @@
+"""Inequalities between values of a robot as formulas, without the sets of configurations they may bound."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.factors import is_positive, trig_factors, trig_quotient
+from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.ring import Ring
+from dynsolve.explain.forms import is_numeric, leading_names, parallel_coordinates
+from dynsolve.notation.tree import Relation
+from dynsolve.robot.model import Robot
+
+
+class Inequalities:
+    """The inequalities of one robot, in its ring or one of a search."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+
+    def inequality(self, bound: Bound) -> Relation:
+        """l W² > g, with either side positive."""
+        return self.comparison(bound.value, ">" if bound.is_strict else "≥")
+
+    def comparison(self, value: Expr, sign: str) -> Relation:
+        """A value compared with 0: what is positive of it on one side, what is negative on the other.
+
+        A positive factor that both sides share is left out, but not of matrices to be judged, whose
+        parameters may be negative.
+        """
+        ring = value.ring
+        has_both = len({factor < 0 for factor in value.poly.coeffs()}) == 2
+        if has_both and not self.robot.questions.candidates:
+            for shared, exponent in trig_factors(value):
+                if is_positive(shared):
+                    value = trig_quotient(value, shared**exponent) or value
+        sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
+        for exponents, factor in value.poly.to_dict().items():
+            sides[factor < 0][exponents] = abs(factor)
+        form = self.compactor(ring).form
+        left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
+        return Relation((left, right), (sign,))
+
+    def compactor(self, ring: Ring) -> Compactor:
+        """The compactor of a ring of the search: the values of the task lead its sums, then masses."""
+        named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
+        leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
+        return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
