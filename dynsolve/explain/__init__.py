@@ -45,7 +45,7 @@ and g_k (`Context.is_in_letters`), and what is alike is said once for all:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
 
 from msgspec.structs import replace
@@ -53,7 +53,6 @@ from msgspec.structs import replace
 from dynsolve.errors import attempted
 from dynsolve.explain import named_steps
 from dynsolve.explain.context import Context
-from dynsolve.explain.long_model.general import general_steps, told_once
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Words, equation
 from dynsolve.quantities.family import FORMED
@@ -68,6 +67,12 @@ _BESIDE = {
 }
 """The stages that stand in the file of another, and their functions there."""
 
+_IN_LETTERS = {Stage.VECTORIZED: ("long_model.vectorized", "steps")}
+"""The stages that have a file of their own where a long model stays in letters."""
+
+
+_Told = Callable[[Iterator[Step], Stage], Iterator[Step]]
+
 
 def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
     """The steps of the given stages, or of all, in the order of the course."""
@@ -75,28 +80,32 @@ def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[S
     shown = [stage for stage in stages_of(context.robot) if stage in wanted]
     if context.names is not None:
         context = named_steps.in_names(context, shown)
-    once = general_steps(context) if context.is_in_letters else {}
+    told = None
+    if context.is_in_letters:
+        from dynsolve.explain.long_model.general import said_once
+
+        told = said_once(context)
     for stage in shown:
-        yield from _of_stage(stage, context, once)
+        yield from _of_stage(stage, context, told)
 
 
-def _of_stage(stage: Stage, context: Context, once: Mapping[str, Step]) -> Iterator[Step]:
+def _of_stage(stage: Stage, context: Context, told: _Told | None) -> Iterator[Step]:
     """The steps of a stage; where one fails, the bare results of those that are missing.
 
-    Of a long model those that are alike are told `once`.  What fails in names is for whoever asked for them:
+    `told` says those of a long model that are alike once.  What fails in names is for whoever asked for them:
     a name that was to be introduced there is missing everywhere after it.
     """
     shown: list[Step] = []
 
     def explained() -> None:
-        steps = _steps(stage)(context)
-        for step in told_once(steps, context, stage, once) if context.is_in_letters else steps:
+        steps = _steps(stage, context)
+        for step in steps if told is None else told(steps, stage):
             stays = replace(step, stage=step.stage or stage)
             shown.append(stays)  # though a later one may fail
 
     def bare() -> None:
-        told = {name for step in shown for name in (step.id, *step.also)}
-        shown.extend(step for step in bare_steps(stage, context) if step.id not in told)
+        named = {name for step in shown for name in (step.id, *step.also)}
+        shown.extend(step for step in bare_steps(stage, context) if step.id not in named)
 
     if context.names is None:
         attempted(explained, bare, f"the explanation of the stage {stage}")
@@ -118,9 +127,11 @@ def bare_steps(stage: Stage, context: Context) -> Iterator[Step]:
             yield Step(id=name, stage=stage, title=name, result=(result,))
 
 
-def _steps(stage: Stage) -> Callable[[Context], Iterator[Step]]:
-    """The function `steps` of the stage's file, or of its question's, imported when it is asked for."""
+def _steps(stage: Stage, context: Context) -> Iterator[Step]:
+    """The steps of the stage's file, or of its question's, imported when it is asked for."""
     file, name = _BESIDE.get(stage, (stage, "steps"))
+    if context.is_in_letters:
+        file, name = _IN_LETTERS.get(stage, (file, name))
     chapter = stage.part("explain") or import_module(f"{__name__}.{file}")
-    steps: Callable[[Context], Iterator[Step]] = getattr(chapter, name)
+    steps: Iterator[Step] = getattr(chapter, name)(context)
     return steps

@@ -6,12 +6,11 @@ from collections.abc import Iterator
 
 from msgspec.structs import asdict, replace
 
+from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
 from dynsolve.explain.context import Context
-from dynsolve.explain.long_model import vectorized as long_model
-from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.named_steps import ending
 from dynsolve.explain.placed_bodies import inertia_step
 from dynsolve.explain.sanity import sanity_steps
@@ -39,46 +38,28 @@ LONGEST_IN_PARTS = 150
 
 
 def steps(context: Context) -> Iterator[Step]:
-    """D, c_ijk, C and g; then the comparisons, and the whole model."""
-    yield from _of_long_model(context) if context.is_in_letters else _in_full(context)
+    """D, C and g read off; from the energies assembled directly too, and compared."""
+    yield inertia(context)
+    yield rest(context)
+    if from_energies(context):
+        yield from direct(context)
+    yield christoffel_step(context)
+    yield coriolis(context)
+    if from_energies(context):
+        yield gravity(context)
+        yield agreement_step(context)
+    yield from checked(context)
+
+
+def checked(context: Context) -> Iterator[Step]:
+    """What is checked on the model, and the whole of it."""
     yield skew_step(context)
     yield from terms_step(context)
     yield from sanity_steps(context)
     yield closing_step(context)
 
 
-def _in_full(context: Context) -> Iterator[Step]:
-    """D, C and g read off; from the energies assembled directly too, and compared."""
-    yield _inertia(context)
-    yield _rest(context)
-    if _from_energies(context):
-        yield from _direct(context)
-    yield christoffel_step(context)
-    yield _coriolis(context)
-    if _from_energies(context):
-        yield _gravity(context)
-        yield agreement_step(context)
-
-
-def _of_long_model(context: Context) -> Iterator[Step]:
-    """D assembled directly, since from forces that are written in its entries nothing is read off."""
-    if _from_energies(context):
-        whole, *parts = _direct(context)
-        yield long_model.inertia_step(context, whole)
-    else:
-        parts = [_rest(context)]
-        yield _inertia(context)
-    if entry := worked_entry(context):
-        yield entry.step()
-    yield from parts
-    yield long_model.christoffel_step(context)
-    yield _coriolis(context)
-    yield long_model.coriolis_entries(context)
-    if _from_energies(context):
-        yield _gravity(context)
-
-
-def _direct(context: Context) -> Iterator[Step]:
+def direct(context: Context) -> Iterator[Step]:
     """D as it is assembled without the forces, the whole first; its parts and their sum."""
     given = context.robot.given
     steps = [_inertia_direct(context) if given is None else inertia_step(context, given)]
@@ -92,7 +73,8 @@ def _direct(context: Context) -> Iterator[Step]:
     yield from (replace(step, detail=Detail.FULL) for step in steps)
 
 
-def _inertia(context: Context) -> Step:
+def inertia(context: Context) -> Step:
+    """D, read off from the forces."""
     robot, n, D = context.robot, context.robot.n, context.values["D"]
     is_diagonal = n > 1 and all(D[i, j].is_zero for i in range(n) for j in range(n) if i != j)
     forces = listed([letters.force(q) for q in robot.coordinates])
@@ -122,7 +104,7 @@ def _inertia(context: Context) -> Step:
     )
 
 
-def _from_energies(context: Context) -> bool:
+def from_energies(context: Context) -> bool:
     """Whether the forces come from the Lagrangian, so that D and g follow from the energies too."""
     return context.robot.questions.method is Method.LAGRANGE
 
@@ -132,9 +114,9 @@ def _forces(context: Context) -> tuple[str, ...]:
     return tuple(f"tau{q.index}" for q in context.robot.coordinates)
 
 
-def _rest(context: Context) -> Step:
+def rest(context: Context) -> Step:
     """The forces without the terms of accelerations: C q̇ + g."""
-    values, from_energies = context.values, _from_energies(context)
+    values, of_energies = context.values, from_energies(context)
     has_friction = "friction" in values.rules
     acting = driving_side(context)
     left = [*(acting.terms if isinstance(acting, Sum) else (acting,)), formula("-𝐃 𝐪̈")]
@@ -161,10 +143,10 @@ def _rest(context: Context) -> Step:
         source=spong("7.3"),
         **asdict(end),
         also=()
-        if from_energies or context.is_in_letters
+        if of_energies or context.is_in_letters
         else ("g",),  # from the energies a step of its own gives g
         uses=(*_forces(context), "D"),
-        detail=Detail.FULL if from_energies else Detail.NORMAL,
+        detail=Detail.FULL if of_energies else Detail.NORMAL,
         hint=say(
             what_is_left, are_C="belong to C", machine=context.machine, no_rates="", no_rest="", friction=""
         ),
@@ -228,7 +210,8 @@ def _is_short(context: Context) -> bool:
 # -- C and g ---------------------------------------------------------------------------------------
 
 
-def _coriolis(context: Context) -> Step:
+def coriolis(context: Context, told: tuple[Prose, tuple[Node, ...]] | None = None) -> Step:
+    """C, from the Christoffel symbols; of a long model what is `told` of it, and how."""
     rate = formula("q̇_i")
     by_symbols = sum_over_coordinates(formula("c_ijk {rate}", rate=rate), Symbol("i"), context.robot)
     by_slopes = sum_over_coordinates(Product((SLOPES, rate)), Symbol("i"), context.robot)
@@ -238,16 +221,14 @@ def _coriolis(context: Context) -> Step:
         "makes {skew} skew-symmetric."
     )
     outcome = " There are none here." if is_none else " Multiplied out, it is the one read off above."
-    if not is_none and _from_energies(context) and coriolis_rows(context):
+    if not is_none and from_energies(context) and coriolis_rows(context):
         outcome = ""  # they are compared row by row, in a step of its own
     why = say(
         "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
         coriolis=" and the Coriolis terms (a product of two rates)" if n > 1 else "",
         outcome=outcome,
     )
-    result: tuple[Node, ...] = (formula("𝐂 = {C}", C=context.result("C")),)
-    if context.is_in_letters:
-        why, result = long_model.coriolis_told(context)
+    why, result = told or (why, (formula("𝐂 = {C}", C=context.result("C")),))
     return Step(
         id="C",
         title="The Coriolis matrix, from the Christoffel symbols",
@@ -266,7 +247,8 @@ def _coriolis(context: Context) -> Step:
     )
 
 
-def _gravity(context: Context) -> Step:
+def gravity(context: Context, told: tuple[Prose, Way] | None = None) -> Step:
+    """g, from the potential energy; of a long model as it is `told`."""
     still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
     directly = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
     why = say(
@@ -275,9 +257,7 @@ def _gravity(context: Context) -> Step:
         springs=" The forces of the springs are part of it." if springs and not still else "",
         still=say(" It does not depend on any coordinate, so $𝐠$ is zero.") if still else "",
     )
-    way = Way(gravity_rows(context))
-    if context.is_in_letters and not still:
-        why, way = long_model.gravity_told(context)
+    why, way = told or (why, Way(gravity_rows(context)))
     end = ending(context, "g", {"g": (letters.G,)}, way)
     return Step(
         id="g",

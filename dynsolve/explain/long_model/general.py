@@ -8,7 +8,8 @@ tensors that are given, is shown in any case.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
 from msgspec.structs import replace
 
@@ -42,8 +43,13 @@ from dynsolve.robot.model import Body, JointType
 from dynsolve.robot.questions import Method
 
 
-def told_once(
-    steps: Iterable[Step], context: Context, stage: Stage, once: Mapping[str, Step]
+def said_once(context: Context) -> Callable[[Iterable[Step], Stage], Iterator[Step]]:
+    """What makes of the steps of a stage those in which what is alike is said once."""
+    return partial(_told_once, context, _general_steps(context))
+
+
+def _told_once(
+    context: Context, once: Mapping[str, Step], steps: Iterable[Step], stage: Stage
 ) -> Iterator[Step]:
     """The steps of a stage, before the first of those that are alike what is said once for them.
 
@@ -74,7 +80,7 @@ def _left_out(step: Step) -> Step:
     return replace(step, result=(), notes=(*step.notes, note))
 
 
-def general_steps(context: Context) -> dict[str, Step]:
+def _general_steps(context: Context) -> dict[str, Step]:
     """What is said once, by the ids of the steps in whose place it stands: they become its details."""
     robot = context.robot
     bodies = [body.name for body in robot.bodies]

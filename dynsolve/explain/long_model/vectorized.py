@@ -24,6 +24,7 @@ from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.recurring import Definition, expanded, expanded_once, rewritten
 from dynsolve.explain.sanity.conserved import is_carried_along
 from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.vectorized import checked, coriolis, direct, from_energies, gravity, inertia, rest
 from dynsolve.explain.working.derivatives import coriolis_sums
 from dynsolve.explain.working.differentiation import by_symbol, differentiated
 from dynsolve.explain.working.identities import Way, doubled_angles
@@ -51,6 +52,25 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, JointType
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """D assembled directly, since from forces that are written in its entries nothing is read off."""
+    if from_energies(context):
+        whole, *parts = direct(context)
+        yield inertia_step(context, whole)
+    else:
+        parts = [rest(context)]
+        yield inertia(context)
+    if entry := worked_entry(context):
+        yield entry.step()
+    yield from parts
+    yield christoffel_step(context)
+    yield coriolis(context, _coriolis_told(context))
+    yield coriolis_entries(context)
+    if from_energies(context):
+        yield gravity(context, None if context.values["g"].is_zero else _gravity_told(context))
+    yield from checked(context)
 
 
 def names_of(context: Context) -> Abbreviated:
@@ -150,7 +170,7 @@ def _on_symbols(context: Context) -> Prose:
     )
 
 
-def coriolis_told(context: Context) -> tuple[Prose, tuple[Node, ...]]:
+def _coriolis_told(context: Context) -> tuple[Prose, tuple[Node, ...]]:
     """What is said of C by its Christoffel symbols; an entry that stands for all, and those that are zero."""
     names = chain.from_iterable(letters.entries("c", context.robot.n))
     named = list(zip(names, chain.from_iterable(_in_symbols(context).rows), strict=True))
@@ -189,7 +209,7 @@ def _in_symbols(context: Context) -> tree.Matrix:
     return coriolis_matrix(formulas.coordinates, formulas.c)
 
 
-def gravity_told(context: Context) -> tuple[Prose, Way]:
+def _gravity_told(context: Context) -> tuple[Prose, Way]:
     """Why, before g the potential energy of which it is the derivatives, and what leads to g."""
     names = names_of(context)
     assert names.P is not None
