@@ -23,6 +23,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import Identity, are_alike, equals, identities, said
@@ -298,9 +299,7 @@ def decoupled_step(context: Context) -> Step | None:
     factor = _of_parameters(coupling) if coupling else None
     if factor is None or ParameterSigns(context.robot.questions.model.assumed).open_part(factor).is_number:
         return None
-    from dynsolve.explain.set_forms import SetForms
-
-    sides = SetForms(context.robot, context.values).inequality(Bound(factor)).parts
+    sides = Inequalities(context.robot).inequality(Bound(factor)).parts
     ring = context.robot.ring
     diagonal = [D[i, i] for i in range(n)]
     is_told = any(map(ring.depends_on_coordinates, coupling)) and not any(
