@@ -64,18 +64,24 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+    if "_DYNSOLVE_COMPLETE" in os.environ:  # a shell asks, and has its answer here
+        app().main(words, prog_name="dynsolve")
     sys.exit(int(_run(words, traceback)))
 
 
 def _run(words: Sequence[str], traceback: bool) -> int:
     try:
-        code = app(words).main(words, prog_name="dynsolve", standalone_mode=False)
+        program = app(words)
+        with program.make_context("dynsolve", list(words)) as context:
+            code = program.invoke(context)
         sys.stdout.flush()
         return _ended(int(code or ExitCode.DONE))
     except (KeyboardInterrupt, click.Abort):
         return _ended(ExitCode.INTERRUPTED)
-    except (BrokenPipeError, SystemExit):  # so Click ends when the reader of the output has left
+    except BrokenPipeError:
         return _reader_left()
+    except click.exceptions.Exit as end:
+        return _ended(end.exit_code)
     except click.ClickException as error:
         error.show()
         return ExitCode.USAGE
