@@ -26,6 +26,7 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from msgspec import Struct
 
+from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.factors import is_positive, trig_quotient
 from dynsolve.algebra.matrix import Matrix
@@ -178,7 +179,8 @@ class Condition(Struct, frozen=True, dict=True):
     def reduced(self, other: Expr) -> Expr:
         """Another expression where this holds, up to a factor that is never 0.
 
-        An angle's sine, cosine or both are put in, a length that stands linearly is replaced;
+        An angle's sine, cosine or both are put in, also where the angle itself is 0, as springs have it; a
+        length that stands linearly is replaced;
         of any other condition it is only seen whether the expression has it as a factor.
         """
         (value,) = self.reduced_together((other,))
@@ -188,6 +190,8 @@ class Condition(Struct, frozen=True, dict=True):
         """Several expressions where this holds, up to a positive factor that all of them share."""
         for pair, sine, cosine in self._turn:
             return tuple(_at_angle(other, pair, sine, cosine) for other in others)
+        for index, pairs in self._zero:
+            return tuple(_at_zero(other, index, pairs) for other in others)
         for index, factor, rest in self._length:
             highest = max(
                 (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
@@ -214,7 +218,7 @@ class Condition(Struct, frozen=True, dict=True):
     @property
     def fixes_coordinate(self) -> bool:
         """Whether an angle has few values, or a length one, where this holds."""
-        return bool(self._turn or self._length)
+        return bool(self._turn or self._zero or self._length)
 
     @property
     def fixes_length(self) -> bool:
@@ -237,6 +241,17 @@ class Condition(Struct, frozen=True, dict=True):
             for form, sine, cosine in known:
                 if self.expr == form or self.expr == -form:
                     return [(pair, sine, cosine)]
+        return []
+
+    @cached_property
+    def _zero(self) -> list[tuple[int, list[Pair]]]:
+        """(generator q, the sines and cosines of q) where the condition is q = 0 for an angle q."""
+        ring = self.expr.ring
+        for name, kind in ring.coordinates:
+            index = ring.symbol_indices.get((name, 0))
+            if kind == "revolute" and index is not None and self.expr in (q := ring.generator(index), -q):
+                pairs = [pair for pair in ring.pairs if {*names_of(pair.angle)} == {name}]
+                return [(index, pairs)]
         return []
 
     @cached_property
@@ -270,6 +285,14 @@ def _at_angle(expr: Expr, pair: Pair, sine: int | None, cosine: int | None) -> E
             key = tuple(powers)
             terms[key] = terms.get(key, 0) + factor
     return Expr(ring, ring.ctx.from_dict({key: value for key, value in terms.items() if value}))
+
+
+def _at_zero(expr: Expr, index: int, pairs: Sequence[Pair]) -> Expr:
+    """An expression where an angle is 0, and so are its sines; its cosines are 1."""
+    found = _at_length(expr, index, expr.ring.one, expr.ring.zero, 0)
+    for pair in pairs:
+        found = _at_angle(found, pair, 0, 1)
+    return found
 
 
 def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr, highest: int) -> Expr:

@@ -462,3 +462,19 @@ find: [equilibria]
 """
     _, points = dynsolve.solve(saddle).to_json()["results"]["equilibria_stability"]
     assert [point["stability"] for point in points] == ["unstable", "unstable"]
+
+
+def test_an_angle_that_a_spring_holds_at_0_has_no_sine_there() -> None:
+    """With q1 = 0 or 180° the spring alone acts on q2; where that is 0 the arm is stretched, and falls."""
+    arm = """
+dh:
+  - {theta: q1*, a: l, alpha: 90deg}
+  - {theta: q2*, d: 0, a: 0, alpha: -90deg}
+  - {theta: 0, d: q3*}
+base: Rx(90deg)
+masses: [{mass: m1, link: 1}, {mass: m, link: 3}]
+springs: [{stiffness: k, of: q2}]
+find: [equilibria]
+"""
+    (held,) = dynsolve.solve(arm).to_json()["results"]["equilibria"]
+    assert held == ["m*g*q3*sin(q1)*cos(q2) - k*q2 = 0", "sin(q2) = 0", "cos(q1) = 0"]
