@@ -273,7 +273,7 @@ def told_read_off(context: Context) -> tuple[int, Joint] | None:
 def _whole(context: Context) -> Step:
     n, last = context.robot.n, len(context.robot.joints)
     in_letters = [letters.J, column(letters.JV, letters.JW)]
-    if context.is_short:
+    if context.is_short or n <= MOST_COLUMNS:
         columns = (coordinate_column(context, k, last, letters.o(last)) or (ZERO, ZERO) for k in range(n))
         in_letters.append(Matrix(tuple(zip(*columns, strict=True))))
     shown = _by_columns(context) if context.is_in_letters else None
@@ -300,6 +300,9 @@ def _whole(context: Context) -> Step:
         detail=Detail.BRIEF,
     )
 
+
+MOST_COLUMNS = 5
+"""Up to this number the columns of a long Jacobian stand side by side in letters."""
 
 LONGEST_ENTRY = 40
 """The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
