@@ -468,9 +468,16 @@ def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
             else [([value], alike) for value, alike in own.items()]
         )
         told += listed([_about_axes(forms, body, *group) for group in groups])
-    several = any(len(_nonzero(body)) > 1 for body in bodies)
-    rest = "; the other entries of the tensors are taken as 0" if several else ""
-    return ("Moments of inertia about axes through the mass centres: ", *told, f"{rest}. ") if told else ()
+    if not told:
+        return ()
+    several = any(len(own) > 1 for _, own in found)
+    one = len(found) == 1
+    rest = f"; the other entries of {'this tensor' if one else 'these tensors'} are taken as 0" * several
+    return (
+        f"Moments of inertia about axes through the mass centre{'' if one else 's'}: ",
+        *told,
+        f"{rest}. ",
+    )
 
 
 def _about_axes(forms: Forms, body: Body, values: Sequence[Expr], axes: Sequence[str]) -> Prose:

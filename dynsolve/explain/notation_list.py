@@ -60,7 +60,7 @@ def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
             for names, words in told_together(
                 [(name, told) for name, told in alike if frames and told.words]
             ):
-                yield _named(names, words, unit)
+                yield _named(names, agreeing(words, len(names)), unit)
             names = [name for name, told in alike if not (frames and told.words)]
             if names:
                 is_told = unit == "m" or has_bodies  # a₁ (kg) of a given 𝐃 need be no mass

@@ -390,7 +390,11 @@ def _inertia(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
         for j, entry in enumerate(row):
             for name in _alone(entry):
                 if i != j:
-                    yield Role.PRODUCT, name, Meaning("products of inertia of body {body}", body=body.name)
+                    yield (
+                        Role.PRODUCT,
+                        name,
+                        Meaning("product|products of inertia of body {body}", body=body.name),
+                    )
                 else:
                     yield Role.INERTIA, name, replace(moment, axes=(AXES[i],))
 
