@@ -470,7 +470,7 @@ def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
         told += listed([_about_axes(forms, body, *group) for group in groups])
     if not told:
         return ()
-    several = any(len(own) > 1 for _, own in found)
+    several = any(len(_nonzero(body)) > 1 for body, _ in found)
     one = len(found) == 1
     rest = f"; the other entries of {'this tensor' if one else 'these tensors'} are taken as 0" * several
     return (

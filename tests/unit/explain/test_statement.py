@@ -132,7 +132,7 @@ MOMENTS = [
     (
         "spherical-rrp",
         "body 1 has I₁ about that parallel to 𝐳₀; body 2 has I₂ about those parallel to 𝐱₂ and 𝐲₂; "
-        "the other entries of the tensors are taken as 0. ",
+        "the other entries of these tensors are taken as 0. ",
     ),
     (
         "gravity: none\ndh: [{theta: q1*, a: l1}]\n"
