@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache
+from heapq import heappop, heappush
 from itertools import combinations
 from random import Random
 
@@ -135,9 +137,12 @@ class Taken:
 
     def cells_on(self, a: Point, b: Point) -> int:
         """How many of the steps of a line, a cell long, are on what is taken."""
-        steps = _steps(a, b)
-        x, y = (b[0] - a[0]) / steps, (b[1] - a[1]) / steps
-        return sum(_cell((a[0] + x * k, a[1] + y * k)) in self._cells for k in range(steps + 1))
+        if not (cells := self._cells):
+            return 0
+        steps, floor, (left, top) = _steps(a, b), math.floor, a
+        x, y = (b[0] - left) / steps, (b[1] - top) / steps
+        on = [(floor((left + x * k) / CELL), floor((top + y * k) / CELL)) for k in range(steps + 1)]
+        return sum(map(cells.__contains__, on))
 
     def inside(self, box: Box) -> int:
         """How many taken cells a box touches."""
@@ -219,7 +224,7 @@ class Label(Struct, frozen=True):
     lead: tuple[Point, Point] | None = None
 
 
-class _Place(Struct, frozen=True):
+class _Place(Struct, frozen=True, cache_hash=True):
     box: Box
     lead: tuple[Point, Point] | None
     cost: float
@@ -236,13 +241,14 @@ class _Place(Struct, frozen=True):
 
 def place(wanted: Sequence[Wanted], taken: Taken, lengths: Taken | None = None) -> tuple[Label, ...]:
     """Place labels: in several orders, of which the best is taken; their lines keep off those of lengths."""
-    options = [_options(label, taken, lengths or Taken()) for label in wanted]
+    options = [_Options(_cheapest_first(label, taken, lengths or Taken())) for label in wanted]
+    clear = cache(_Place.is_clear_of)
     random = Random(_SEED)  # noqa: S311 - the same orders every time are wanted
     order = list(range(len(wanted)))
     tried = []
     for _ in range(_ORDERS):
-        chosen = _placed(options, order)
-        tried.append((_total(chosen), chosen))
+        chosen = _placed(options, order, clear)
+        tried.append((_total(chosen, clear), chosen))
         order = sorted(order, key=lambda _: random.random())
     best = min(tried, key=lambda one: one[0])[1]
     return tuple(
@@ -251,49 +257,79 @@ def place(wanted: Sequence[Wanted], taken: Taken, lengths: Taken | None = None) 
     )
 
 
-def _placed(options: Sequence[Sequence[_Place]], order: Sequence[int]) -> list[_Place]:
+class _Options:
+    """The places of a label, the cheapest first; each is found when it is first looked at."""
+
+    def __init__(self, places: Iterator[_Place]) -> None:
+        self._found: list[_Place] = []
+        self._rest = places
+
+    def __iter__(self) -> Iterator[_Place]:
+        yield from self._found
+        for option in self._rest:
+            self._found.append(option)
+            yield option
+
+
+_Clear = Callable[[_Place, _Place], bool]
+
+
+def _placed(options: Sequence[_Options], order: Sequence[int], clear: _Clear) -> list[_Place]:
     """A place for each label, chosen in an order and again once the others are known."""
     chosen: dict[int, _Place] = {}
     for _ in range(_ROUNDS):
         before = dict(chosen)
         for k in order:
-            chosen[k] = _best(options[k], [other for j, other in chosen.items() if j != k])
+            chosen[k] = _best(options[k], [other for j, other in chosen.items() if j != k], clear)
         if chosen == before:
             break
     return [chosen[k] for k in range(len(options))]
 
 
-def _total(chosen: Sequence[_Place]) -> float:
-    clashes = sum(not a.is_clear_of(b) for a, b in combinations(chosen, 2))
+def _total(chosen: Sequence[_Place], clear: _Clear) -> float:
+    clashes = sum(not clear(a, b) for a, b in combinations(chosen, 2))
     return round(sum(place.cost for place in chosen) + _CLASH * clashes, 6)
 
 
-def _best(places: Sequence[_Place], others: Sequence[_Place]) -> _Place:
+def _best(places: _Options, others: Sequence[_Place], clear: _Clear) -> _Place:
     """The cheapest place that is clear of other labels, else of the most; places come cheapest first."""
     for option in places:
-        if all(option.is_clear_of(other) for other in others):
+        if all(clear(option, other) for other in others):
             return option
-    return min(places, key=lambda option: sum(not option.is_clear_of(other) for other in others))
+    return min(places, key=lambda option: sum(not clear(option, other) for other in others))
 
 
-def _options(label: Wanted, taken: Taken, lengths: Taken) -> list[_Place]:
-    wide, high = label.line.width, label.line.height
+def _cheapest_first(label: Wanted, taken: Taken, lengths: Taken) -> Iterator[_Place]:
+    """The places of a label; what lies in the way is looked at only where the distance is not too dear."""
     preferred = math.atan2(label.toward[1], label.toward[0]) if label.toward != (0.0, 0.0) else None
-    places = []
+    prices = []
     for rank, anchor in enumerate(label.anchors):
         for away in _DISTANCES:
             for angle in _DIRECTIONS:
-                box = _beside(anchor, away + label.radius, angle, wide, high)
                 turn = 0.0 if preferred is None else abs(math.remainder(angle - preferred, 2 * math.pi))
-                way = _way(anchor, box, label.radius + 3.0)
-                barred = taken.cells_on(*way) if away > _CLOSE else 0
-                cost = _STRUCK * taken.inside(box) + _NEAR * taken.inside(box.grown(_ROOM)) + _BARRED * barred
-                cost += 0.6 * away + 2.2 * turn + 1.5 * rank
-                lead = way if away >= _FAR else None
-                cost += _OVER * lengths.cells_on(*lead) if lead else 0.0
-                places.append(_Place(box, lead, round(cost, 6)))
-    places.sort(key=lambda option: option.cost)
-    return places
+                price = 0.6 * away + 2.2 * turn + 1.5 * rank
+                prices.append((price, len(prices), anchor, away, angle))
+    waiting: list[tuple[float, int, _Place]] = []
+    for price, k, anchor, away, angle in sorted(prices):
+        while waiting and waiting[0][0] < round(price, 6):
+            yield heappop(waiting)[-1]
+        found = _place_at(label, anchor, away, angle, price, taken, lengths)
+        heappush(waiting, (found.cost, k, found))
+    yield from (found for *_, found in sorted(waiting))
+
+
+def _place_at(
+    label: Wanted, anchor: Point, away: float, angle: float, price: float, taken: Taken, lengths: Taken
+) -> _Place:
+    """A place with its price and the cost of all that is in the way."""
+    box = _beside(anchor, away + label.radius, angle, label.line.width, label.line.height)
+    way = _way(anchor, box, label.radius + 3.0)
+    barred = taken.cells_on(*way) if away > _CLOSE else 0
+    cost = _STRUCK * taken.inside(box) + _NEAR * taken.inside(box.grown(_ROOM)) + _BARRED * barred
+    cost += price
+    lead = way if away >= _FAR else None
+    cost += _OVER * lengths.cells_on(*lead) if lead else 0.0
+    return _Place(box, lead, round(cost, 6))
 
 
 def _beside(anchor: Point, away: float, angle: float, wide: float, high: float) -> Box:

@@ -19,7 +19,7 @@ from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, walk
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities.letters import TAU, force
-from tests.strangers.oracle import Point, Unknown, Value, random_point, untrue
+from tests.strangers.oracle import Point, Unknown, Value, state, untrue
 
 NEAR = 1e-6
 """The relative difference up to which numbers are the same: that of finite differences."""
@@ -46,7 +46,7 @@ class Mechanism:
         if key not in self._points:
             unlike = Random(seed)
             given = {name: unlike.uniform(0.3, 2.7) for name in self.solution.problem.values} if seed else {}
-            self._points[key] = random_point(self.solution, self.seed + 1000 * seed, given | (at or {}))
+            self._points[key] = state(self.solution, self.seed + 1000 * seed, given | (at or {}))
         return self._points[key]
 
     def points(self, count: int = 3) -> list[Point]:
@@ -60,7 +60,8 @@ class Mechanism:
                 column = self.frame(int(frame[2]), point)[:3, "xyzo".index(frame[1])]
                 return column.reshape(3, 1)
         for part in walk(node):
-            if isinstance(part, tree.Letter) and part not in point.known and part.style == "bold":
+            is_bold = isinstance(part, tree.Letter) and part.style == "bold"
+            if is_bold and part not in point.known and part not in point.letters:
                 try:
                     found = self.value(part, point) if part != node else None
                 except Unknown:
@@ -70,16 +71,16 @@ class Mechanism:
         try:
             return point.value(node).value
         except Unknown:
-            if "defined" in point.results:
+            if point.is_read:
                 raise
-            point.results["defined"] = True
+            point.is_read = True
             list(untrue(self.document.blocks, point))  # which defines the letters of the steps
             return point.value(node).value
 
     def result(self, name: str, point: Point) -> Any:
         if name not in point.results:
             raise Unknown
-        return point.results[name]
+        return point.results[name]().value
 
     def frame(self, i: int, point: Point) -> Any:
         """Frame i, as a 4×4 matrix; frame 0 from a row that starts there."""
@@ -179,7 +180,8 @@ class Mechanism:
         rest = {q + dots: 0.0 for q in self.coordinates for dots in ("_dot", "_ddot")}
         rest |= {f"{q}_dot": float(self.value(rate, point)) for q, rate in self.steady.items()}
         there = self.point(point.names | rest)
-        return (self.result("tau", there) - there.results.get("friction", 0.0))[:, 0]
+        friction = self.result("friction", there) if "friction" in there.results else 0.0
+        return (self.result("tau", there) - friction)[:, 0]
 
     def stiffness(self, point: Point) -> Any:
         """The derivatives of these forces by the coordinates."""

@@ -8,9 +8,9 @@ results in the JSON say; one that has no result there means what the first equat
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache, lru_cache, partial
 from itertools import pairwise
 from random import Random
 from types import CodeType
@@ -73,7 +73,8 @@ def _plain(value: Any) -> Any:
 class Point:
     """What symbols and letters are at a random state; those that are `free` are nothing there.
 
-    `names` has the numbers of the symbols, and `results` those of the results, by their names.
+    `names` has the numbers of the symbols, and `results` the results by their names; each is evaluated
+    when it is asked for, by its name or by its letter, one of `letters`.
 
     The forces of motors are free where something acts from outside, or where there are passive coordinates:
     these are 0 in a motion and not in any state.
@@ -82,7 +83,10 @@ class Point:
     known: dict[Node, Value] = field(default_factory=dict)
     free: set[Node] = field(default_factory=set)
     names: dict[str, float] = field(default_factory=dict)
-    results: dict[str, Any] = field(default_factory=dict)
+    results: dict[str, Callable[[], Value]] = field(default_factory=dict)
+    letters: dict[Node, Callable[[], Value]] = field(default_factory=dict)
+    is_read: bool = False
+    """Whether the letters of the steps are known, which the report defines."""
 
     def again(self) -> Point:
         """The same for another report, whose letters are its own."""
@@ -91,6 +95,8 @@ class Point:
     def value(self, node: Node) -> Value:
         """The value of a formula.  Raises Unknown."""
         found = self.known.get(node)
+        if found is None and node in self.letters:
+            found = self.known[node] = self.letters[node]()
         return self._of(node) if found is None else found
 
     def _of(self, node: Node) -> Value:
@@ -206,15 +212,22 @@ def _code(form: Node) -> CodeType:
     return compile(PythonPrinter().text(form), "form", "eval")
 
 
-def random_point(solution: Any, seed: int, at: Mapping[str, float] | None = None) -> Point:
-    """The symbols at random or as the file gives them, and the letters of all results by the JSON.
+def random_point(solution: Any, seed: int) -> Point:
+    """The symbols at random or as the file gives them, and the letters of all results, each evaluated."""
+    point = state(solution, seed, {})
+    for result in point.results.values():
+        result()
+    for letter in point.letters:
+        point.value(letter)
+    return point
 
-    `at` says what some symbols are there, a rate as q1_dot.
-    """
+
+def state(solution: Any, seed: int, at: Mapping[str, float]) -> Point:
+    """The same, where `at` says what some symbols are, a rate as q1_dot."""
     from dynsolve.quantities import letters
     from dynsolve.quantities.index import quantities
 
-    random, at = Random(seed), at or {}
+    random = Random(seed)
     robot, point = solution.robot, Point()
     names = point.names
     for g in robot.ring.generators:
@@ -235,10 +248,10 @@ def random_point(solution: Any, seed: int, at: Mapping[str, float] | None = None
     functions = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt, "pi": math.pi, "__builtins__": {}}
     functions["sgn"] = lambda x: math.copysign(1.0, x)
 
-    def result(form: Node) -> Value:
+    def value(form: Node, place: tuple[int, ...]) -> Value:
         if isinstance(form, tree.Matrix):
             numbers = np.array([[eval(_code(e), functions, names) for e in row] for row in form.rows])  # noqa: S307
-            return Value(numbers, np.abs(numbers))
+            return Value(numbers[place], np.abs(numbers[place]))
         number = eval(_code(form), functions, names)  # noqa: S307
         return Value(number, abs(number))
 
@@ -250,24 +263,23 @@ def random_point(solution: Any, seed: int, at: Mapping[str, float] | None = None
             or family.kind.value != "value"
         ):
             continue
+        place: tuple[int, ...] = ()
         if quantity.rule == "christoffel":
             i, j, k = quantity.index
-            value = result(solution.forms.christoffel(i - 1, j - 1, k - 1))
+            form = solution.forms.christoffel(i - 1, j - 1, k - 1)
         else:
             form = solution.forms(quantity.rule)
             if isinstance(form, tree.Words):
                 continue
-            value = result(form)
-            if quantity.is_read_off and value.is_matrix:
+            if quantity.is_read_off:
                 place = quantity.entry if len(quantity.entry) == 2 else (quantity.entry[0], 0)
-                value = Value(value.value[place], value.size[place])
-        point.known[quantity.letter(robot)] = value
-        point.results[quantity.name] = value.value
+        result = cache(partial(value, form, place))
+        point.results[quantity.name] = point.letters[quantity.letter(robot)] = result
     coordinates = [q.name for q in robot.coordinates]
     if robot.questions.loads or robot.questions.constraints or robot.actions.passive:
         point.free = {letters.TAU, *map(letters.force, robot.coordinates)}
     for letter in point.free:
-        point.known.pop(letter, None)
+        point.letters.pop(letter, None)
     for dots in range(3):
         column = np.array([[point.known[tree.Symbol(name, dots)].value] for name in coordinates])
         point.known[letters.bold("q", dots=dots)] = Value(column, np.abs(column))
