@@ -21,6 +21,7 @@ from typing import Any, Protocol
 from msgspec import Struct
 
 from dynsolve.answers.marks import to_data
+from dynsolve.answers.reading.sources import hidden
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,
@@ -35,7 +36,7 @@ from dynsolve.grading.pool import Bounds, program
 from dynsolve.grading.record import Record, rescored
 from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.grading.uploads import Uploads, digest
-from dynsolve.grading.which_problem import CONVERTED, as_text, without
+from dynsolve.grading.which_problem import CONVERTED, as_text
 from dynsolve.quantities.index import quantities
 
 # The run: everything that was handed in goes through the workers into the record, then out
@@ -180,7 +181,7 @@ def _own_part(file: File, content: bytes) -> tuple[str, bytes]:
     if not file.others:
         return file.name, content
     ending = PurePath(file.name).suffix.lower()
-    text = without(as_text(content, ending), file.others)
+    text = hidden(as_text(content, ending), file.others)
     return f"{file.name}.md" if ending in CONVERTED else file.name, text.encode()
 
 

@@ -43,7 +43,6 @@ _NUMBER = re.compile(
     re.IGNORECASE,
 )
 _TAG = re.compile(r"<[^>]{0,300}>")
-_NOT_LINE_END = re.compile(r"[^\n]")
 
 Span = tuple[int, int]
 
@@ -94,15 +93,6 @@ def _numbered(title: str, stems: Sequence[str]) -> str:
     found = _NUMBER.match(title)
     number = int(found[1]) if found else 0
     return stems[number - 1] if 1 <= number <= len(stems) else ""
-
-
-def without(text: str, spans: Sequence[Span]) -> str:
-    """The text with blanks for some spans: every line keeps its number."""
-    pieces, done = [], 0
-    for start, end in spans:
-        pieces += [text[done:start], _NOT_LINE_END.sub(" ", text[start:end])]
-        done = end
-    return "".join([*pieces, text[done:]])
 
 
 _HEAD = 20_000

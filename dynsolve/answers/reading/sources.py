@@ -180,15 +180,13 @@ def is_balanced(text: str) -> bool:
 
 # What is left out of a text, which keeps its length
 
-_NOT_LINE_END = re.compile(r"[^\n]")
-
 HIDDEN = "\0"
 """What stands for what is read elsewhere: no line with one is an equation in plain text."""
 
 
-def blanked(text: str) -> str:
-    """Blanks for all of it, but for the ends of its lines."""
-    return _NOT_LINE_END.sub(" ", text)
+def blanked(text: str, sign: str = " ") -> str:
+    """Blanks, or other signs, for all of it, but for the ends of its lines."""
+    return "\n".join(sign * len(line) for line in text.split("\n"))
 
 
 def hidden(text: str, spans: Iterable[tuple[int, int]], sign: str = " ") -> str:
@@ -198,6 +196,6 @@ def hidden(text: str, spans: Iterable[tuple[int, int]], sign: str = " ") -> str:
     for start, end in sorted(spans):
         if end > done:
             start = max(start, done)
-            pieces += [text[done:start], _NOT_LINE_END.sub(sign, text[start:end])]
+            pieces += [text[done:start], blanked(text[start:end], sign)]
             done = end
     return "".join([*pieces, text[done:]])

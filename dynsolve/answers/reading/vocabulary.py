@@ -373,6 +373,8 @@ _BRACKETED = re.compile(r"\b([A-Za-z]\w*)\[(\d)(?:(?:,[ ]?|\]\[)(\d))?\]")
 
 def counted_from_zero(text: str, n: int) -> frozenset[str]:
     """The names whose bracketed indices count from 0: those with a 0, beside one those that never reach n."""
+    if "[0" not in text and "0]" not in text:
+        return frozenset()
     indices: dict[str, set[int]] = {}
     for name, *found in _BRACKETED.findall(text):
         indices.setdefault(key(name), set()).update(int(index) for index in found if index)

@@ -11,10 +11,11 @@ import pytest
 
 import dynsolve
 from dynsolve.answers.reading.files import FORMATS, pandoc
+from dynsolve.answers.reading.sources import hidden
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.set_file import ProblemSet
 from dynsolve.grading.uploads import Uploads
-from dynsolve.grading.which_problem import parts, without
+from dynsolve.grading.which_problem import parts
 from dynsolve.problem import load
 from dynsolve.problem.reader import find
 from tests.unit.grading.taken import ANSWER, taken_in
@@ -129,7 +130,7 @@ def named(title: str) -> str:
 
 def told(text: str) -> dict[str, str]:
     found = parts(text, named, STEMS)
-    return {stem: " ".join(without(text, others).split()) for stem, others in found.items()}
+    return {stem: " ".join(hidden(text, others).split()) for stem, others in found.items()}
 
 
 RP, PLANAR = "K = 1", "K = 2"
@@ -176,8 +177,8 @@ def test_a_report_on_one_problem_is_whole(text: str) -> None:
 def test_lines_keep_their_numbers() -> None:
     text = REPORTS[0]
     for others in parts(text, named, STEMS).values():
-        assert len(without(text, others)) == len(text)
-        assert without(text, others).count("\n") == text.count("\n")
+        assert len(hidden(text, others)) == len(text)
+        assert hidden(text, others).count("\n") == text.count("\n")
 
 
 MARKDOWN = """The energies of both.
