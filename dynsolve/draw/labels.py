@@ -302,7 +302,7 @@ def _best(places: _Options, others: Sequence[_Place], clear: _Clear) -> _Place:
 def _cheapest_first(label: Wanted, taken: Taken, lengths: Taken) -> Iterator[_Place]:
     """The places of a label; what lies in the way is looked at only where the distance is not too dear."""
     preferred = math.atan2(label.toward[1], label.toward[0]) if label.toward != (0.0, 0.0) else None
-    prices = []
+    prices: list[tuple[float, int, Point, float, float]] = []
     for rank, anchor in enumerate(label.anchors):
         for away in _DISTANCES:
             for angle in _DIRECTIONS:

@@ -9,7 +9,7 @@ does not equal the one before it has no identities at all: `identities` gives No
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import islice
 from math import prod
 
@@ -281,6 +281,7 @@ def _unreduced(ring: Ring, node: Node) -> fmpq_mpoly:
     return value_of(ring, node).poly
 
 
+@lru_cache(maxsize=256)  # the same few angles stand in every line of a robot's steps
 def _cosine_and_sine(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     """(cos, sin) of an angle by the addition theorems alone: cos 2θ = c² - s²."""
     if angle.degrees:
