@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
 from typing import Any
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
+from dynsolve.errors import AlgebraError
 from dynsolve.explain.abbreviations import (
     RECURRING,
     SINGLE,
@@ -182,16 +183,25 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     sums = (*inertias.definitions, *definitions)
     if not sums:
         return None
+    names_of_symbols = {one.name for one in definitions if one.name != Symbol(SINGLE)}
+    named = {value: node for value, node in made.items() if not names_of_symbols.isdisjoint(walk(node))}
     D, g = inertias.put(forms("D")), inertias.put(forms("g"))
     assert isinstance(D, Matrix) and isinstance(g, Matrix)
     C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
+
+    def beside_rates(node: Node) -> Node:
+        """With the names where products of rates have them: by their places in the tree, or by values."""
+        if isinstance(node, Matrix):
+            return with_children(node, beside_rates)
+        both = map(inertias.put, (node, _by_products_of_rates(forms, named, node)))
+        return min((_symbols_put_by_rates(definitions, each) for each in both), key=cost)
+
     of_coordinates = (f"{stem}{q.index}" for q in robot.coordinates for stem in _OF_COORDINATES)
     written: dict[str, Node] = {"D": D, "C": C, "g": g}
     for name in ("K", "L", "Cqd", *of_coordinates):
         if name in forms.values.rules:
-            written[name] = inertias.put(forms(name))
-            if WITH_RATES.fullmatch(name):
-                written[name] = _symbols_put_by_rates(definitions, written[name])
+            has_rates = definitions and WITH_RATES.fullmatch(name)
+            written[name] = (beside_rates if has_rates else inertias.put)(forms(name))
     found = Abbreviated((), sums, D, C, g, symbols, inertias=inertias, at_symbols=True, forms=written)
     return _numbered_as_met(robot, found)
 
@@ -230,14 +240,73 @@ def _numbered_as_met(robot: Robot, short: Abbreviated) -> Abbreviated:
 
 
 def _symbols_put_by_rates(symbols: Sequence[Definition], node: Node) -> Node:
-    """A sum, or a matrix of sums, with the names of symbols in the terms with rates."""
-    match node:
-        case Matrix():
-            return with_children(node, partial(_symbols_put_by_rates, symbols))
-        case Sum(terms):
-            return total([_symbols_put_by_rates(symbols, term) for term in terms])
+    """A sum with the names of symbols in the terms with rates."""
+    if isinstance(node, Sum):
+        return total([_symbols_put_by_rates(symbols, term) for term in node.terms])
     has_rates = any(isinstance(part, Symbol) and part.dots == 1 for part in walk(node))
     return symbols_put(symbols, node) if has_rates else node
+
+
+_Rates = tuple[tuple[Node, int], ...]
+"""A product of two rates: each with its power."""
+
+
+def _by_products_of_rates(forms: Forms, symbols: Mapping[Expr, Node], node: Node) -> Node:
+    """A sum in which multiples of symbols stand by their names beside q̇_i q̇_j.
+
+    They are found by their values, as factors common to several terms may have been taken out of the sum.
+    """
+    ring = forms.robot.ring
+    terms = [(term, _factors_of_rates(ring, term)) for term in summands(node)]
+    whole: dict[_Rates, Expr] = {}
+    for _, factors in terms:
+        for rates, factor in factors.items():
+            whole[rates] = whole.get(rates, ring.zero) + factor
+    named = {rates: form for rates, factor in whole.items() if (form := _multiple(symbols, factor, rates))}
+    written: list[Node] = []
+    done: set[_Rates] = set()
+    for term, factors in terms:
+        met = [rates for rates in whole if rates in factors and rates in named]
+        if not met:
+            written.append(term)
+            continue
+        taken = (factors[rates] * value_of(ring, times(1, rates)) for rates in met)
+        rest = value_of(ring, term) - sum(taken, start=ring.zero)
+        written += (named[rates] for rates in met if rates not in done)
+        done.update(met)
+        if not rest.is_zero:
+            written += summands(forms.of(rest))
+    return total(written)
+
+
+def _factors_of_rates(ring: Ring, term: Node) -> dict[_Rates, Expr]:
+    """What stands beside each product of two rates in a term; nothing of one without an exact value."""
+    places = [ring.symbol_indices[name, 1] for name in ring.names]
+    try:
+        poly = value_of(ring, term).poly
+    except AlgebraError:
+        return {}
+    split: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+    for exponents, number in poly.to_dict().items():
+        powers = tuple(int(exponents[i]) for i in places)
+        if sum(powers) == 2:
+            rest = tuple(0 if i in places else int(e) for i, e in enumerate(exponents))
+            split.setdefault(powers, {})[rest] = number
+    return {
+        tuple((Symbol(name, 1), e) for name, e in zip(ring.names, powers, strict=True) if e): Expr(
+            ring, ring.ctx.from_dict(split[powers])
+        )
+        for powers in sorted(split, reverse=True)
+    }
+
+
+def _multiple(symbols: Mapping[Expr, Node], factor: Expr, rates: _Rates) -> Node | None:
+    """A factor times its rates, where it is a number times a symbol that has a name."""
+    for value, name in symbols.items():
+        ratio = None if value.is_zero else factor.quotient(value)
+        if ratio is not None and ratio.is_number and not ratio.is_zero:
+            return times(ratio.number, [(name, 1), *rates])
+    return None
 
 
 def _is_one_value(forms: Forms, symbols: Mapping[Index, Expr]) -> bool:
