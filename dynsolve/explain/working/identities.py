@@ -29,7 +29,7 @@ from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import sums_of_rates
 from dynsolve.explain.writing import is_small, listed, sum_of
-from dynsolve.notation.build import factors_of
+from dynsolve.notation.build import factors_of, negated
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Function,
@@ -343,9 +343,11 @@ def proved(value: Expr, tactics: Iterable[Tactic]) -> dict[Node, str | Prose] | 
 
 
 def are_alike(left: Node, right: Node) -> bool:
-    """Whether two trees are the same but for the order of terms and factors: (a b)² is a² b².
+    """Whether two trees are the same but for order, and signs that squares lose: (a b)² is a² b².
 
     >>> are_alike(formula("m ((a b)² + c)"), formula("(c + a² b²) m"))
+    True
+    >>> are_alike(formula("m (a - b)²"), formula("(b - a)² m"))
     True
     """
     return mapped(left, _ordered) == mapped(right, _ordered)
@@ -359,6 +361,9 @@ def _ordered(node: Node) -> Node:
         case Product(factors):
             flat = [part for factor in factors for part in factors_of(factor)]
             return Product(tuple(sorted(flat, key=repr)))
+        case Power(Sum(terms), Number(2, 1)):
+            opposite = tuple(sorted(map(negated, terms), key=repr))
+            return Power(Sum(min(terms, opposite, key=repr)), Number(2))
         case Power(Product(factors), exponent):
             return Product(tuple(sorted((Power(factor, exponent) for factor in factors), key=repr)))
         case Parenthesized(argument):

@@ -36,6 +36,7 @@ from dynsolve.explain.working.identities import (
     SILENT,
     Tactic,
     Way,
+    are_alike,
     chain,
     collected,
     identities,
@@ -178,7 +179,15 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
         return _chain(context, body, tactics, collected(sorted_out, context.form(f"Kv{body.name}")))
     each = dict.fromkeys(identity for some in used for identity in some)
     by_name = sorted(each, key=lambda identity: bool(identity.name))
-    return _chain(context, body, tactics, say("With {used}, and collected:", used=said(by_name)))
+    kept = _squares_of_sums(context.form(f"Kv{body.name}"))
+    opened = any(not any(are_alike(one, other) for other in kept) for one in _squares_of_sums(sorted_out))
+    text = "Multiplied out, with {used}, and collected:" if opened else "With {used}, and collected:"
+    return _chain(context, body, tactics, say(text, used=said(by_name)))
+
+
+def _squares_of_sums(node: Node) -> list[Node]:
+    """(a + b)² and the like in a tree."""
+    return [part for part in walk(node) if isinstance(part, Power) and isinstance(part.base, Sum)]
 
 
 def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[Node, Node, Expr]]:
@@ -307,12 +316,13 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
         return None
     first = [_sum_of_squares(context, alone)] if alone else []
     multiplied, reduced = (sum_of([*first, *forms]) for forms in zip(*found, strict=True))
-    which = ""
-    if alone:  # of one alone, none would be
-        which = " last" if alone == list(components[: len(alone)]) else " other"
-        which += {2: " two", 3: " three"}.get(len(together), "")
+    which: Prose = ("The squares",)
+    if alone == list(components[: len(alone)]) and alone:  # of one alone, none would be
+        which = say("The last{count} squares", count={2: " two", 3: " three"}.get(len(together), ""))
+    elif alone:
+        which = say("All but {kept}", kept=listed([_square(context.show(x)) for x in alone]))
     by = say(
-        "The{which} squares multiplied out, and sorted{cancelled}:",
+        "{which} multiplied out, and sorted{cancelled}:",
         which=which,
         cancelled=_cancelled(context, together, poly),
     )

@@ -16,6 +16,7 @@ from dynsolve.explain import vectorized
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.build import summands
 from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation, Row, Symbol, walk, with_children
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
@@ -296,3 +297,28 @@ def test_names_are_numbered_as_they_are_met(problem: str) -> None:
         used = {part.name for part in walk(node) if part in names}
         assert used <= {*met}
     assert met == [f"sigma{k}" for k in range(1, len(names) + 1)]
+
+
+BELT_DRIVEN = """
+gravity: [0, -g, 0]
+dh:
+  - {theta: p1*, a: l1}
+  - {theta: p2* - p1*, a: l2, alpha: -90deg}
+  - {theta: p3*, d: l3, a: l4}
+masses:
+  - {mass: m2, link: 2, center: midpoint, shape: {rod: {length: l2}}}
+  - {mass: m3, link: 3, center: {near: [l4/3, 0, l3]}, inertia: {xx: I3x, yy: I3y, zz: I3z, yz: I3yz}}
+"""
+
+
+def test_a_symbol_is_named_beside_its_rates_with_either_sign_and_behind_common_factors() -> None:
+    """Each product of rates of the forces has names alone beside it, and the value that it had."""
+    names, values = named(BELT_DRIVEN).symbols, known(BELT_DRIVEN)
+    for k in (1, 2, 3):
+        for name in (f"ddt{k}", f"dLdq{k}", f"tau{k}"):
+            row = last(steps(BELT_DRIVEN)[name].result[0])
+            assert evaluate(row, values) == pytest.approx(evaluate(solved(BELT_DRIVEN).forms(name), values))
+            for term in summands(row):
+                if any(isinstance(part, Symbol) and part.dots == 1 for part in walk(term)):
+                    symbols = {part for part in walk(term) if isinstance(part, Symbol) and not part.dots}
+                    assert len(symbols) == 1 and symbols <= names, to_unicode(term)

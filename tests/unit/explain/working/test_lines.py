@@ -134,6 +134,29 @@ def test_it_is_said_which_squares_are_multiplied_out() -> None:
     assert found[-1] == "The sums of rates multiplied out, and collected:"
 
 
+CRANE = """
+dh:
+  - {theta: q1*, d: h, alpha: 90deg}
+  - {theta: q2*, a: b, alpha: 90deg}
+  - {d: s3*}
+masses:
+  - {mass: m1, link: 1, center: [e, 0, 0]}
+  - {mass: m3, link: 3}
+"""
+
+
+def test_squares_that_do_not_stand_first_are_kept_by_name() -> None:
+    found = lines(CRANE, "Kv2")
+    assert "All but ((s₃ s₂ + b c₂) q̇₁)² multiplied out, and sorted:" in found
+
+
+def test_a_sign_that_a_square_loses_is_no_step() -> None:
+    offset = CRANE.replace("d: h,", "d: h, a: a,").replace("[e, 0, 0]", "[-e, 0, 0]")
+    (square,) = (to_unicode(node) for node in step(offset, "Kv1").result)
+    assert square == "K_v1 = ½ m₁ (a - e)² q̇₁²"
+    assert lines(offset, "Kv1") == ["By s₁² + c₁² = 1:"]
+
+
 def test_all_bodies_of_an_arm_are_worked_out_along_the_same_axes() -> None:
     """Body 1 of numeric-2r is shorter along its own axes, so body 2 is brought to its own, too."""
     for problem in ("numeric-2r", "spherical-rrp", "crustcrawler-2r"):
