@@ -400,8 +400,8 @@ def test_squares_of_sums_of_lengths_are_multiplied_out_by_the_rates() -> None:
         "With s₂² + c₂² = 1, and collected:",
     ]
     assert lines("puma560-first3", "Kv3")[-1] == (
-        "With s₂₃² + c₂₃² = 1, s₃² + c₃² = 1 and the sine of a difference, s₂₃ c₃ - c₂₃ s₃ = s₂, "
-        "and collected:"
+        "Multiplied out, with s₂₃² + c₂₃² = 1, s₃² + c₃² = 1 and the sine of a difference, "
+        "s₂₃ c₃ - c₂₃ s₃ = s₂, and collected:"
     )
 
 
