@@ -158,6 +158,10 @@ class Load(Struct, frozen=True):
     by_robot: bool = False
 
 
+FOR_EVERY_Q = "Q(q)"
+"""The rule of Q in every configuration, as equations of motion have it; `Q` is that of the given state."""
+
+
 class State(Struct, frozen=True):
     """Values of coordinates and their rates, formulas free of coordinates; others are free."""
 

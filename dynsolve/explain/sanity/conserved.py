@@ -25,7 +25,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate
-from dynsolve.robot.questions import Method
+from dynsolve.robot.questions import FOR_EVERY_Q, Method
 
 LONGEST = 30
 """The operations up to which a momentum is written again."""
@@ -157,7 +157,7 @@ def _acting_on(context: Context, q: Coordinate) -> Node:
     terms = list(row.terms) if isinstance(row, Sum) else [row]
     if k in context.robot.actions.passive:
         terms.remove(letters.force(q))
-    if context.robot.questions.loads and values["Q"][k, 0].is_zero:
+    if context.robot.questions.loads and values[FOR_EVERY_Q][k, 0].is_zero:
         terms.remove(letters.entry("Q", q.index))
     if context.robot.questions.constraints:  # none acts on what is cyclic
         terms.pop()

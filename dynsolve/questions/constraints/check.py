@@ -29,6 +29,7 @@ from dynsolve.questions.constraints.forms import ReducedForms
 from dynsolve.questions.equilibria.check import zero_along
 from dynsolve.questions.held import Held
 from dynsolve.questions.rates.check import TOLERANCE
+from dynsolve.questions.statics.check import outside_forces
 from dynsolve.questions.task.check import verify_kinematics
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Task
@@ -54,7 +55,7 @@ def verify_reduced(robot: Robot, forms: Mapping[str, Node], residuals: Sequence[
 def constrained_names(robot: Robot) -> tuple[str, ...]:
     """The results that `ConstrainedStates` takes."""
     held = ("hc",) if holonomic(robot) else ()
-    return ("Ac", "Ac_dot", "tau", *held, *(("Q",) if robot.questions.loads else ()))
+    return ("Ac", "Ac_dot", "tau", *held)
 
 
 class ConstrainedStates:
@@ -139,9 +140,8 @@ class ConstrainedStates:
 
     def _forces(self, at: Mapping[str, float]) -> list[float]:
         """D q̈ + C q̇ + friction + g - Q"""
-        values = self._at(at)
-        loads = values.get("Q", [[0.0]] * self.robot.n)
-        return [row[0] - load[0] for row, load in zip(values["tau"], loads, strict=True)]
+        loads = outside_forces(self.robot, at)
+        return [row[0] - load for row, load in zip(self._at(at)["tau"], loads, strict=True)]
 
 
 def _nearest(rows: Sequence[Sequence[float]], right: Sequence[float], start: Sequence[float]) -> list[float]:
@@ -171,8 +171,8 @@ def verify(held: Held) -> None:
         verify_reduced(robot, {name: held.forms(name) for name in constrained_names(robot)}, residuals)
 
 
-ACTING = ("Cqd", "g", "Q", "friction")
-"""What stands beside D q̈, τ and A_cᵀ λ in the equations of motion; Q on the side of τ."""
+ACTING = ("Cqd", "g", "friction")
+"""What stands beside D q̈, τ, Q and A_cᵀ λ in the equations of motion."""
 
 
 def verify_constraints(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
@@ -234,12 +234,13 @@ def _verify_multipliers(robot: Robot, results: Mapping[str, Node], states: int) 
 def _forces(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -> list[float]:
     """τ + Q + A_cᵀ λ - C q̇ - g"""
     found = []
+    loads = outside_forces(robot, values)
     for k, q in enumerate(robot.coordinates):
-        total = 0.0 if k in robot.actions.passive else values[q.force]
+        total = loads[k] + (0.0 if k in robot.actions.passive else values[q.force])
         total += sum(row[k] * x for row, (x,) in zip(ours["Ac"], ours["lambda"], strict=True))
         for name in ACTING:
             if name in ours:
-                total += ours[name][k][0] * (1 if name == "Q" else -1)
+                total -= ours[name][k][0]
         found.append(total)
     return found
 

@@ -30,7 +30,13 @@ from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation import kinematics
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import velocities
-from dynsolve.questions.forward_dynamics.derive import SINGULAR, acting_forces, acting_names, reduced
+from dynsolve.questions.forward_dynamics.derive import (
+    SINGULAR,
+    acting_forces,
+    acting_names,
+    outside_names,
+    reduced,
+)
 from dynsolve.questions.task import derive as task
 from dynsolve.questions.task.derive import position_rule, task_value
 from dynsolve.robot.actions import Constraint
@@ -110,8 +116,7 @@ def rules(robot: Robot) -> Iterator[Rule]:
     if LAMBDA in robot.questions.asked and robot.has_dynamics:
         yield _multipliers(robot)
     if REDUCED in robot.questions.asked and robot.has_dynamics:
-        loads = ("Q",) if robot.questions.loads else ()
-        yield Rule(REDUCED, ("Ac", "tau", *loads), partial(reduced, robot))
+        yield Rule(REDUCED, ("Ac", "tau", *outside_names(robot)), partial(reduced, robot))
 
 
 def _multipliers(robot: Robot) -> Rule:

@@ -27,7 +27,7 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Parenthesized, Sum, column, equation, mapped
 from dynsolve.quantities import letters
 from dynsolve.questions.constraints.derive import holonomic
-from dynsolve.questions.forward_dynamics.derive import Reduced, reduced
+from dynsolve.questions.forward_dynamics.derive import Reduced, outside_names, reduced
 from dynsolve.questions.forward_dynamics.explain import inverse_of_inertia
 from dynsolve.questions.task.explain import with_letters
 
@@ -167,7 +167,7 @@ def _products(context: Context) -> tuple[Line, ...]:
 def _reduced(context: Context) -> Iterator[Step]:
     """The equations of motion along what the constraints leave free, without the multipliers."""
     values, is_asked = context.values, "reduced" in context.wanted
-    loads = (values["Q"],) if context.robot.questions.loads else ()
+    loads = (values[name] for name in outside_names(context.robot))
     found = reduced(context.robot, values["Ac"], values["tau"], *loads)
     Z = nullspace(values["Ac"]) if isinstance(found, Skipped) else found.free
     shown = context.forms.of(Z)

@@ -8,6 +8,7 @@ from functools import partial
 from dynsolve.derivation.graph import Rule
 from dynsolve.questions.equilibria import balance, linearization
 from dynsolve.questions.equilibria.solving import constrained_equilibria, equilibria
+from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.robot.model import Robot
 
 
@@ -24,5 +25,6 @@ def rules(robot: Robot) -> Iterator[Rule]:
         yield Rule("equilibria", ("g",), partial(equilibria, robot))
     if robot.questions.model.linearize:
         friction = ("friction",) if "friction" in robot.actions.kinds else ()
-        yield Rule("linear_A", ("D", "g", *friction), partial(linearization.state_matrix, robot))
+        acting = (*outside_names(robot), *friction)
+        yield Rule("linear_A", ("D", "g", *acting), partial(linearization.state_matrix, robot))
         yield Rule("linear_B", ("D",), partial(linearization.input_matrix, robot))

@@ -37,6 +37,7 @@ from dynsolve.questions.equilibria.solving import (
     multipliers,
     wanted_rows,
 )
+from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.robot.model import JointType, Robot
 
 _SOURCE = SLOTINE_LI.section("3.3")
@@ -63,6 +64,7 @@ def steps(context: Context) -> Iterator[Step]:
 
 _AT_REST = (
     "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion {left} is left. "
+    "{loads}"
 )
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
@@ -182,10 +184,12 @@ def _lead(cases: int, combinations: int, is_whole: bool) -> Prose:
 
 def _at_rest(robot: Robot, left: Node) -> Prose:
     """What is left of the equations of motion where motors, if they hold nothing, and forces are idle."""
-    idle = [] if robot.questions.model.inputs_given else ["no motor drives"]
-    idle += ["no force from outside acts"] if robot.questions.loads else []
-    others = "".join(f", {'and ' * (one is idle[-1])}{one}" for one in idle)
-    return say(_AT_REST, idle=others, left=left)
+    return say(
+        _AT_REST,
+        idle="" if robot.questions.model.inputs_given else ", and no motor drives",
+        left=left,
+        loads="Without the forces from outside. " * bool(robot.questions.loads),
+    )
 
 
 def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
@@ -375,8 +379,12 @@ def _state_matrix(context: Context) -> Step:
         for (name, dots), value in robot.questions.model.equilibrium.items()
     ]
     at = linearization.at_equilibrium(robot)
-    D, g = at.matrix(context.values["D"]), linearization.stiffness(robot, context.values["g"])
-    working: list[Node] = [equation(letters.D, context.show(D)), equation(_DG, context.show(g))]
+    outside = next((context.values[name] for name in outside_names(robot)), None)
+    still, of_still = context.values["g"], _DG
+    if outside is not None:
+        still, of_still = still - outside, formula("∂(𝐠 - 𝐐)/∂𝐪")
+    D, g = at.matrix(context.values["D"]), linearization.stiffness(robot, still)
+    working: list[Node] = [equation(letters.D, context.show(D)), equation(of_still, context.show(g))]
     if has_friction:
         F = linearization.damping(robot, context.values["friction"])
         working.append(equation(letters.bold("F"), context.show(F)))
@@ -398,7 +406,9 @@ def _state_matrix(context: Context) -> Step:
         ),
         formula=equation(
             letters.LINEAR_A,
-            formula("[𝟎, 𝐄; -𝐃⁻¹ ∂𝐠/∂𝐪, -𝐃⁻¹ 𝐅]" if has_friction else "[𝟎, 𝐄; -𝐃⁻¹ ∂𝐠/∂𝐪, 𝟎]"),
+            formula(
+                "[𝟎, 𝐄; -𝐃⁻¹ {still}, {F}]", still=of_still, F=formula("-𝐃⁻¹ 𝐅") if has_friction else _ZERO
+            ),
         ),
         source=_SOURCE,
         working=tuple(working),

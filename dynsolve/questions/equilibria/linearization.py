@@ -61,6 +61,7 @@ from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.notation.tree_values import Program, compile_trees, plain_name
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.questions.equilibria.solving import Equilibria, equilibria, wanted_rows
+from dynsolve.questions.statics.check import outside_forces
 from dynsolve.robot.model import Robot
 
 # The equations of motion near an equilibrium, linear: ẋ = A x + B u
@@ -113,13 +114,22 @@ def damping(robot: Robot, friction: Matrix | None) -> Matrix:
     return Matrix.of(ring, ([at(ring.diff_velocity(f, k)) for k in range(robot.n)] for f in friction.entries))
 
 
-def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, friction: Matrix | None = None) -> Linear:
-    """A, 2n×2n."""
+def still_forces(robot: Robot, gravity: Matrix, outside: Matrix | None) -> Matrix:
+    """g - Q, n×1: what motors hold at rest."""
+    return gravity if outside is None else gravity - outside
+
+
+def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, *acting: Matrix) -> Linear:
+    """A, 2n×2n; `acting` are Q and the friction, those that there are."""
+    outside = acting[0] if robot.questions.loads else None
+    friction = acting[-1] if "friction" in robot.actions.kinds else None
+    gravity = still_forces(robot, gravity, outside)
     if robot.questions.constraints:
         return Skipped(CONSTRAINED)
     name = unbalanced(robot, gravity)
     if name:
         by = "gravity and springs move" if robot.actions.springs else "gravity moves"
+        by = "the given forces move" if robot.questions.loads else by
         return Skipped(f"the given state is no equilibrium: {by} {name}, which no motor holds")
     below = Matrix(
         robot.ring,
@@ -299,11 +309,13 @@ def _verify_near(
 ) -> None:
     names = list(results)
     at_rest = dict(zip(names, program.run(rest), strict=True))
-    held = [row[0] for row in at_rest["tau"]]
+    held = _less_outside(robot, at_rest["tau"], rest)
 
     def accelerations(**moved: float) -> list[float]:
-        here = dict(zip(names, program.run({**rest, **moved}), strict=True))
-        return solved(here["D"], [h - row[0] for h, row in zip(held, here["tau"], strict=True)])
+        at = {**rest, **moved}
+        here = dict(zip(names, program.run(at), strict=True))
+        left = _less_outside(robot, here["tau"], at)
+        return solved(here["D"], [h - force for h, force in zip(held, left, strict=True)])
 
     n = robot.n
     if "linear_A" in results:
@@ -316,6 +328,11 @@ def _verify_near(
         columns = [solved(at_rest["D"], unit) for unit in units]
         zeros = [[0.0] * len(units) for _ in range(n)]
         _compare("linear_B", at_rest["linear_B"], [*zeros, *map(list, zip(*columns, strict=True))])
+
+
+def _less_outside(robot: Robot, tau: Sequence[Sequence[float]], at: Mapping[str, float]) -> list[float]:
+    """τ - Q"""
+    return [row[0] - load for row, load in zip(tau, outside_forces(robot, at), strict=True)]
 
 
 def _by_coordinate(accelerations: Any, name: str, at: float) -> list[float]:

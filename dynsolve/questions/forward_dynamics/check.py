@@ -14,25 +14,25 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.questions.held import Held
 from dynsolve.questions.rates.check import TOLERANCE
+from dynsolve.questions.statics.check import outside_forces
 from dynsolve.robot.model import Robot
 
-COMPARED = ("qdd_forward", "tau", "Q")
-"""What is compared; Q where forces act from outside."""
+COMPARED = ("qdd_forward", "tau")
+"""What is compared."""
 
 
 def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
-    """Compare the printed form of `qdd_forward` with those of `tau` and, where there is one, `Q`.
+    """Compare the printed form of `qdd_forward` with that of `tau` and the power of forces from outside.
 
     Raises VerificationError where it does not give the forces back.
     """
     found, left = compile_trees([results["qdd_forward"]]), compile_trees([results["tau"]])
-    outside = compile_trees([results["Q"]]) if "Q" in results else None
     for values, (rows,) in islice(states_with(robot.ring, found.run), states):
         moved = {q.acceleration: row[0] for q, row in zip(robot.coordinates, rows, strict=True)}
         (theirs,) = left.run({**values, **moved})
-        loads = outside.run(values)[0] if outside else [(0.0,)] * robot.n
+        loads = outside_forces(robot, values)
         for k, q in enumerate(robot.coordinates):
-            force = loads[k][0] + (0.0 if k in robot.actions.passive else values[q.force])
+            force = loads[k] + (0.0 if k in robot.actions.passive else values[q.force])
             size = max(1.0, abs(force), *map(abs, moved.values()))
             if not abs(theirs[k][0] - force) <= TOLERANCE * size:
                 raise VerificationError("qdd_forward does not give the forces; this is a fault of dynsolve")
@@ -41,4 +41,4 @@ def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -
 def verify(held: Held) -> None:
     """Hold the results as they are printed; raises VerificationError where one is wrong."""
     if "qdd_forward" in held.wanted:
-        held.hold(verify_forward, (name for name in COMPARED if name != "Q" or name in held.wanted))
+        held.hold(verify_forward, COMPARED)

@@ -28,6 +28,7 @@ from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, nullspace,
 from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import FOR_EVERY_Q
 
 # Forward dynamics: the accelerations that given forces make
 
@@ -54,17 +55,22 @@ def driving_forces(robot: Robot) -> Matrix:
     return Matrix.column(ring, entries)
 
 
+def outside_names(robot: Robot) -> tuple[str, ...]:
+    """The rule of the forces from outside, where there are any."""
+    return (FOR_EVERY_Q,) if robot.questions.loads else ()
+
+
 def acting_names(robot: Robot) -> tuple[str, ...]:
     """The rules of the forces that act beside τ."""
     friction = ("friction",) if "friction" in robot.actions.kinds else ()
-    return ("Cqd", "g", *friction, *(("Q",) if robot.questions.loads else ()))
+    return ("Cqd", "g", *friction, *outside_names(robot))
 
 
 def acting_forces(robot: Robot, *forces: Matrix) -> Matrix:
     """τ + Q - C q̇ - friction - g, n×1, from the forces of `acting_names`."""
     total = driving_forces(robot)
     for name, force in zip(acting_names(robot), forces, strict=True):
-        total = total + force if name == "Q" else total - force
+        total = total + force if name == FOR_EVERY_Q else total - force
     return total
 
 

@@ -57,6 +57,13 @@ def verify_statics(robot: Robot, results: Mapping[str, Node], states: int = 5) -
                 )
 
 
+def outside_forces(robot: Robot, values: Mapping[str, float]) -> list[float]:
+    """Q in a configuration, by the power of the forces; 0 where none acts."""
+    if not robot.questions.loads:
+        return [0.0] * robot.n
+    return generalized_forces(robot, values, arm_at(robot, values))
+
+
 def generalized_forces(robot: Robot, values: Mapping[str, float], arm: Arm) -> list[float]:
     """The power of all forces while one coordinate alone moves at unit rate, coordinate by coordinate."""
     numbers = RobotValues(robot, values)

@@ -17,7 +17,7 @@ from dynsolve.algebra.matrix import AtState, Matrix
 from dynsolve.derivation import kinematics
 from dynsolve.derivation.graph import Rule
 from dynsolve.robot.model import Robot
-from dynsolve.robot.questions import TIP, Load
+from dynsolve.robot.questions import FOR_EVERY_Q, TIP, Load
 
 # Forces from outside, and the torques that hold them at rest
 
@@ -60,7 +60,8 @@ def rules(robot: Robot) -> Iterator[Rule]:
     parts = tuple(f"load{i}" for i, _ in enumerate(robot.questions.loads, 1))
     for name, load in zip(parts, robot.questions.loads, strict=True):
         yield _load(robot, name, load)
-    yield Rule("Q", parts, lambda *found: at.matrix(total(robot, found)))
+    yield Rule(FOR_EVERY_Q, parts, lambda *found: total(robot, found))
+    yield Rule("Q", (FOR_EVERY_Q,), at.matrix)
     if robot.bodies:
         yield Rule("tau_static", ("g", "Q"), lambda g, Q: holding_torques(at.matrix(g), Q))
     else:

@@ -161,7 +161,7 @@ def test_that_forces_from_outside_are_left_out_is_said() -> None:
     for problem, is_told in ((PUSHED, False), (PUSHED + force, True)):
         (step,) = (s for s in dynsolve.solve(problem).explain(["equilibria"]) if s.id == "equilibria")
         words = "".join(part for part in step.why if isinstance(part, str))
-        assert ("no motor drives, and no force from outside acts" in words) is is_told
+        assert ("Without the forces from outside." in words) is is_told
         assert step.concluding == ("All are 0 where:",)
 
 

@@ -134,3 +134,21 @@ find: [qdd_forward]
 """
     told = " ".join(report(dynsolve.solve(held), Format.TEXT).decode().split())
     assert ": not derived. The forces of the constraints act, too" in told
+
+
+TELESCOPE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, alpha: 90deg}, {d: d2*}]
+masses: [{mass: m, link: 2, center: tip}]
+forces: [{link: 2, at: tip, force: [Fx, Fy, 0]}]
+"""
+
+
+def test_a_state_is_where_forces_are_held_and_no_part_of_the_equations_of_motion() -> None:
+    """Q, tau_static are asked for at the state; q̈, λ and the reduced equations are for every q."""
+    held = "constraints: [tip.x - k]\nfind: [lambda, reduced, Q]\n"
+    for asked, names in (("find: [qdd_forward, Q]\n", ["qdd_forward"]), (held, ["lambda", "reduced"])):
+        general = solve_json(TELESCOPE + asked)["results"]
+        there = solve_json(TELESCOPE + asked + "state: {q1: 30deg}\n")["results"]
+        assert [there[name] for name in names] == [general[name] for name in names]
+        assert there["Q"] != general["Q"]

@@ -15,6 +15,7 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Matrix, Relation, Symbol
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.linearization import verify_linear
+from tests.support import numbers, solve_json
 
 ARM = """
 gravity: [0, -g, 0]
@@ -118,3 +119,20 @@ def test_the_inertia_of_the_task_is_led_to_by_what_is_inverted() -> None:
     assert isinstance(line, Relation) and line.parts[0] == formula("𝐉_r 𝐃⁻¹ 𝐉_rᵀ")
     held = results(f"{text}constraints: [tip.y]\n")
     assert held["Lambda"] == {"skipped": "a force at the task meets the constraints, too"}
+
+
+def test_a_force_from_outside_turns_the_linear_model() -> None:
+    """A weight W at the end of a rod: l (m g/2 + W) cos q is held, and d = m l²/3."""
+    rod = """
+gravity: [0, -g, 0]
+dh: [{theta: q*, a: l}]
+masses: [{mass: m, link: 1, center: midpoint, shape: {rod: {length: l}}}]
+forces: [{link: 1, at: tip, force: [0, -W, 0]}]
+linearize: {q: 30deg}
+find: [linear_A]
+"""
+    at = {"g": 9.81, "l": 0.7, "m": 1.3, "W": 2.0}
+    found = numbers(solve_json(rod)["results"]["linear_A"][1][0], at)
+    assert found == pytest.approx(
+        at["l"] * (at["m"] * at["g"] / 2 + at["W"]) / 2 / (at["m"] * at["l"] ** 2 / 3)
+    )
