@@ -50,8 +50,10 @@ def steps(context: Context) -> Iterator[Step]:
     wanted = context.wanted
     if "equilibria" in wanted:
         else_ = " else" if context.robot.questions.model.steady else ""
-        group = Group("equilibria", f"Where nothing{else_} moves, and how stable that is")
-        yield from (replace(step, group=group, normal=NOTED) for step in _equilibria(context))
+        found = list(_equilibria(context))
+        is_told = any(step.id == "equilibria_stability" and step.source for step in found)
+        title = f"Where nothing{else_} moves" + ", and how stable that is" * is_told
+        yield from (replace(step, group=Group("equilibria", title), normal=NOTED) for step in found)
     if "balance" in wanted:
         yield replace(_balance(context), normal=NOTED)
     if "linear_A" in wanted:

@@ -16,6 +16,9 @@ from dynsolve.notation.tree import Negative, Node, Number, Power, equation
 from dynsolve.quantities import letters
 
 
+_SQUARE = "The Jacobian is square, and has an inverse itself where its determinant is not 0."
+
+
 def steps(context: Context) -> Iterator[Step]:
     """Λ, where it is asked for."""
     if "Lambda" not in context.wanted:
@@ -34,7 +37,7 @@ def steps(context: Context) -> Iterator[Step]:
             "A force $𝐅$ at the task acts on the joints as $𝐉_rᵀ 𝐅$, $𝐃⁻¹$ makes accelerations of that, and "
             "$𝐉_r$ the acceleration of the task. The matrix between force and acceleration, inverted, is the "
             "inertia. {square}",
-            square="The Jacobian is square, and has an inverse itself." if rows == columns else "",
+            square=_SQUARE if rows == columns else "",
         ),
         formula=formula(f"𝚲 = (𝐉_r 𝐃⁻¹ 𝐉_rᵀ)⁻¹{square}", transposed=transposed),
         source=LYNCH_PARK.section("8.6"),
