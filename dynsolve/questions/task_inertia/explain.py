@@ -15,7 +15,6 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Negative, Node, Number, Power, equation
 from dynsolve.quantities import letters
 
-
 _SQUARE = "The Jacobian is square, and has an inverse itself where its determinant is not 0."
 
 
