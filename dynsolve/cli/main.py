@@ -64,24 +64,18 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
-    if "_DYNSOLVE_COMPLETE" in os.environ:  # a shell asks, and has its answer here
-        app().main(words, prog_name="dynsolve")
     sys.exit(int(_run(words, traceback)))
 
 
 def _run(words: Sequence[str], traceback: bool) -> int:
     try:
-        program = app(words)
-        with program.make_context("dynsolve", list(words)) as context:
-            code = program.invoke(context)
+        code = app(words).main(words, prog_name="dynsolve", standalone_mode=False)
         sys.stdout.flush()
         return _ended(int(code or ExitCode.DONE))
     except (KeyboardInterrupt, click.Abort):
         return _ended(ExitCode.INTERRUPTED)
-    except BrokenPipeError:
+    except (BrokenPipeError, SystemExit):  # so Click ends when the reader of the output has left
         return _reader_left()
-    except click.exceptions.Exit as end:
-        return _ended(end.exit_code)
     except click.ClickException as error:
         error.show()
         return ExitCode.USAGE
