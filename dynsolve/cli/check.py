@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-import click
+import typer
 
-from dynsolve.cli.grade import problems_argument
-from dynsolve.cli.numbers import STDIN, Names, print_json, quiet_option, read, say, standard_input
+from dynsolve.cli.grade import ProblemsArgument
+from dynsolve.cli.numbers import STDIN, Quiet, print_json, read, say, standard_input
 from dynsolve.cli.output import format_of, refuse_on_terminal, write_to_standard_output
 from dynsolve.draw import SUFFIXES, PictureFormat
 from dynsolve.errors import ExitCode, Finding, InputError, UsageError
@@ -28,34 +28,29 @@ if TYPE_CHECKING:
     from dynsolve.problem import Problem
 
 
-@click.command()
-@click.argument("problem", help="A problem file, or the stem of a bundled one.")
-@click.argument(
-    "answer",
-    help="An answer file (.yaml, .json) or report (.md, .tex, .ipynb, .html); - for standard input.",
-)
-@click.option("--json", is_flag=True, help="JSON with everything.")
-@click.option("--html", is_flag=True, help="The report as an HTML page.")
-@click.option("--markdown", is_flag=True, help="The report in Markdown.")
-@click.option(
-    "--hints",
-    type=click.IntRange(1, 3),
-    default=3,
-    help="How much a student is told: 1 where, 2 what kind of slip, 3 how.",
-)
-@click.option("--teacher", is_flag=True, help="Everything, with the differences.")
-@click.option("--show-reading", is_flag=True, help="Show how every answer was read, correct ones too.")
-@quiet_option
 def check(
-    problem: str,
-    answer: str,
-    json: bool,
-    html: bool,
-    markdown: bool,
-    hints: int,
-    teacher: bool,
-    show_reading: bool,
-    quiet: bool,
+    problem: Annotated[
+        str, typer.Argument(metavar="PROBLEM", help="A problem file, or the stem of a bundled one.")
+    ],
+    answer: Annotated[
+        str,
+        typer.Argument(
+            metavar="ANSWER",
+            help="An answer file (.yaml, .json) or report (.md, .tex, .ipynb, .html); - for standard input.",
+        ),
+    ],
+    json: Annotated[bool, typer.Option("--json", help="JSON with everything.")] = False,
+    html: Annotated[bool, typer.Option("--html", help="The report as an HTML page.")] = False,
+    markdown: Annotated[bool, typer.Option("--markdown", help="The report in Markdown.")] = False,
+    hints: Annotated[
+        int,
+        typer.Option(min=1, max=3, help="How much a student is told: 1 where, 2 what kind of slip, 3 how."),
+    ] = 3,
+    teacher: Annotated[bool, typer.Option("--teacher", help="Everything, with the differences.")] = False,
+    show_reading: Annotated[
+        bool, typer.Option("--show-reading", help="Show how every answer was read, correct ones too.")
+    ] = False,
+    quiet: Quiet = False,
 ) -> int:
     """Check a hand-in: correct, following from an earlier slip, or wrong, and which slip it is.
 
@@ -109,11 +104,11 @@ def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bo
     if html:
         from dynsolve.render.html import render as render_html
 
-        click.echo(render_html(document, style))
+        typer.echo(render_html(document, style))
     elif markdown:
         from dynsolve.render.markdown import render as render_markdown
 
-        click.echo(render_markdown(document, style))
+        typer.echo(render_markdown(document, style))
     else:
         from dynsolve.cli.output import print_document
 
@@ -123,40 +118,33 @@ def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bo
 # `dynsolve override`: a teacher's word on the marks of answers
 
 
-@click.command()
-@click.argument(
-    "folder", metavar="OUT", type=click.Path(path_type=Path), help="The folder of `dynsolve grade`."
-)
-@click.argument("student", default="", help="As in grades.csv, or a full name.")
-@click.argument("problem", default="", help="As in grades.csv.")
-@click.argument("answer", default="", help="As in answers.csv.")
-@click.option(
-    "--marks",
-    metavar="MARKS",
-    default="",
-    show_default=False,
-    help="The marks: 3, 2.5 or 5/2; without, a comment.",
-)
-@click.option("--why", default="", show_default=False, help="The reason, which the student reads.")
-@click.option(
-    "--from",
-    "source",
-    metavar="CSV",
-    type=click.Path(path_type=Path),
-    help="Many at once: student,problem,answer,marks,comment; OUT/queue.csv is such a page to fill.",
-)
 def override(
-    folder: Path, student: str, problem: str, answer: str, marks: str, why: str, source: Path | None
+    folder: Annotated[Path, typer.Argument(metavar="OUT", help="The folder of `dynsolve grade`.")],
+    student: Annotated[str, typer.Argument(metavar="STUDENT", help="As in grades.csv, or a full name.")] = "",
+    problem: Annotated[str, typer.Argument(metavar="PROBLEM", help="As in grades.csv.")] = "",
+    answer: Annotated[str, typer.Argument(metavar="ANSWER", help="As in answers.csv.")] = "",
+    marks: Annotated[
+        str, typer.Option("--marks", metavar="MARKS", help="The marks: 3, 2.5 or 5/2; without, a comment.")
+    ] = "",
+    why: Annotated[str, typer.Option("--why", help="The reason, which the student reads.")] = "",
+    from_: Annotated[
+        Path | None,
+        typer.Option(
+            "--from",
+            metavar="CSV",
+            help="Many at once: student,problem,answer,marks,comment; OUT/queue.csv is such a page to fill.",
+        ),
+    ] = None,
 ) -> int:
     """Set the marks of answers by hand; no regrade changes them."""
     from dynsolve.grading.public import override as override_marks
     from dynsolve.grading.public import override_all
 
-    if source is not None:
+    if from_ is not None:
         if student or marks or why:
             raise UsageError("--from has the students and their marks: give nothing else but OUT")
-        count = override_all(folder, source)
-        click.echo(f"{count} answer{'' if count == 1 else 's'} set by hand", err=True)
+        count = override_all(folder, from_)
+        typer.echo(f"{count} answer{'' if count == 1 else 's'} set by hand", err=True)
         return ExitCode.DONE
     if not (student and problem and answer):
         raise UsageError("name STUDENT, PROBLEM and ANSWER, and say --why; or give a CSV with --from")
@@ -165,24 +153,19 @@ def override(
         typed = shlex.join((*given, *(("--marks", marks) if marks else ()), "--why", "right on paper"))
         raise UsageError(f"--why is missing, the reason that the student reads: {typed}")
     override_marks(folder, student, problem, answer, marks=marks or None, why=why)
-    click.echo(f"{student} {problem} {answer}: {marks or 'a comment'}", err=True)
+    typer.echo(f"{student} {problem} {answer}: {marks or 'a comment'}", err=True)
     return ExitCode.DONE
 
 
 # `dynsolve autograder`: the zip that makes Gradescope run dynsolve
 
 
-@click.command()
-@problems_argument
-@click.option(
-    "-o",
-    "--output",
-    metavar="ZIP",
-    type=click.Path(path_type=Path),
-    default="autograder.zip",
-    help="The zip that is written.",
-)
-def autograder(problems: str, output: Path) -> int:
+def autograder(
+    problems: ProblemsArgument,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="ZIP", help="The zip that is written.")
+    ] = Path("autograder.zip"),
+) -> int:
     """Make an autograder for Gradescope, which marks every submission when it is handed in.
 
     Upload the zip in the assignment's Configure Autograder. Python 3.11 or newer is installed there
@@ -191,26 +174,37 @@ def autograder(problems: str, output: Path) -> int:
     from dynsolve.grading.autograder import write_autograder
 
     write_autograder(problems, output)
-    click.echo(f"{output}: upload it to the programming assignment, under Configure Autograder", err=True)
+    typer.echo(f"{output}: upload it to the programming assignment, under Configure Autograder", err=True)
     return ExitCode.DONE
 
 
 # `dynsolve draw`: the picture of a manipulator
 
 
-@click.command()
-@click.argument("problem", help="A problem file, the stem of a bundled problem, or - for standard input.")
-@click.option(
-    "-o", "--output", metavar="FILE", help="Write to a file: .svg, .pdf, .png, or .tex to be input."
-)
-@click.option(
-    "--format",
-    type=Names(PictureFormat),
-    help="The form, where the suffix of -o does not say it; else SVG.",
-)
-@click.option("--star/--no-star", default=True, help="Mark the joint variables with a star.")
-@quiet_option
-def draw(problem: str, output: str | None, format: PictureFormat | None, star: bool, quiet: bool) -> None:
+def draw(
+    problem: Annotated[
+        str,
+        typer.Argument(
+            metavar="PROBLEM",
+            help="A problem file, the stem of a bundled problem, or - for standard input.",
+            show_default=False,
+        ),
+    ],
+    output: Annotated[
+        str | None,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="Write to a file: .svg, .pdf, .png, or .tex to be input."
+        ),
+    ] = None,
+    format: Annotated[
+        PictureFormat | None,
+        typer.Option("--format", help="The form, where the suffix of -o does not say it; else SVG."),
+    ] = None,
+    star: Annotated[
+        bool, typer.Option("--star/--no-star", help="Mark the joint variables with a star.")
+    ] = True,
+    quiet: Quiet = False,
+) -> None:
     """Draw a manipulator from its Denavit-Hartenberg table, or bodies from their positions.
 
     Joints, links, frames, lengths, joint variables, mass centres and gravity, at a

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-import click
+import typer
 
-from dynsolve.cli.grade import folder_option, jobs_option, problems_argument
-from dynsolve.cli.numbers import Names, quiet_option, read
+from dynsolve.cli.grade import FolderOption, JobsOption
+from dynsolve.cli.grade import ProblemsArgument as SetArgument
+from dynsolve.cli.numbers import Quiet, read
 from dynsolve.cli.output import bar_or_lines, format_of, refuse_on_terminal, write_to_standard_output
 from dynsolve.cli.solve import DetailName
 from dynsolve.errors import ExitCode, UsageError
@@ -44,35 +45,28 @@ class TemplateName(StrEnum):
     DOCX = "docx"
 
 
-@click.command()
-@click.argument(
-    "problem",
-    nargs=-1,
-    required=True,
-    help="Problem files, bundled stems, or a folder with its set.yaml.",
-)
-@click.option(
-    "-o",
-    "--output",
-    metavar="FILE",
-    default="-",
-    help="The file: .pdf, .tex, .html, .md, .docx or .txt.",
-)
-@click.option("--key", is_flag=True, help="The solutions behind the exercises.")
-@click.option("--detail", type=Names(DetailName), default="normal", help="The depth of these.")
-@click.option("--title", default="", show_default=False, help="Default: that of the set, or of the problem.")
-@click.option("--date", default="", show_default=False, help="Words under the title.")
-@click.option("--fragment", is_flag=True, help="LaTeX for another document's \\input.")
-@click.option("--exam", is_flag=True, help="LaTeX of the class `exam`.")
+ProblemsArgument = Annotated[
+    list[str],
+    typer.Argument(metavar="PROBLEM...", help="Problem files, bundled stems, or a folder with its set.yaml."),
+]
+
+
 def sheet(
-    problem: tuple[str, ...],
-    output: str,
-    key: bool,
-    detail: DetailName,
-    title: str,
-    date: str,
-    fragment: bool,
-    exam: bool,
+    problem: ProblemsArgument,
+    output: Annotated[
+        str,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="The file: .pdf, .tex, .html, .md, .docx or .txt."
+        ),
+    ] = "-",
+    key: Annotated[bool, typer.Option("--key", help="The solutions behind the exercises.")] = False,
+    detail: Annotated[DetailName, typer.Option(help="The depth of these.")] = DetailName.NORMAL,
+    title: Annotated[str, typer.Option(help="Default: that of the set, or of the problem.")] = "",
+    date: Annotated[str, typer.Option(help="Words under the title.")] = "",
+    fragment: Annotated[
+        bool, typer.Option("--fragment", help="LaTeX for another document's \\input.")
+    ] = False,
+    exam: Annotated[bool, typer.Option("--exam", help="LaTeX of the class `exam`.")] = False,
 ) -> int:
     """Write the exercise without its solution: a picture, what is given, what is asked, with points."""
     from dynsolve.exercise.sheet import SUFFIXES, SheetFormat, exam_source
@@ -101,7 +95,7 @@ def sheet(
     return ExitCode.DONE
 
 
-def _together(names: tuple[str, ...], title: str) -> ProblemSet:
+def _together(names: list[str], title: str) -> ProblemSet:
     """The problems of a folder, or those that are named one by one, as one set."""
     from msgspec.structs import replace
 
@@ -117,12 +111,13 @@ def _together(names: tuple[str, ...], title: str) -> ProblemSet:
     return replace(sets[0], title=title or usual, items=items)
 
 
-@click.command()
-@click.argument("problem", help="A problem file, or a bundled stem.")
-@click.option(
-    "-o", "--output", metavar="FILE", required=True, help="The file: .yaml, .md, .tex, .ipynb or .docx."
-)
-def template(problem: str, output: str) -> int:
+def template(
+    problem: Annotated[str, typer.Argument(metavar="PROBLEM", help="A problem file, or a bundled stem.")],
+    output: Annotated[
+        str,
+        typer.Option("--output", "-o", metavar="FILE", help="The file: .yaml, .md, .tex, .ipynb or .docx."),
+    ],
+) -> int:
     """Write the hand-in with empty answers: their names, the letters, how results are typed."""
     from dynsolve.exercise.template import SUFFIXES
     from dynsolve.exercise.template import template as made
@@ -134,32 +129,19 @@ def template(problem: str, output: str) -> int:
     return ExitCode.DONE
 
 
-@click.command()
-@problems_argument
-@click.option(
-    "--roster",
-    metavar="CSV",
-    type=click.Path(path_type=Path),
-    required=True,
-    help="A column `student`, or the list of a platform.",
-)
-@click.option("--seed", required=True, help="Another seed draws other variants.")
-@folder_option
-@click.option("--format", type=Names(VariedFormat), default="html", help="The form of sheets and keys.")
-@click.option("--template", type=Names(TemplateName), default="yaml", help="The form of the templates.")
-@click.option("--detail", type=Names(DetailName), default="results", help="The depth of the keys.")
-@jobs_option
-@quiet_option
 def vary(
-    problems: str,
-    roster: Path,
-    seed: str,
-    output: Path,
-    format: VariedFormat,
-    template: TemplateName,
-    detail: DetailName,
-    jobs: int,
-    quiet: bool,
+    problems: SetArgument,
+    roster: Annotated[
+        Path,
+        typer.Option("--roster", metavar="CSV", help="A column `student`, or the list of a platform."),
+    ],
+    seed: Annotated[str, typer.Option(help="Another seed draws other variants.")],
+    output: FolderOption,
+    format: Annotated[VariedFormat, typer.Option(help="The form of sheets and keys.")] = VariedFormat.HTML,
+    template: Annotated[TemplateName, typer.Option(help="The form of the templates.")] = TemplateName.YAML,
+    detail: Annotated[DetailName, typer.Option(help="The depth of the keys.")] = DetailName.RESULTS,
+    jobs: JobsOption = 0,
+    quiet: Quiet = False,
 ) -> int:
     """Draw a variant of each problem for every student: sheet, template and key, equally hard."""
     from dynsolve.exercise.sheet import SheetFormat
@@ -180,11 +162,11 @@ def vary(
         for family in families:
             variants = agreeing(f"{family.size} variant|variants", family.size)
             structures = agreeing(f"{len(family.structures)} structure|structures", len(family.structures))
-            click.echo(f"{family.item.stem}: {variants} of {structures}", err=True)
+            typer.echo(f"{family.item.stem}: {variants} of {structures}", err=True)
             for left in family.left_out:
-                click.echo(f"  {left}: in no variant, as it would not be as hard as the others", err=True)
+                typer.echo(f"  {left}: in no variant, as it would not be as hard as the others", err=True)
             for path in family.idle:
-                click.echo(f"  {path}: changes no answer", err=True)
+                typer.echo(f"  {path}: changes no answer", err=True)
         told = agreeing(f"{len(students)} student|students", len(students))
-        click.echo(f"{told}: see {output / 'variants.csv'}", err=True)
+        typer.echo(f"{told}: see {output / 'variants.csv'}", err=True)
     return ExitCode.DONE

@@ -12,62 +12,60 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
 
-import click
+import typer
 
-from dynsolve.cli.numbers import (
-    STDIN,
-    STDIN_NAME,
-    described,
-    problem_arguments,
-    quiet_option,
-    say,
-    standard_input,
-    stems,
-)
+from dynsolve.cli.numbers import STDIN, STDIN_NAME, Problems, Quiet, described, say, standard_input, stems
 from dynsolve.errors import ExitCode, Finding, ProblemError, UsageError
 from dynsolve.render.files import write_whole
 
 # `dynsolve problems`: the library that comes with dynsolve
 
 
-@click.command()
-@click.argument("name", required=False, shell_complete=stems, help="Print this problem's file, to be copied.")
-def problems(name: str | None) -> None:
+def problems(
+    name: Annotated[
+        str | None, typer.Argument(help="Print this problem's file, to be copied.", show_default=False)
+    ] = None,
+) -> None:
     """List the bundled problems, or print one of them."""
     from dynsolve.problem import load
     from dynsolve.problem.reader import bundled, find
 
     if name is not None:
-        click.echo(find(name).read_text(encoding="utf-8"), nl=False)
+        typer.echo(find(name).read_text(encoding="utf-8"), nl=False)
         return
     known = bundled()
     width = max(map(len, known), default=0)
     for stem, path in known.items():
-        click.echo(f"{stem:{width}}  {load(path).title}")
+        typer.echo(f"{stem:{width}}  {load(path).title}")
 
 
 # `dynsolve new`: a problem file to start from
 
 
-@click.command()
-@click.argument("file", help="Where to write it; - for standard output.")
-@click.option("--like", metavar="STEM", shell_complete=stems, help="A bundled problem's file.")
-@click.option("--all", "all_", is_flag=True, help="Every key, with its meaning.")
-@click.option("--force", is_flag=True, help="Overwrite a file that is there.")
-def new(file: str, like: str | None, all_: bool, force: bool) -> None:
+def new(
+    file: Annotated[
+        str, typer.Argument(help="Where to write it; - for standard output.", show_default=False)
+    ],
+    like: Annotated[
+        str | None, typer.Option(metavar="STEM", help="A bundled problem's file.", autocompletion=stems)
+    ] = None,
+    all_: Annotated[bool, typer.Option("--all", help="Every key, with its meaning.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")] = False,
+) -> None:
     """Write a problem file to start from: an arm with two joints, in thirty lines."""
     if like and all_:
         raise UsageError("--like and --all are two ways to begin", "choose one of them")
     text = _beginning(like, all_)
     if file == "-":
-        click.echo(text, nl=False)
+        typer.echo(text, nl=False)
         return
     path = Path(file)
     if path.exists() and not force:
         raise UsageError(f"{file} exists; --force overwrites it")
     write_whole(path, text.encode())
-    click.echo(f"wrote {file}; now: dynsolve solve {file}", err=True)
+    typer.echo(f"wrote {file}; now: dynsolve solve {file}", err=True)
 
 
 def _beginning(like: str | None, every_key: bool) -> str:
@@ -83,9 +81,9 @@ def _beginning(like: str | None, every_key: bool) -> str:
 # `dynsolve schema`: the JSON Schema of problem files, for editors
 
 
-@click.command()
-@click.option("--set", "of_set", is_flag=True, help="That of a set.yaml, for `grade`.")
-def schema(of_set: bool) -> None:
+def schema(
+    of_set: Annotated[bool, typer.Option("--set", help="That of a set.yaml, for `grade`.")] = False,
+) -> None:
     """Print the JSON Schema of problem files, for editors."""
     from json import dumps
 
@@ -94,16 +92,13 @@ def schema(of_set: bool) -> None:
     else:
         from dynsolve.problem.schema import schema as chosen
 
-    click.echo(dumps(chosen(), indent=2, ensure_ascii=False))
+    typer.echo(dumps(chosen(), indent=2, ensure_ascii=False))
 
 
 # `dynsolve lint`
 
 
-@click.command()
-@problem_arguments
-@quiet_option
-def lint(problem: tuple[str, ...], quiet: bool) -> int:
+def lint(problem: Problems, quiet: Quiet = False) -> int:
     """Check problem files, or a set.yaml with all of its problems: faults and what deserves a look.
 
     Ends with 1 where something deserves a look, with 2 where a file is faulty.
@@ -122,11 +117,11 @@ def lint(problem: tuple[str, ...], quiet: bool) -> int:
             code = ExitCode.USAGE
             continue
         for finding in findings:
-            click.echo(described(finding, "warning"))
+            typer.echo(described(finding, "warning"))
         if findings:
             code = max(code, ExitCode.FALLS_SHORT)
         elif not quiet:
-            click.echo(f"{name}: nothing to remark", err=True)
+            typer.echo(f"{name}: nothing to remark", err=True)
     return code
 
 
@@ -148,9 +143,9 @@ PAGES = ("students", "teachers", "python")
 """The pages for readers, beside that of all files."""
 
 
-@click.command()
-@click.argument("topic", required=False, help="What to read about.")
-def docs(topic: str | None) -> None:
+def docs(
+    topic: Annotated[str | None, typer.Argument(help="What to read about.", show_default=False)] = None,
+) -> None:
     """List what there is to read, or print one topic."""
     known = topics()
     if topic is None:
@@ -158,9 +153,9 @@ def docs(topic: str | None) -> None:
         for name, text in known.items():
             level = "## " if text.startswith("# ") else "### "
             headings = [line.removeprefix(level) for line in text.splitlines() if line.startswith(level)]
-            click.echo(f"{name:{width}}  {', '.join([_title(text), *headings])}")
+            typer.echo(f"{name:{width}}  {', '.join([_title(text), *headings])}")
     elif topic in known:
-        click.echo(known[topic], nl=False)
+        typer.echo(known[topic], nl=False)
     else:
         from dynsolve.problem.kinds import did_you_mean
 

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 import gc
 import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
 from importlib import import_module
-from pathlib import Path
-from typing import NoReturn
+from typing import Annotated, Any, NoReturn
 
-import click
+import typer
 
-from dynsolve import __version__
 from dynsolve.errors import DynsolveError, ExitCode, ExplanationWarning, InputError
 
 TRACEBACK = "--traceback"
@@ -43,12 +42,8 @@ COMMANDS = {
 }
 """The file of each command, in the order of the help; only that of the one that is called is imported."""
 
-SHELLS = {
-    "bash": (".bashrc", 'eval "$(_DYNSOLVE_COMPLETE=bash_source dynsolve)"'),
-    "zsh": (".zshrc", 'eval "$(_DYNSOLVE_COMPLETE=zsh_source dynsolve)"'),
-    "fish": (".config/fish/config.fish", "_DYNSOLVE_COMPLETE=fish_source dynsolve | source"),
-}
-"""What a shell reads as it starts, and the line in it that lets TAB complete."""
+# Typer brings Click inside since 0.16; whichever it is, its base error is this one's.
+_ClickError: Any = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -69,14 +64,21 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
 def _run(words: Sequence[str], traceback: bool) -> int:
     try:
-        code = app(words).main(words, prog_name="dynsolve", standalone_mode=False)
+        code = app(words)(list(words), prog_name="dynsolve", standalone_mode=False)
         sys.stdout.flush()
         return _ended(int(code or ExitCode.DONE))
-    except (KeyboardInterrupt, click.Abort):
+    except (KeyboardInterrupt, typer.Abort):
         return _ended(ExitCode.INTERRUPTED)
-    except (BrokenPipeError, SystemExit):  # so Click ends when the reader of the output has left
+    except BrokenPipeError:
         return _reader_left()
-    except click.ClickException as error:
+    except SystemExit as end:  # Click's own way to end when the reader of the output has left
+        if not isinstance(end.__context__, BrokenPipeError):
+            raise
+        return _reader_left()
+    except typer.Exit as end:
+        return _ended(int(end.exit_code))
+    except _ClickError as error:
+        error.message = _plain(error.message)
         error.show()
         return ExitCode.USAGE
     except DynsolveError as error:
@@ -92,59 +94,60 @@ def _run(words: Sequence[str], traceback: bool) -> int:
         return ExitCode.FAILED
 
 
+def _plain(message: str) -> str:
+    """A message of Typer's as people write it, with the choice that may have been meant.
+
+    >>> _plain("Value error, 'torqe' is not one of 'energy', 'torque'.")
+    "'torqe' is not one of 'energy', 'torque'; did you mean `torque`?"
+    """
+    from dynsolve.problem.kinds import did_you_mean
+
+    message = message.removeprefix("Value error, ")
+    given, is_choice, choices = message.partition(" is not one of ")
+    meant = did_you_mean(given.strip("'"), re.findall("'([^']*)'", choices)) if is_choice else ""
+    return f"{message.rstrip('.')}; {meant}" if meant else message
+
+
 def _ended(code: int) -> int:
     if code == ExitCode.INTERRUPTED:
         _say("interrupted")
     return code
 
 
-class _InOrder(click.Group):
-    """The commands in the order in which they are listed here."""
-
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        """Not by the alphabet."""
-        return list(self.commands)
-
-
-def app(words: Sequence[str] = ()) -> click.Group:
+def app(words: Sequence[str] = ()) -> typer.Typer:
     """The commands with their help; where `words` begin with one of them, that one alone."""
-    program = _InOrder(
+    program = typer.Typer(
+        name="dynsolve",
         help="The equations of motion of a robot manipulator, derived exactly, step by step, and verified.",
         epilog="PROBLEM is a path, the stem of a bundled problem, or - for standard input.",
         no_args_is_help=True,
-        context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
     )
-    for option in (
-        click.version_option(__version__, message="dynsolve %(version)s", help="Print the version and stop."),
-        click.option(
-            TRACEBACK, is_flag=True, expose_value=False, help="Show where an error arose; may stand anywhere."
-        ),
-        click.option(
-            "--install-completion",
-            is_flag=True,
-            is_eager=True,
-            expose_value=False,
-            callback=_install_completion,
-            help="Let TAB complete in this shell.",
-        ),
-    ):
-        option(program)
+    program.callback()(_globals)
     for name in words[:1] if words and words[0] in COMMANDS else COMMANDS:
-        program.add_command(getattr(import_module(f"dynsolve.cli.{COMMANDS[name]}"), name))
+        program.command()(getattr(import_module(f"dynsolve.cli.{COMMANDS[name]}"), name))
     return program
 
 
-def _install_completion(context: click.Context, _: click.Parameter, wanted: bool) -> None:
-    if not wanted:
-        return
-    shell = Path(os.environ.get("SHELL", "")).name
-    if shell not in SHELLS:
-        raise click.UsageError(f"words are completed in {', '.join(SHELLS)}; SHELL names none of them")
-    name, line = SHELLS[shell]
-    with (Path.home() / name).open("a", encoding="utf-8") as file:
-        file.write(f"{line}\n")
-    click.echo(f"~/{name} has the line now: {line}")
-    context.exit()
+def _version(wanted: bool) -> None:
+    if wanted:
+        from dynsolve import __version__
+
+        typer.echo(f"dynsolve {__version__}")
+        raise typer.Exit
+
+
+def _globals(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and stop.", callback=_version, is_eager=True)
+    ] = False,
+    traceback: Annotated[
+        bool, typer.Option(TRACEBACK, help="Show where an error arose; may stand anywhere.")
+    ] = False,
+) -> None:
+    pass
 
 
 def _say(text: str) -> None:

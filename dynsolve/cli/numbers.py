@@ -7,60 +7,48 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
-from enum import StrEnum
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any
 
-import click
+import typer
 
 if TYPE_CHECKING:
     from dynsolve.errors import Finding
     from dynsolve.problem import Problem
     from dynsolve.solution.solution import Solution
 
-Name = TypeVar("Name", bound=StrEnum)
-
-
-class Names(click.Choice[Name]):
-    """The members of an enumeration, typed as their values."""
-
-    def normalize_choice(self, choice: object, ctx: click.Context | None) -> str:
-        """As it is typed."""
-        return str(choice)
-
-    def get_invalid_choice_message(self, value: Any, ctx: click.Context | None) -> str:
-        """What may be typed, and which of these may have been meant."""
-        from dynsolve.problem.kinds import did_you_mean
-
-        message = super().get_invalid_choice_message(value, ctx)
-        meant = did_you_mean(value, map(str, self.choices))
-        return f"{message.rstrip('.')}; {meant}" if meant else message
-
-
 SET, AT = "--set", "--at"
 
-set_option = click.option(
-    SET,
-    "set_",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="A number for a parameter, for results in numbers: L1=0.4, m1=3/2. May be given more than once.",
-)
-at_option = click.option(
-    AT,
-    multiple=True,
-    metavar="STATE",
-    help="Every stage at a state: theta1=30deg,L2=0.2,theta1_dot=1. Rates that are not given are 0.",
-)
-digits_option = click.option(
-    "--digits",
-    metavar="N",
-    type=click.IntRange(1, 15),
-    help="Numbers as decimals of N significant digits, of a model in numbers too (else 4, or exact).",
-)
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        SET,
+        metavar="NAME=VALUE",
+        help="A number for a parameter, for results in numbers: L1=0.4, m1=3/2. May be given more than once.",
+    ),
+]
+
+AtOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        AT,
+        metavar="STATE",
+        help="Every stage at a state: theta1=30deg,L2=0.2,theta1_dot=1. Rates that are not given are 0.",
+    ),
+]
+
+DigitsOption = Annotated[
+    int | None,
+    typer.Option(
+        metavar="N",
+        min=1,
+        max=15,
+        help="Numbers as decimals of N significant digits, of a model in numbers too (else 4, or exact).",
+    ),
+]
 
 
 def with_numbers(
-    solution: Solution, values: tuple[str, ...], state: tuple[str, ...], digits: int | None
+    solution: Solution, values: list[str] | None, state: list[str] | None, digits: int | None
 ) -> Solution:
     """The solution with the numbers beside it that were asked for, or that the file gives in full."""
     if not (values or state or solution.problem.written):
@@ -69,11 +57,11 @@ def with_numbers(
         from dynsolve.explain.forms import is_numeric
 
         if not is_numeric(solution.robot):
-            raise click.BadParameter("--digits needs numbers: --set, --at, or masses or values: in the file")
+            raise typer.BadParameter("--digits needs numbers: --set, --at, or masses or values: in the file")
     from dynsolve.solution.numbers.given import of_option
 
-    place = tuple(of_option(AT, state)) if state else None
-    return solution.beside(tuple(of_option(SET, values)), place, digits)
+    place = None if state is None else tuple(of_option(AT, state))
+    return solution.beside(tuple(of_option(SET, values or ())), place, digits)
 
 
 # Shared by the commands
@@ -82,23 +70,28 @@ STDIN = "-"
 STDIN_NAME = "<stdin>"
 
 
-def stems(context: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
-    """The bundled problems that begin so, for a shell that completes words."""
+def stems(incomplete: str) -> list[str]:
+    """The bundled problems that begin so, for a shell that completes words.
+
+    >>> stems("scara")
+    ['scara-rrpr']
+    """
     from dynsolve.problem.reader import bundled
 
     return [stem for stem in bundled() if stem.startswith(incomplete)]
 
 
-problem_arguments = click.argument(
-    "problem",
-    nargs=-1,
-    required=True,
-    help="Problem files, stems of bundled problems, or - for standard input.",
-    shell_complete=stems,
-)
-quiet_option = click.option(
-    "--quiet", "-q", is_flag=True, help="No warnings and no progress on standard error."
-)
+Problems = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="PROBLEM",
+        help="Problem files, stems of bundled problems, or - for standard input.",
+        show_default=False,
+        autocompletion=stems,
+    ),
+]
+
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No warnings and no progress on standard error.")]
 
 
 def read(name: str) -> Problem:
@@ -129,7 +122,7 @@ def standard_input() -> bytes:
 def say(findings: Iterable[Finding], word: str = "") -> None:
     """Print findings on standard error."""
     for finding in findings:
-        click.echo(described(finding, word), err=True)
+        typer.echo(described(finding, word), err=True)
 
 
 def described(finding: Finding, word: str = "") -> str:

@@ -16,12 +16,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
-import click
+import typer
 from msgspec import Struct
 
-from dynsolve.cli.numbers import STDIN, Names
+from dynsolve.cli.numbers import STDIN
 from dynsolve.errors import UsageError
 from dynsolve.render.files import SUFFIXES, Format, check_place, suffix_of, write_whole
 
@@ -38,15 +38,19 @@ Form = TypeVar("Form", bound=StrEnum)
 JOINED = (Format.TEXT, Format.JSON)
 """Forms of which one file may hold several."""
 
-format_option = click.option(
-    "--format", type=Names(Format), help="The form, where the suffix of -o does not say it."
-)
-output_option = click.option(
-    "-o",
-    "--output",
-    metavar="FILE",
-    help="Write to a file (.tex, .pdf, .html, .md, .json, .txt), or for each problem into a folder.",
-)
+FormatOption = Annotated[
+    Format | None,
+    typer.Option("--format", help="The form, where the suffix of -o does not say it."),
+]
+OutputOption = Annotated[
+    str | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="FILE",
+        help="Write to a file (.tex, .pdf, .html, .md, .json, .txt), or for each problem into a folder.",
+    ),
+]
 
 
 class Output(Struct, frozen=True):
@@ -234,7 +238,7 @@ def bar_or_lines(title: str, quiet: bool = False) -> Iterator[Advance | None]:
         elif now - said > EVERY:
             said = now
             left = (now - since) / (done - first) * (of - done)
-            click.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
+            typer.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
 
     yield line
 

@@ -5,25 +5,24 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-import click
+import typer
 from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.cli.numbers import (
-    Names,
-    at_option,
-    digits_option,
+    AtOption,
+    DigitsOption,
+    Problems,
+    Quiet,
+    SetOption,
     print_json,
-    problem_arguments,
-    quiet_option,
     read,
     say,
-    set_option,
     with_numbers,
 )
-from dynsolve.cli.output import Output, Writer, chosen_output, format_option, output_option
+from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer, chosen_output
 from dynsolve.errors import ExitCode, ExplanationWarning, ProblemError, UsageError
 from dynsolve.quantities.stages import Stage
 from dynsolve.render.files import Format
@@ -56,6 +55,36 @@ class MethodName(StrEnum):
     NEWTON_EULER = "newton-euler"
 
 
+JsonOption = Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")]
+StageOption = Annotated[
+    list[Stage] | None,
+    typer.Option(metavar="STAGE", help="Show this stage alone; may be given more than once."),
+]
+FromOption = Annotated[Stage | None, typer.Option("--from", metavar="STAGE", help="Show from this stage on.")]
+ToOption = Annotated[Stage | None, typer.Option("--to", metavar="STAGE", help="Show up to this stage.")]
+DetailOption = Annotated[DetailName, typer.Option(help="How much is shown.")]
+LatexOption = Annotated[bool, typer.Option("--latex", help="A LaTeX document.")]
+FragmentOption = Annotated[bool, typer.Option("--fragment", help="LaTeX for another document's \\input.")]
+PdfOption = Annotated[bool, typer.Option("--pdf", help="PDF, without TeX; needs the extra [pdf].")]
+HtmlOption = Annotated[bool, typer.Option("--html", help="One HTML file that needs no network.")]
+MarkdownOption = Annotated[bool, typer.Option("--markdown", help="Markdown for GitHub and Jupyter.")]
+StarOption = Annotated[bool, typer.Option("--star", help="Mark joint variables with a star everywhere.")]
+AbbreviateOption = Annotated[
+    AbbreviateName, typer.Option(help="Write long results in names, which are defined first.")
+]
+HintOption = Annotated[
+    Stage | None,
+    typer.Option(metavar="STAGE", help="What to do in this stage, without its result or a later one."),
+]
+EditionOption = Annotated[
+    int | None, typer.Option(min=1, max=2, help="The edition of Spong's book whose sections are named.")
+]
+MethodOption = Annotated[
+    MethodName,
+    typer.Option(help="The way to the forces: energies, or link by link Newton's and Euler's laws."),
+]
+
+
 class _View(Struct, frozen=True):
     """The part of a solution that is shown, and its form; a `hint` is shown instead of it."""
 
@@ -67,75 +96,29 @@ class _View(Struct, frozen=True):
     hint: Stage | None = None
 
 
-@click.command()
-@problem_arguments
-@click.option("--json", is_flag=True, help="JSON with everything, one object a line.")
-@click.option(
-    "--stage",
-    multiple=True,
-    metavar="STAGE",
-    type=Names(Stage),
-    help="Show this stage alone; may be given more than once.",
-)
-@click.option("--from", "first", metavar="STAGE", type=Names(Stage), help="Show from this stage on.")
-@click.option("--to", "last", metavar="STAGE", type=Names(Stage), help="Show up to this stage.")
-@click.option("--detail", type=Names(DetailName), default="normal", help="How much is shown.")
-@output_option
-@format_option
-@click.option("--latex", is_flag=True, help="A LaTeX document.")
-@click.option("--fragment", is_flag=True, help="LaTeX for another document's \\input.")
-@click.option("--pdf", is_flag=True, help="PDF, without TeX; needs the extra [pdf].")
-@click.option("--html", is_flag=True, help="One HTML file that needs no network.")
-@click.option("--markdown", is_flag=True, help="Markdown for GitHub and Jupyter.")
-@click.option("--star", is_flag=True, help="Mark joint variables with a star everywhere.")
-@click.option(
-    "--abbreviate",
-    type=Names(AbbreviateName),
-    default="auto",
-    help="Write long results in names, which are defined first.",
-)
-@set_option
-@at_option
-@digits_option
-@click.option(
-    "--hint",
-    metavar="STAGE",
-    type=Names(Stage),
-    help="What to do in this stage, without its result or a later one.",
-)
-@click.option(
-    "--edition", type=click.IntRange(1, 2), help="The edition of Spong's book whose sections are named."
-)
-@click.option(
-    "--method",
-    type=Names(MethodName),
-    default="lagrange",
-    help="The way to the forces: energies, or link by link Newton's and Euler's laws.",
-)
-@quiet_option
 def solve(
-    problem: tuple[str, ...],
-    json: bool,
-    stage: tuple[Stage, ...],
-    first: Stage | None,
-    last: Stage | None,
-    detail: DetailName,
-    output: str | None,
-    format: Format | None,
-    latex: bool,
-    fragment: bool,
-    pdf: bool,
-    html: bool,
-    markdown: bool,
-    star: bool,
-    abbreviate: AbbreviateName,
-    set_: tuple[str, ...],
-    at: tuple[str, ...],
-    digits: int | None,
-    hint: Stage | None,
-    edition: int | None,
-    method: MethodName,
-    quiet: bool,
+    problem: Problems,
+    json: JsonOption = False,
+    stage: StageOption = None,
+    first: FromOption = None,
+    last: ToOption = None,
+    detail: DetailOption = DetailName.NORMAL,
+    output: OutputOption = None,
+    format: FormatOption = None,
+    latex: LatexOption = False,
+    fragment: FragmentOption = False,
+    pdf: PdfOption = False,
+    html: HtmlOption = False,
+    markdown: MarkdownOption = False,
+    star: StarOption = False,
+    abbreviate: AbbreviateOption = AbbreviateName.AUTO,
+    set_: SetOption = None,
+    at: AtOption = None,
+    digits: DigitsOption = None,
+    hint: HintOption = None,
+    edition: EditionOption = None,
+    method: MethodOption = MethodName.LAGRANGE,
+    quiet: Quiet = False,
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
 
@@ -161,7 +144,7 @@ def solve(
 
 
 def _solve_all(
-    names: tuple[str, ...], output: Output, view: _View, solved: Callable[[str], Solution], quiet: bool
+    names: list[str], output: Output, view: _View, solved: Callable[[str], Solution], quiet: bool
 ) -> int:
     """Solve and show one problem after the other; of several a faulty one is told and passed over."""
     writer = Writer(output)
@@ -190,18 +173,18 @@ def _solve_all(
     return code
 
 
-def _stages(stage: tuple[Stage, ...], first: Stage | None, last: Stage | None) -> list[str] | None:
+def _stages(stage: list[Stage] | None, first: Stage | None, last: Stage | None) -> list[str] | None:
     """The stages that are shown, None for all."""
     order = list(Stage)
     if stage and (first or last):
-        raise click.BadParameter("--stage names stages one by one; it does not go with --from or --to")
+        raise typer.BadParameter("--stage names stages one by one; it does not go with --from or --to")
     if stage:
         return [name.value for name in stage]
     if not first and not last:
         return None
     start, end = order.index(first or order[0]), order.index(last or order[-1])
     if start > end:
-        raise click.BadParameter(f"--from {order[start].value} comes after --to {order[end].value}")
+        raise typer.BadParameter(f"--from {order[start].value} comes after --to {order[end].value}")
     return [name.value for name in order[start : end + 1]]
 
 
@@ -241,7 +224,7 @@ def _print_document(solution: Solution, view: _View, follows_another: bool) -> N
     from dynsolve.solution.documents import solution_document
 
     if follows_another:
-        click.echo()
+        typer.echo()
     if view.hint:
         document = solution.hint(view.hint)
     else:
