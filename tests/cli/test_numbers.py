@@ -124,7 +124,7 @@ def test_reports_carry_the_numbers(tmp_path: Path) -> None:
         (("--at", "theta1=30deg"), "--at: the state lacks L2"),
         (("--set", "L3=1"), "did you mean `L1`?"),
         (("--digits", "3"), "--digits needs numbers"),
-        (("--digits", "0", *SET), "greater than or equal to 1"),
+        (("--digits", "0", *SET), "is not in the range 1<=x<=15"),
     ],
 )
 def test_mistakes_are_said_with_their_remedy(words: tuple[str, ...], said: str) -> None:
