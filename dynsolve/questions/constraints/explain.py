@@ -13,7 +13,7 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import Detail, Line, Step, not_derived
 from dynsolve.explain.terms import (
     acting_side,
     driving_side,
@@ -53,9 +53,12 @@ def steps(context: Context) -> Iterator[Step]:
             result=(formula("𝐀̇_c = {rate}", rate=context.form("Ac_dot")),),
             detail=Detail.BRIEF,
         )
-    if "lambda" in wanted:
+    found = context.values["lambda"] if "lambda" in wanted else None
+    has_multipliers = found is not None and not isinstance(found, Skipped)
+    if isinstance(found, Skipped):
+        yield not_derived("lambda", "The multipliers", found.why)
+    elif has_multipliers:
         yield _multipliers(context)
-    has_multipliers = "lambda" in wanted and not isinstance(context.values["lambda"], Skipped)
     if has_multipliers or "reduced" in wanted:
         yield from _reduced(context)
 
