@@ -550,7 +550,8 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     task = task_of(forms.robot)
     choices = _choices(forms, solving)
     is_free = forms.target is None and len(set(forms.when)) <= 1 and _is_every_choice(forms, choices)
-    there_are = f"there are {count} solutions" if count > 1 else "there is one solution"
+    one, several = ("solution", "solutions") if forms.target is None else ("branch", "branches")  # of numbers
+    there_are = f"there are {count} {several}" if count > 1 else f"there is one {one}"
     if is_free and choices:
         two = "{q} has two values: {there_are}."
         each = "{q} have two values each, and every choice gives a solution: {there_are}."
@@ -559,18 +560,23 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     else:
         together = (f"{opened(there_are)}.",)
     starts = tuple(f"inverse_{what}_{number}" for what, number in _defined(solving))
+    table = None if is_free or not choices else _table(forms, choices)
+    shown = [node for step in solving.solved for node in forms.inverse_formulas.solutions(step)]
+    if table is not None:
+        shown = [cell for row in table.rows for cell in row if not isinstance(cell, str)]
     same = f"A coordinate that stands in a formula is that of the same {'solution' if is_free else 'line'}."
+    is_of_others = count > 1 and not names_in(*shown).isdisjoint(names)
     return Step(
         id=_id_of_branches(forms),
-        title="The solution" if count == 1 else f"The {count} solutions",
+        title=f"The {one}" if count == 1 else f"The {count} {several}",
         why=say(
             "{together} {each} is put into {task} to see that it gives what is asked. {same}",
             together=together,
             each="Each" if count > 1 else "It",
             task=task,
-            same=same if count > 1 else "",
+            same=same if is_of_others else "",
         ),
-        table=None if is_free or not choices else _table(forms, choices),
+        table=table,
         notes=(*_conditions(forms, task), *_free_coordinates(solving)),
         outcome=together if is_free and choices else (),
         normal=NOTED,
