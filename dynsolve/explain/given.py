@@ -435,11 +435,12 @@ def _tensors(forms: Forms) -> Prose:
         point: Inline = letters.o(body.link if body.about == "origin" else ends(forms.robot, body)[0])
         assert body.inertia is not None
         told += say(
-            "The inertia tensor of {body} about {point} along {axes} is {tensor}. ",
+            "The inertia tensor of {body} about {point} along {axes}{rest} is {tensor}. ",
             body=name_of(body),
             point=point if is_moved(body) else "its mass centre",
             axes=f"the axes of frame {body.link}" if has_link_axes(body) else "its own axes",
             tensor=forms.of(body.inertia),
+            rest=", with 0 for the moments that are not given," if len(_nonzero(body)) < 3 else "",
         )
     return told
 
