@@ -209,11 +209,14 @@ def _local_center(
 
 
 def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols: int, uneven: float) -> float:
-    """The multiple of a direction that comes nearest to a wanted vector; were it 0, one of `usual` length."""
+    """How far along a direction a wanted vector reaches; were it 0, one of `usual` length.
+
+    It is positive, as letters are: -b lies on the other side than b.
+    """
     square = length(direction) ** 2
     if square < NEAR:
         return 0.5
-    amount = sum(a * b for a, b in zip(direction, wanted, strict=True)) / square
+    amount = abs(sum(a * b for a, b in zip(direction, wanted, strict=True))) / square
     if abs(amount) * length(direction) > _OFF_AXIS / 2:
         return amount
     if symbols > 1:
