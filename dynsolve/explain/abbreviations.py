@@ -331,7 +331,8 @@ def _assembled(
     taken = {*forms.robot.ring.parameters, *coordinates}
     name = partial(name_recurring, list(parts.values()), whole=long, decimal=is_numeric(forms.robot))
     sums, used = name(free_names(RECURRING, taken))
-    if len(sums) == 1 and SINGLE not in taken:
+    taken |= {body.name for body in forms.robot.bodies}
+    if len(sums) == 1 and SINGLE not in taken and not forms.robot.questions.constraints:  # 𝐡 of these
         (one,), used = name(iter([Symbol(SINGLE)]))
         minus, written = negated(one.name), dict(zip(parts, used, strict=True))
         shown = [written["c", *ijk] for ijk in as_shown(symbols)]
