@@ -328,11 +328,10 @@ def _assembled(
     parts |= {("c", *ijk): symbol for ijk, symbol in symbols.items()}
     if potential is not None:
         parts["P",] = potential
-    taken = {*forms.robot.ring.parameters, *coordinates}
+    taken = names_taken(forms.robot)
     name = partial(name_recurring, list(parts.values()), whole=long, decimal=is_numeric(forms.robot))
     sums, used = name(free_names(RECURRING, taken))
-    taken |= {body.name for body in forms.robot.bodies}
-    if len(sums) == 1 and SINGLE not in taken and not forms.robot.questions.constraints:  # 𝐡 of these
+    if len(sums) == 1 and SINGLE not in taken:
         (one,), used = name(iter([Symbol(SINGLE)]))
         minus, written = negated(one.name), dict(zip(parts, used, strict=True))
         shown = [written["c", *ijk] for ijk in as_shown(symbols)]
@@ -362,6 +361,12 @@ def _assembled(
         P=short.get(("P",)),
         forms={"D": D, "C": C, "g": g, "Cqd": Cqd, **of_long},
     )
+
+
+def names_taken(robot: Robot) -> set[str]:
+    """What already means something: parameters, coordinates, bodies, and h where constraints are h = 0."""
+    own = {SINGLE} if robot.questions.constraints else set()
+    return {*robot.ring.parameters, *robot.ring.names, *(body.name for body in robot.bodies), *own}
 
 
 def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
