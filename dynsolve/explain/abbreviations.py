@@ -55,6 +55,7 @@ from dynsolve.notation.tree import (
     with_children,
 )
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]
 
