@@ -563,7 +563,7 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     table = None if is_free or not choices else _table(forms, choices)
     shown = [node for step in solving.solved for node in forms.inverse_formulas.solutions(step)]
     if table is not None:
-        shown = [cell for row in table.rows for cell in row if not isinstance(cell, str)]
+        shown = [cell for row in table.rows for cell in row if isinstance(cell, Node)]
     same = f"A coordinate that stands in a formula is that of the same {'solution' if is_free else 'line'}."
     is_of_others = count > 1 and not names_in(*shown).isdisjoint(names)
     return Step(
