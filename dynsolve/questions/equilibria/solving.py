@@ -40,6 +40,7 @@ from itertools import combinations, product
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.inequality import Bound, independent
@@ -121,13 +122,23 @@ class Curvature(Struct, frozen=True):
 
     def points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         """The quarter turns that a case allows, each with its stability where the case `exists`."""
+        inside = [Bound(bound.value) for bound in exists]
+        known = {point.values: point for point in self._points(alternative, inside)}
+        for point in self._points(alternative, exists):
+            told = known.get(point.values, point)
+            if told == point or told.stability is not Stability.STABLE:
+                yield point
+            else:  # where a bound is an equality nothing is known
+                yield replace(point, conditions=tuple(inside), falls=False, is_open=False)
+
+    def _points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         if 2 ** len(alternative) > MOST_POINTS:
             return
         turns = [found for one in alternative if (found := quarter_turns(one))]
         others = [one for one in alternative if not quarter_turns(one)]
         known = [turn for one in others if (turn := turn_of(one.expr)) is not None and turn.is_one_sided]
         nonzero = [f for turn in known for f in self.signs.open_factors(turn.cosine + turn.sine)]
-        signs = self.signs.beside(*(Bound(bound.value) for bound in exists), nonzero=nonzero)
+        signs = self.signs.beside(*exists, nonzero=nonzero)
         ring = self.second.ring
         free = [
             k

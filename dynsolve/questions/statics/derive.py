@@ -61,7 +61,7 @@ def rules(robot: Robot) -> Iterator[Rule]:
     for name, load in zip(parts, robot.questions.loads, strict=True):
         yield _load(robot, name, load)
     yield Rule(FOR_EVERY_Q, parts, lambda *found: total(robot, found))
-    yield Rule("Q", (FOR_EVERY_Q,), at.matrix)
+    yield Rule("Q", parts, lambda *found: at.matrix(total(robot, found)))
     if robot.bodies:
         yield Rule("tau_static", ("g", "Q"), lambda g, Q: holding_torques(at.matrix(g), Q))
     else:

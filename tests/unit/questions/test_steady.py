@@ -50,7 +50,7 @@ def test_an_arm_that_is_turned_about_its_waist() -> None:
     assert found[""] == [["g + l*W**2*sin(q2) = 0"], ["cos(q2) = 0"]]
     assert found["_exist"] == [["l*W**2 >= g"], []]
     assert found["_stability"] == [
-        [{"stability": "stable"}],
+        [{"stability": "undecided", "stable_if": ["l*W**2 > g"]}],
         [{"q2": "pi/2", "stability": "unstable"},
          {"q2": "-pi/2", "stability": "undecided", "stable_if": ["g > l*W**2"],
           "unstable_if": ["l*W**2 > g"]}],
