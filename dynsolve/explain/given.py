@@ -284,8 +284,11 @@ def _axes(normals: Normals) -> Iterator[Prose]:
 
 
 def _flat(entries: Iterable[Node]) -> Node:
-    """(v_x, v_y): a column as a line of text can hold it."""
-    return Row((Words("("), side_by_side(list(entries)), Words(")")))
+    """(v_x, v_y): a column as a line of text can hold it, its commas nearer than those of a list."""
+    parts: list[Node] = []
+    for entry in entries:
+        parts += [Words(",\N{NO-BREAK SPACE}"), entry] if parts else [entry]
+    return Row((Words("("), *parts, Words(")")))
 
 
 def _vector(forms: Forms, entries: Sequence[Expr], unit: str) -> Node:

@@ -187,9 +187,9 @@ def _told(line: Line, style: Style) -> Line:
     if sines:  # the first sine and cosine, and the first of a sum, or else the next
         of_sums = [node for node in sines if isinstance(node.argument, Sum)]
         examples = dict.fromkeys([*sines[:2], *(of_sums or sines[2:])[:2]])
-        told = side_by_side([equation(node, _written_out(node)) for node in examples])
-        is_whole = len(examples) == len(sines)
-        return replace(line, meaning=told if is_whole else Row((told, Words(", and so on"))))
+        told: list[Node] = [equation(node, _written_out(node)) for node in examples]
+        told += [Words("and so on")] if len(examples) < len(sines) else []
+        return replace(line, meaning=side_by_side(told))
     changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
     if changed:
         spong = GREEK.get(changed[0].base, changed[0].base)

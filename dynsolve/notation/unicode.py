@@ -202,7 +202,7 @@ class UnicodePrinter(FormulaPrinter):
         return f"{text}°" if text else f"({node.p}/{node.q})°"
 
     def _words(self, node: Words) -> str:
-        return printable(node.text)
+        return printable(node.text.replace("\N{NO-BREAK SPACE}", " "))
 
     def _integral(self, node: Integral) -> str:
         sign = self._scripted("∫", self._index(node.lower), self._index(node.upper))

@@ -276,7 +276,7 @@ class FormulaSplitter:
 
 def _is_comma(node: Node) -> bool:
     """Whether this stands between formulas that are side by side."""
-    return isinstance(node, Words) and node.text == ", "
+    return isinstance(node, Words) and node.text in (", ", ",\N{NO-BREAK SPACE}")
 
 
 def together(pieces: Sequence[Piece], most: float, join: Callable[[Sequence[str]], str]) -> list[Piece]:
