@@ -37,7 +37,7 @@ MOST_PRODUCTS = 50_000
 
 TOO_LARGE = "multiplied out they are too large to be read"
 
-SINGULAR = "the inertia matrix has no inverse: a coordinate moves nothing that has mass"
+SINGULAR = "the inertia matrix has no inverse: its determinant is 0 in every configuration"
 
 CONSTRAINED = "the forces of the constraints act, too: the accelerations follow with the multipliers"
 
