@@ -570,11 +570,11 @@ def _linear_parts(m: Mechanism, s: Sentence) -> bool:
 # tasks
 
 
-@says("This is {} without the row of <x|y|z>, zero in every configuration.")
+@says("This is {} without the row[s] of #&, zero in every configuration.")
 def _row_is_zero(m: Mechanism, s: Sentence) -> bool:
-    k = "xyz".index(s.words[0])
+    left_out = ["xyz".index(axis) for axis in re.findall(r"\b[xyz]\b", s.words[0])]
     whole = [(m.value(s.formulas[0], p), m.result("Jr", p)) for p in m.points()]
-    return all(near(J[k], 0) and near(np.delete(J, k, 0), Jr) for J, Jr in whole)
+    return all(near(J[left_out], 0) and near(np.delete(J, left_out, 0), Jr) for J, Jr in whole)
 
 
 @says("The task is the position of the tip[, {}], of which these are the coordinates that move.")
