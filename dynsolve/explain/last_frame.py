@@ -108,8 +108,8 @@ def at_zero_angles(context: Context) -> Prose:
     known = [value for value in values if value is not None]
     entries: list[Node] = place
     if len(known) == len(place):
-        each = (dict.fromkeys((entry, _decimal(value))) for entry, value in zip(place, known, strict=True))
-        entries = [equation(*members) for members in each]
+        pairs = zip(place, map(_decimal, known), strict=True)
+        entries = [entry if entry == value else equation(entry, value) for entry, value in pairs]
     return say(
         "To check: with all joint angles 0 the entries of {end} are {entries}{unit}.",
         end=letters.o(last),
