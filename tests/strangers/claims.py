@@ -335,7 +335,8 @@ def _no_gravity_terms(m: Mechanism, s: Sentence) -> bool:
 def _does_not_occur(m: Mechanism, s: Sentence) -> bool:
     energy = {"ℒ": "L", "𝒦": "K", "𝒫": "P"}
     symbols = tuple(node for node in s.formulas if isinstance(node, tree.Symbol))
-    letter = s.words[1][0] if s.words[1][0] in energy else to_unicode(s.formulas[len(symbols)])
+    behind = s.formulas[s.formulas.index(symbols[-1]) + 1 :]  # words before it may hold formulas, too
+    letter = s.words[1][0] if s.words[1][0] in energy else to_unicode(behind[0])
     return all(not m.changes(lambda p: m.result(energy[letter], p), (q,)) for q in names_of(symbols))
 
 
