@@ -242,16 +242,48 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else text[:37] + "..."
 
 
+CALLED = {
+    "name": ("title",),
+    "robot": ("title", "dh"),
+    "joints": ("dh",),
+    "table": ("dh",),
+    "links": ("masses", "dh"),
+    "bodies": ("masses",),
+    "at": ("center", "through"),
+    "com": ("center",),
+    "cog": ("center",),
+    "position": ("center", "at"),
+    "m": ("mass",),
+    "tensor": ("inertia",),
+    "params": ("values",),
+    "numbers": ("values",),
+    "parameters": ("values",),
+    "points": ("marks",),
+    "wanted": ("find",),
+    "answers": ("find",),
+    "damping": ("friction", "dampers"),
+    "offset": ("d",),
+    "length": ("a",),
+    "twist": ("alpha",),
+}
+"""What other files call a key: where it is none itself, the first of these that is."""
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """The known word that was probably meant, or nothing where none is near.
 
     >>> nearest("mas", ("mass", "link")), nearest("zx", ("xx", "xz")), nearest("foo", ("mass",))
     ('mass', 'xz', '')
+    >>> nearest("com", ("mass", "center")), nearest("bodies", ("masses", "model"))
+    ('center', 'masses')
     """
     folded = {name.lower(): name for name in known}
     word = word.lower()[:60]
     if word in folded:
         return folded[word]
+    for key in CALLED.get(word, ()):
+        if key in folded:
+            return key
     if word[::-1] in folded:
         return folded[word[::-1]]
     close = get_close_matches(word, folded, 1, 0.6)

@@ -219,7 +219,7 @@ class _Star(Struct, frozen=True):
 
 def read_table(faults: Faults, fields: Fields, modified: bool) -> DHTable:
     """The table under `dh:` with the order of `coordinates:`; everything wrong with it is reported."""
-    if "dh" not in fields:
+    if fields.lacks("dh"):
         help = f"add `dh:` with one row per frame; {_EXAMPLE}; or the joint axes of a drawing with `axes:`"
         faults.error((0, 0), "the file has no `dh` table", help)
     nodes = items(faults, fields.get("dh"), "dh", f"one row per frame; {_EXAMPLE}")

@@ -26,6 +26,7 @@ TABLE = {
     "an empty table": ("«dh»: []", "no rows", "{theta: theta1*"),
     "no star": ("«dh»:\n  - {theta: theta1, d: L1}", "no joint variable", "theta1*"),
     "unknown key": ("«mass»: []\n" + PLANAR, "unknown key `mass`", "did you mean `masses`?"),
+    "what others call a key": ("«bodies»: []\n" + PLANAR, "unknown key `bodies`", "did you mean `masses`?"),
     "unknown column": (row("{theta: q1*, «alfa»: 90deg}"), "unknown key `alfa`", "did you mean `alpha`?"),
     "no blank after the colon": (row("{theta: q1*, «d:L1»}"), "a blank is missing", "`d: L1`"),
     "a row as a word": (row("«q1*»"), "not a mapping but `q1*`", "{theta: theta1*"),
