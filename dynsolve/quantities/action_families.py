@@ -42,6 +42,7 @@ FRICTION = Family(
     unit="N m",
     spellings=("tauf", "tauF", "taufric", "taufriction", "F", "Ff", "fric", "Fqd", "Fvqd"),
     brought_by="friction",
+    terms=("friction force", "friction torque", "damping", "dissipation"),
 )
 
 FRICTION_ENTRY = Family(

@@ -119,7 +119,8 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
 
     `spellings` are what students write for it besides its name, `fallback_spellings` what they may
     write where it means nothing else; a family without `is_answer` is none of the answers.
-    `aliases` are the further names that `find` and `marks` take.
+    `aliases` are the further names that `find` and `marks` take; `terms` what the field calls it, which an
+    error takes for a name that was meant.
 
     `needs` is what a file must give for there to be any: `velocity`, `linearize`, ... (`owners.Owners.of`);
     `holds_forces` says that a result holds the generalized forces by their names.
@@ -145,6 +146,7 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     spellings: tuple[str, ...] = ()
     fallback_spellings: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
     needs: str = ""
     holds_forces: bool = False
     brought_by: str = ""

@@ -29,6 +29,7 @@ RC = Family(
     json="r_c",
     dimension=LENGTH,
     spellings=("pc{b}", "oc{b}", "rm{b}"),
+    terms=("mass centre", "mass center", "center of mass", "centre of mass", "com"),
 )
 
 R = Family(
@@ -80,6 +81,7 @@ V = Family(
     json="v",
     dimension=VELOCITY,
     spellings=LINEAR,
+    terms=("velocity", "velocities", "linear velocity"),
 )
 
 W = Family(
@@ -93,6 +95,7 @@ W = Family(
     dimension=PER_SECOND,
     unit="rad/s",
     spellings=ANGULAR,
+    terms=("omega", "angular velocity", "angular velocities"),
 )
 
 I_BODY = Family(
@@ -117,6 +120,7 @@ I = Family(  # noqa: E741  the book's symbol
     dimension=INERTIA,
     spellings=("I0{b}", "Ibase{b}", "I{b}base"),
     needs_rotation=True,
+    terms=("inertia tensor", "tensor"),
 )
 
 FAMILIES: tuple[Family, ...] = (RC, R, JV_BODY, JW_BODY, V, W, I_BODY, I)
@@ -133,6 +137,7 @@ DH = Family(
     shape=("n", 4),
     letter=of_robot(letters.DH),
     spellings=("DHtable", "table"),
+    terms=("denavit hartenberg", "dh table", "dh parameters", "table"),
 )
 """The Denavit-Hartenberg table; no rule gives it, and its rows need not be those of the robot."""
 
@@ -143,6 +148,7 @@ A = Family(
     shape=(4, 4),
     letter=lambda robot, i: letters.A(i),
     json="A",
+    terms=("transformation", "transformations", "link transformations"),
 )
 
 H = Family(
@@ -153,6 +159,7 @@ H = Family(
     letter=letters.H,
     json="H",
     spellings=("T{i}", "H0{i}", "T0{i}"),
+    terms=("forward kinematics", "fk", "pose", "homogeneous transformation"),
 )
 
 # -- the Jacobian of the end of the arm ------------------------------------------------------------
@@ -168,6 +175,7 @@ JV = Family(
     dimension_is_told=False,
     spellings=("JP", "Jp"),
     part_of="J",
+    terms=("linear jacobian", "linear velocity jacobian", "position jacobian"),
 )
 
 JW = Family(
@@ -180,9 +188,16 @@ JW = Family(
     dimension_is_told=False,
     spellings=("Jomega", "JO", "JOmega"),
     part_of="J",
+    terms=("angular jacobian", "angular velocity jacobian", "orientation jacobian"),
 )
 
-J = Family(name="J", stage=Stage.JACOBIAN, shape=(6, "n"), letter=of_robot(letters.J))
+J = Family(
+    name="J",
+    stage=Stage.JACOBIAN,
+    shape=(6, "n"),
+    letter=of_robot(letters.J),
+    terms=("jacobian", "jacobian matrix", "manipulator jacobian", "jacobi"),
+)
 
 KINEMATICS_FAMILIES: tuple[Family, ...] = (H0, DH, A, H, JV, JW, J)
 """The records above, in their order."""

@@ -87,6 +87,7 @@ TAU = Family(
     per=("row",),
     unit="N m",
     spellings=("tauvec",),
+    terms=("torque", "joint torque", "force", "generalized force", "equations of motion", "eom", "dynamics"),
 )
 
 FAMILIES: tuple[Family, ...] = (DLDQD, DDT, DLDQ, FORCE, TAU)
@@ -161,6 +162,7 @@ P = Family(
         *each(_POTENTIAL, "pot potential potentiell potensiell"),
         *each("P U V", _IN_ALL),
     ),
+    terms=("potential", "potential energy", "potential energies"),
 )
 
 K = Family(
@@ -175,6 +177,7 @@ K = Family(
         *each("E W K T", "kin kinetic kinetisch kinetisk"),
         *each("K T", _IN_ALL),
     ),
+    terms=("kinetic", "kinetic energy", "kinetic energies"),
 )
 
 L = Family(
@@ -185,6 +188,7 @@ L = Family(
     dimension=ENERGY,
     unit="J",
     spellings=("Lagrangian",),
+    terms=("lagrange", "lagrangian", "lagrange function"),
 )
 
 OF_BODIES: tuple[Family, ...] = (P_BODY, KV, KW, K_BODY)
@@ -204,6 +208,7 @@ D = Family(
     per=("row", "column"),
     spellings=("M", "B", "Dq", "Mq"),
     aliases=("M", "B"),
+    terms=("inertia matrix", "mass matrix", "inertia"),
 )
 
 D_ENTRY = Family(
@@ -229,6 +234,7 @@ C_SYMBOL = Family(
     spellings=each("C Gamma", "{i}{j}{k}"),
     aliases=("C{i}{j}{k}",),
     part_of="christoffel",
+    terms=("christoffel", "christoffel symbols"),
 )
 
 C = Family(
@@ -241,6 +247,7 @@ C = Family(
     per=("row", "column"),
     dimension_is_told=False,
     spellings=("S",),
+    terms=("coriolis", "coriolis matrix", "centrifugal", "coriolis and centrifugal"),
 )
 
 C_ENTRY = Family(
@@ -265,6 +272,7 @@ G = Family(
     unit="N m",
     spellings=("G", "phi", "gvec"),
     aliases=("G",),
+    terms=("gravity", "gravity vector", "gravitational", "gravity terms", "gravity torques"),
 )
 
 G_ENTRY = Family(

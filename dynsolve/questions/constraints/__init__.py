@@ -21,6 +21,7 @@ AC = Family(
     shape=("c", "n"),
     letter=of_robot(letters.A_C),
     spellings=("A", "Jc", "Jh", "Jlambda"),
+    terms=("constraint jacobian", "constraint matrix"),
 )
 
 
@@ -40,6 +41,7 @@ LAMBDA = Family(
     letter=of_robot(letters.LAMBDA),
     spellings=("lam", "lambda_", "mu"),
     holds_forces=True,
+    terms=("multiplier", "multipliers", "lagrange multipliers"),
 )
 
 

@@ -6,7 +6,11 @@ from dynsolve.quantities.family import Family, Kind
 from dynsolve.quantities.stages import Stage
 
 DEFINITE = Family(
-    name="definite", stage=Stage.DEFINITE, kind=Kind.VERDICTS, spellings=("positivedefinite", "posdef")
+    name="definite",
+    stage=Stage.DEFINITE,
+    kind=Kind.VERDICTS,
+    spellings=("positivedefinite", "posdef"),
+    terms=("positive definite", "definiteness"),
 )
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))

@@ -14,7 +14,11 @@ from dynsolve.quantities.family import Family, Kind, of_robot
 from dynsolve.quantities.stages import Stage
 
 EQUILIBRIA = Family(
-    name="equilibria", stage=Stage.EQUILIBRIA, kind=Kind.EQUATIONS, spellings=("equilibrium",)
+    name="equilibria",
+    stage=Stage.EQUILIBRIA,
+    kind=Kind.EQUATIONS,
+    spellings=("equilibrium",),
+    terms=("equilibrium", "equilibrium points", "rest positions"),
 )
 
 
@@ -30,6 +34,7 @@ LINEAR_A = Family(
     letter=of_robot(letters.LINEAR_A),
     spellings=("A", "Alin"),
     needs="linearize",
+    terms=("linearization", "linearisation", "state matrix", "linearize"),
 )
 
 
@@ -40,6 +45,7 @@ LINEAR_B = Family(
     letter=of_robot(letters.LINEAR_B),
     spellings=("B", "Blin"),
     needs="linearize",
+    terms=("input matrix",),
 )
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))

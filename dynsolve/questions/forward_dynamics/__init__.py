@@ -13,6 +13,7 @@ QDD_FORWARD = Family(
     letter=of_robot(letters.QDD),
     spellings=("forwarddynamics", "qddforward", "qdd", "qddot", "ddq"),
     holds_forces=True,
+    terms=("forward dynamics", "acceleration", "accelerations"),
 )
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))

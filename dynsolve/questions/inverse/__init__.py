@@ -29,7 +29,13 @@ from __future__ import annotations
 from dynsolve.quantities.family import Family, Kind
 from dynsolve.quantities.stages import Stage
 
-INVERSE = Family(name="inverse", stage=Stage.INVERSE, kind=Kind.BRANCHES, spellings=("ik",))
+INVERSE = Family(
+    name="inverse",
+    stage=Stage.INVERSE,
+    kind=Kind.BRANCHES,
+    spellings=("ik",),
+    terms=("inverse kinematics", "ik"),
+)
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""

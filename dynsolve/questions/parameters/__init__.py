@@ -12,6 +12,7 @@ A = Family(
     shape=("any", 1),
     letter=of_robot(letters.PARAMETERS),
     spellings=("pi", "avec"),
+    terms=("parameters", "dynamic parameters", "base parameters"),
 )
 
 
@@ -21,6 +22,7 @@ Y = Family(
     shape=("n", "any"),
     letter=of_robot(letters.REGRESSOR),
     spellings=("W",),
+    terms=("regressor", "regressor matrix"),
 )
 
 

@@ -13,6 +13,7 @@ QD = Family(
     letter=of_robot(letters.QD),
     spellings=("qdot", "dq"),
     needs="velocity",
+    terms=("joint velocity", "joint velocities", "joint rates"),
 )
 
 
@@ -23,6 +24,7 @@ QDD = Family(
     letter=of_robot(letters.QDD),
     spellings=("qddot", "ddq"),
     needs="acceleration",
+    terms=("joint acceleration", "joint accelerations"),
 )
 
 
@@ -33,6 +35,7 @@ NULLSPACE = Family(
     shape=("n", "any"),
     letter=of_robot(letters.NULLSPACE),
     spellings=("N", "null", "kernel", "ker"),
+    terms=("null space", "kernel"),
 )
 
 
@@ -43,6 +46,7 @@ RANGESPACE = Family(
     shape=("m", "any"),
     letter=of_robot(letters.RANGESPACE),
     spellings=("range", "image", "R"),
+    terms=("range space", "image"),
 )
 
 

@@ -9,7 +9,13 @@ from __future__ import annotations
 from dynsolve.quantities.family import Family, Kind
 from dynsolve.quantities.stages import Stage
 
-SINGULAR = Family(name="singular", stage=Stage.SINGULAR, kind=Kind.EQUATIONS, spellings=("singularities",))
+SINGULAR = Family(
+    name="singular",
+    stage=Stage.SINGULAR,
+    kind=Kind.EQUATIONS,
+    spellings=("singularities",),
+    terms=("singularity", "singularities", "singular configurations"),
+)
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""

@@ -30,6 +30,7 @@ Q = Family(
     unit="N m",
     dimension_is_told=False,
     spellings=("Qext", "tauext"),
+    terms=("external forces", "external torques"),
 )
 
 
@@ -43,6 +44,7 @@ TAU_STATIC = Family(
     unit="N m",
     dimension_is_told=False,
     spellings=("taus", "taust", "tau0", "tau"),
+    terms=("static torque", "static torques", "statics", "holding torques"),
 )
 
 

@@ -95,6 +95,7 @@ R = Family(
     letter=of_robot(letters.TASK),
     spellings=("p", "pe", "ptip"),
     needs="function",
+    terms=("task", "task function"),
 )
 
 
@@ -111,7 +112,12 @@ R_ENTRY = Family(
 
 
 JR = Family(
-    name="Jr", stage=Stage.TASK, shape=("m", "n"), letter=of_robot(letters.J_TASK), spellings=("J", "Ja")
+    name="Jr",
+    stage=Stage.TASK,
+    shape=("m", "n"),
+    letter=of_robot(letters.J_TASK),
+    spellings=("J", "Ja"),
+    terms=("task jacobian",),
 )
 
 
@@ -129,6 +135,7 @@ DET = Family(
     stage=Stage.TASK,
     letter=of_robot(letters.DET),
     spellings=("detJ", "detJr", "detJJT", "Delta"),
+    terms=("determinant", "jacobian determinant"),
 )
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))

@@ -12,6 +12,7 @@ LAMBDA = Family(
     shape=("m", "m"),
     letter=of_robot(letters.TASK_INERTIA),
     spellings=("Mr", "Dr", "Mp"),
+    terms=("task inertia", "operational space inertia"),
 )
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
