@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -30,7 +31,7 @@ from dynsolve.explain.mass_centers import Place, ends, is_given_by, other_end, p
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles, units_of_values
 from dynsolve.explain.textbook_letters import Line
-from dynsolve.explain.writing import and_joined, listed, machine, measured, name_of, side_by_side
+from dynsolve.explain.writing import agreeing, and_joined, listed, machine, measured, name_of, side_by_side
 from dynsolve.notation import tree
 from dynsolve.notation.characters import split
 from dynsolve.notation.printing import decimal_text
@@ -53,7 +54,8 @@ from dynsolve.notation.tree import (
 from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import quantities
+from dynsolve.quantities.families import DH
+from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.owners import derived_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
@@ -71,39 +73,6 @@ MOST_BODIES = 4
 _PROPERTIES = "mass, mass centre and inertia tensor"
 
 _COUNTS = {1: "one rigid body", 2: "two rigid bodies", 3: "three rigid bodies", 4: "four rigid bodies"}
-
-CALLED = {
-    "K": "the kinetic energy",
-    "P": "the potential energy",
-    "L": "the Lagrangian",
-    "tau": "the generalized forces",
-    "D": "the inertia matrix",
-    "C": "the matrix of Coriolis and centrifugal terms",
-    "g": "the gravity terms",
-    "Ps": "the potential energy of the springs",
-    "Km": "the kinetic energy of the rotors",
-    "friction": "the friction",
-    "DH": "the Denavit-Hartenberg parameters",
-    "J": "the Jacobian",
-    "r": "the task vector",
-    "Jr": "the Jacobian of the task",
-    "det": "the determinant",
-    "singular": "the singular configurations",
-    "inverse": "the inverse kinematics",
-    "qd": "the rates of the coordinates",
-    "qdd": "the accelerations of the coordinates",
-    "Y": "the regressor",
-    "a": "the dynamic parameters",
-    "equilibria": "the equilibria",
-    "balance": "the conditions for balance",
-    "Ac": "the matrix of the constraints",
-    "Ac_dot": "its rate",
-    "lambda": "the multipliers",
-    "reduced": "the equations without multipliers",
-    "Lambda": "the inertia matrix of the task",
-    "definite": "which of the matrices can be inertia matrices",
-}
-"""What whole answers are called; others are told by their letters."""
 
 
 def statement(
@@ -124,10 +93,14 @@ def statement(
 
 def to_be_found(forms: Forms, problem: Problem) -> Iterator[Text]:
     """What is asked, in a sentence."""
-    there = (name for name in problem.find if _is_there(forms.robot, name))
-    found = [called for name in there if (called := _called(forms, name))]
-    if not found and forms.robot.has_table:
-        found = [(letters.H(forms.robot, len(forms.robot.joints)),), _called(forms, "J")]
+    robot = forms.robot
+    known, stages = quantities(robot), derived_stages(robot)
+    there = [known[name] for name in problem.find if known[name].family.stage in stages]
+    found = [
+        in_words(robot, tuple(members)) for _, members in groupby(there, key=lambda quantity: quantity.family)
+    ]
+    if not found and robot.has_table:
+        found = [(letters.H(robot, len(robot.joints)),), in_words(robot, (known["J"],))]
     if found:
         yield Text(("To be found: ", *listed(found), "."))
 
@@ -195,20 +168,20 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
     yield _values(robot, problem.written, problem.units)
 
 
-def _is_there(robot: Robot, name: str) -> bool:
-    """Whether the robot has a result: without masses there is no inertia matrix."""
-    quantity = quantities(robot).get(name)
-    return quantity is None or quantity.family.stage in derived_stages(robot)
+def in_words(robot: Robot, members: Sequence[Quantity]) -> Prose:
+    """Quantities of one family in words: the inertia matrix 𝐃; the matrices 𝐀₁ and 𝐀₂ of the rows.
 
-
-def _called(forms: Forms, name: str) -> Prose:
-    """the inertia matrix D; nothing for what has neither words nor a letter"""
-    try:
-        letter: Prose = (quantities(forms.robot)[name].letter(forms.robot),) if name != "DH" else ()
-    except LookupError:
-        letter = ()
-    words = CALLED.get(name, "")
-    return (words, " ", *letter) if words and letter else (words,) if words else letter
+    >>> from dynsolve.solution.solution import load
+    >>> robot = load("planar-2r").robot
+    >>> in_words(robot, [quantities(robot)[name] for name in ("A1", "A2")])[::2]
+    ('the matrices ', ' and ', ' of the rows of the table')
+    """
+    family = members[0].family
+    before, filled, after = agreeing(family.called, len(members)).partition("{}")
+    if not family.has_letter or family is DH:
+        return (f"{before.rstrip()}{after}",)
+    own = listed([(quantity.letter(robot),) for quantity in members])
+    return (before if filled else f"{before} ", *own, after)
 
 
 # -- the table, the axes of a drawing, the energies ------------------------------------------------

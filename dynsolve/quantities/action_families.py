@@ -9,6 +9,7 @@ from dynsolve.robot.units import ENERGY
 
 PS = Family(
     name="Ps",
+    called="the potential energy of the springs",
     stage=Stage.ENERGY,
     letter=of_robot(letters.PS),
     json="Ps",
@@ -21,6 +22,7 @@ PS = Family(
 
 KM = Family(
     name="Km",
+    called="the kinetic energy of the rotors",
     stage=Stage.ENERGY,
     letter=of_robot(letters.KM),
     json="Km",
@@ -33,6 +35,7 @@ KM = Family(
 
 FRICTION = Family(
     name="friction",
+    called="the friction",
     stage=Stage.TORQUE,
     shape=("n", 1),
     letter=of_robot(letters.FRICTION),
@@ -47,6 +50,7 @@ FRICTION = Family(
 
 FRICTION_ENTRY = Family(
     name="friction{i}",
+    called="the entry|entries {} of the friction",
     owner=Owner.COORDINATE,
     rule="friction",
     stage=Stage.TORQUE,

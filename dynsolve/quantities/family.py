@@ -109,7 +109,8 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     the rules of the derivation that give them (an entry has that of its matrix).
     `kind` is what it is, `stage` where it is derived and explained; `capped_in` the stage that its marks
     count in, where that is another.  `shape` is rows and columns, None for a scalar.
-    `letter` is what it is set with; `json` its key in `results`, empty for what is not
+    `called` is what it is called in words, "one|several" where members differ, `{}` where the letters stand
+    if not behind.  `letter` is what it is set with; `json` its key in `results`, empty for what is not
     exported.
 
     The dimension of an entry is `dimension` over that of the coordinates that `per`
@@ -136,6 +137,7 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     rule: str = ""
     shape: tuple[Size, Size] | None = None
     capped_in: Stage | None = None
+    called: str = ""
     letter: LetterMaker = _no_letter
     json: str = ""
     dimension: Dimension | None = None

@@ -40,7 +40,7 @@ from dynsolve.document import (
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.given import CALLED, at_the_state, holds_at_state, statement, to_be_found
+from dynsolve.explain.given import at_the_state, holds_at_state, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID
@@ -369,7 +369,7 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     step = next((step for step in steps if name in (step.id, *step.also)), None)
     if by_letter or step is None:
         return
-    called = CALLED.get(name, step.title)
+    called = quantity.family.called.replace(" {}", "") if quantity is not None else step.title
     steady = robot.questions.model.steady if name == "equilibria" else ()
     kept = side_by_side([equation(Symbol(of, 1), value) for of, value in steady]) if steady else ""
     of_motion = say(" with {kept}", kept=kept) if steady else ""

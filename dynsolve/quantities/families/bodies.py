@@ -21,6 +21,7 @@ ANGULAR = each("omega omegac w wc", "{b}")
 
 RC = Family(
     name="rc{b}",
+    called="the position|positions {} of the mass centre|centres",
     owner=Owner.BODY,
     stage=Stage.INERTIA,
     capped_in=Stage.KINEMATICS,
@@ -46,6 +47,7 @@ R = Family(
 
 JV_BODY = Family(
     name="Jv{b}",
+    called="the linear part|parts {} of the Jacobian|Jacobians of the mass centre|centres",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
@@ -60,6 +62,7 @@ JV_BODY = Family(
 
 JW_BODY = Family(
     name="Jw{b}",
+    called="the angular part|parts {} of the Jacobian|Jacobians of the body|bodies",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
@@ -73,6 +76,7 @@ JW_BODY = Family(
 
 V = Family(
     name="v{b}",
+    called="the velocity|velocities {} of the mass centre|centres",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
@@ -86,6 +90,7 @@ V = Family(
 
 W = Family(
     name="w{b}",
+    called="the angular velocity|velocities {} of the body|bodies",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
@@ -100,6 +105,7 @@ W = Family(
 
 I_BODY = Family(
     name="I_body{b}",
+    called="the inertia tensor|tensors {} along the axes of the body|bodies",
     owner=Owner.BODY,
     stage=Stage.INERTIA,
     shape=(3, 3),
@@ -112,6 +118,7 @@ I_BODY = Family(
 
 I = Family(  # noqa: E741  the book's symbol
     name="I{b}",
+    called="the inertia tensor|tensors {} along the axes of the base",
     owner=Owner.BODY,
     stage=Stage.INERTIA,
     shape=(3, 3),
@@ -133,6 +140,7 @@ H0 = Family(name="H0", stage=Stage.KINEMATICS, shape=(4, 4), is_answer=False)
 
 DH = Family(
     name="DH",
+    called="the Denavit-Hartenberg parameters",
     stage=Stage.KINEMATICS,
     shape=("n", 4),
     letter=of_robot(letters.DH),
@@ -143,6 +151,7 @@ DH = Family(
 
 A = Family(
     name="A{i}",
+    called="the matrix|matrices {} of the row|rows of the table",
     owner=Owner.ROW,
     stage=Stage.KINEMATICS,
     shape=(4, 4),
@@ -153,6 +162,7 @@ A = Family(
 
 H = Family(
     name="H{i}",
+    called="the matrix|matrices {} of the forward kinematics, seen from the base",
     owner=Owner.ROW,
     stage=Stage.KINEMATICS,
     shape=(4, 4),
@@ -166,6 +176,7 @@ H = Family(
 
 JV = Family(
     name="Jv",
+    called="the linear part {} of the Jacobian",
     stage=Stage.JACOBIAN,
     shape=(3, "n"),
     letter=of_robot(letters.JV),
@@ -180,6 +191,7 @@ JV = Family(
 
 JW = Family(
     name="Jw",
+    called="the angular part {} of the Jacobian",
     stage=Stage.JACOBIAN,
     shape=(3, "n"),
     letter=of_robot(letters.JW),
@@ -193,6 +205,7 @@ JW = Family(
 
 J = Family(
     name="J",
+    called="the Jacobian",
     stage=Stage.JACOBIAN,
     shape=(6, "n"),
     letter=of_robot(letters.J),

@@ -25,6 +25,7 @@ def _momentum(q: Coordinate) -> Node:
 
 DLDQD = Family(
     name="dLdqd{i}",
+    called="the derivative|derivatives {} of the Lagrangian",
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
@@ -37,6 +38,7 @@ DLDQD = Family(
 
 DDT = Family(
     name="ddt{i}",
+    called="the derivative|derivatives {} with respect to time",
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
@@ -50,6 +52,7 @@ DDT = Family(
 
 DLDQ = Family(
     name="dLdq{i}",
+    called="the derivative|derivatives {} of the Lagrangian",
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
@@ -63,6 +66,7 @@ DLDQ = Family(
 
 FORCE = Family(
     name="{force}",
+    called="the generalized force|forces {}",
     rule="tau{i}",
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
@@ -79,6 +83,7 @@ FORCE = Family(
 
 TAU = Family(
     name="tau",
+    called="the generalized forces",
     stage=Stage.TORQUE,
     shape=("n", 1),
     letter=of_robot(letters.TAU),
@@ -103,6 +108,7 @@ _POTENTIAL, _IN_ALL = "E W U V P", "tot total ges gesamt"
 
 P_BODY = Family(
     name="P{b}",
+    called="the potential energy|energies {} of the body|bodies",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     letter=of_body(lambda body: letters.of_body("P", body)),
@@ -115,6 +121,7 @@ P_BODY = Family(
 
 KV = Family(
     name="Kv{b}",
+    called="the kinetic energy|energies {} of translation",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     letter=of_body(lambda body: letters.energy_part("v", body)),
@@ -127,6 +134,7 @@ KV = Family(
 
 KW = Family(
     name="Kw{b}",
+    called="the kinetic energy|energies {} of rotation",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     letter=of_body(lambda body: letters.energy_part("omega", body)),
@@ -140,6 +148,7 @@ KW = Family(
 
 K_BODY = Family(
     name="K{b}",
+    called="the kinetic energy|energies {} of the body|bodies",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
     letter=of_body(lambda body: letters.of_body("K", body)),
@@ -152,6 +161,7 @@ K_BODY = Family(
 
 P = Family(
     name="P",
+    called="the potential energy",
     stage=Stage.ENERGY,
     letter=of_robot(letters.P),
     json="P",
@@ -167,6 +177,7 @@ P = Family(
 
 K = Family(
     name="K",
+    called="the kinetic energy",
     stage=Stage.ENERGY,
     letter=of_robot(letters.K),
     json="K",
@@ -182,6 +193,7 @@ K = Family(
 
 L = Family(
     name="L",
+    called="the Lagrangian",
     stage=Stage.LAGRANGIAN,
     letter=of_robot(letters.L),
     json="L",
@@ -200,6 +212,7 @@ OF_ROBOT: tuple[Family, ...] = (P, K, L)
 
 D = Family(
     name="D",
+    called="the inertia matrix",
     stage=Stage.VECTORIZED,
     shape=("n", "n"),
     letter=of_robot(letters.D),
@@ -213,6 +226,7 @@ D = Family(
 
 D_ENTRY = Family(
     name="d{i}{j}",
+    called="the entry|entries {} of the inertia matrix",
     rule="D",
     owner=Owner.PAIR,
     stage=Stage.VECTORIZED,
@@ -227,6 +241,7 @@ CHRISTOFFEL = Family(name="christoffel", stage=Stage.VECTORIZED, is_answer=False
 
 C_SYMBOL = Family(
     name="c{i}{j}{k}",
+    called="the Christoffel symbol|symbols {}",
     rule="christoffel",
     owner=Owner.TRIPLE,
     stage=Stage.VECTORIZED,
@@ -239,6 +254,7 @@ C_SYMBOL = Family(
 
 C = Family(
     name="C",
+    called="the matrix of Coriolis and centrifugal terms",
     stage=Stage.VECTORIZED,
     shape=("n", "n"),
     letter=of_robot(letters.C),
@@ -252,6 +268,7 @@ C = Family(
 
 C_ENTRY = Family(
     name="C{i}{j}",
+    called="the entry|entries {} of the matrix of Coriolis and centrifugal terms",
     rule="C",
     owner=Owner.PAIR,
     stage=Stage.VECTORIZED,
@@ -263,6 +280,7 @@ C_ENTRY = Family(
 
 G = Family(
     name="g",
+    called="the gravity terms",
     stage=Stage.VECTORIZED,
     shape=("n", 1),
     letter=of_robot(letters.G),
@@ -277,6 +295,7 @@ G = Family(
 
 G_ENTRY = Family(
     name="g{i}",
+    called="the entry|entries {} of the gravity terms",
     rule="g",
     owner=Owner.COORDINATE,
     stage=Stage.VECTORIZED,
@@ -288,6 +307,7 @@ G_ENTRY = Family(
 
 CQD = Family(
     name="Cqd",
+    called="the vector {} of Coriolis and centrifugal terms",
     stage=Stage.VECTORIZED,
     shape=("n", 1),
     letter=of_robot(Product((letters.C, letters.QD))),

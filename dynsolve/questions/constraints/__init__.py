@@ -17,6 +17,7 @@ H_C = Family(
 
 AC = Family(
     name="Ac",
+    called="the matrix of the constraints",
     stage=Stage.CONSTRAINTS,
     shape=("c", "n"),
     letter=of_robot(letters.A_C),
@@ -27,6 +28,7 @@ AC = Family(
 
 AC_DOT = Family(
     name="Ac_dot",
+    called="the time derivative {} of the matrix of the constraints",
     stage=Stage.CONSTRAINTS,
     shape=("c", "n"),
     letter=of_robot(letters.rate(letters.A_C)),
@@ -36,6 +38,7 @@ AC_DOT = Family(
 
 LAMBDA = Family(
     name="lambda",
+    called="the multipliers",
     stage=Stage.CONSTRAINTS,
     shape=("c", 1),
     letter=of_robot(letters.LAMBDA),
@@ -47,6 +50,7 @@ LAMBDA = Family(
 
 LAMBDA_ENTRY = Family(
     name="lambda{i}",
+    called="the multiplier|multipliers {}",
     rule="lambda",
     owner=Owner.CONSTRAINT,
     stage=Stage.CONSTRAINTS,
@@ -58,6 +62,7 @@ LAMBDA_ENTRY = Family(
 
 REDUCED = Family(
     name="reduced",
+    called="the equations without multipliers",
     stage=Stage.CONSTRAINTS,
     kind=Kind.CONDITIONS,
     spellings=("eliminated", "reducedequations"),

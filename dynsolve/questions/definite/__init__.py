@@ -7,6 +7,7 @@ from dynsolve.quantities.stages import Stage
 
 DEFINITE = Family(
     name="definite",
+    called="which of the matrices can be inertia matrices",
     stage=Stage.DEFINITE,
     kind=Kind.VERDICTS,
     spellings=("positivedefinite", "posdef"),

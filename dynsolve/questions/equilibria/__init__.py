@@ -15,6 +15,7 @@ from dynsolve.quantities.stages import Stage
 
 EQUILIBRIA = Family(
     name="equilibria",
+    called="the equilibria",
     stage=Stage.EQUILIBRIA,
     kind=Kind.EQUATIONS,
     spellings=("equilibrium",),
@@ -23,12 +24,17 @@ EQUILIBRIA = Family(
 
 
 BALANCE = Family(
-    name="balance", stage=Stage.EQUILIBRIA, kind=Kind.CONDITIONS, spellings=("balanced", "balancing")
+    name="balance",
+    called="the conditions for balance",
+    stage=Stage.EQUILIBRIA,
+    kind=Kind.CONDITIONS,
+    spellings=("balanced", "balancing"),
 )
 
 
 LINEAR_A = Family(
     name="linear_A",
+    called="the state matrix {} near the equilibrium",
     stage=Stage.EQUILIBRIA,
     shape=("any", "any"),
     letter=of_robot(letters.LINEAR_A),
@@ -40,6 +46,7 @@ LINEAR_A = Family(
 
 LINEAR_B = Family(
     name="linear_B",
+    called="the input matrix {} near the equilibrium",
     stage=Stage.EQUILIBRIA,
     shape=("any", "any"),
     letter=of_robot(letters.LINEAR_B),

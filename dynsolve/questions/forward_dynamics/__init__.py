@@ -8,6 +8,7 @@ from dynsolve.quantities.stages import Stage
 
 QDD_FORWARD = Family(
     name="qdd_forward",
+    called="the accelerations {} as functions of the forces",
     stage=Stage.FORWARD_DYNAMICS,
     shape=("n", 1),
     letter=of_robot(letters.QDD),

@@ -31,6 +31,7 @@ from dynsolve.quantities.stages import Stage
 
 INVERSE = Family(
     name="inverse",
+    called="the inverse kinematics",
     stage=Stage.INVERSE,
     kind=Kind.BRANCHES,
     spellings=("ik",),

@@ -8,6 +8,7 @@ from dynsolve.quantities.stages import Stage
 
 A = Family(
     name="a",
+    called="the dynamic parameters",
     stage=Stage.PARAMETERS,
     shape=("any", 1),
     letter=of_robot(letters.PARAMETERS),
@@ -18,6 +19,7 @@ A = Family(
 
 Y = Family(
     name="Y",
+    called="the regressor",
     stage=Stage.PARAMETERS,
     shape=("n", "any"),
     letter=of_robot(letters.REGRESSOR),
@@ -27,27 +29,44 @@ Y = Family(
 
 
 A_INERTIA = Family(
-    name="aM", stage=Stage.PARAMETERS, shape=("any", 1), letter=of_robot(letters.of_part("a", "M"))
+    name="aM",
+    called="the parameters {} of the inertia terms",
+    stage=Stage.PARAMETERS,
+    shape=("any", 1),
+    letter=of_robot(letters.of_part("a", "M")),
 )
 
 
 Y_INERTIA = Family(
-    name="YM", stage=Stage.PARAMETERS, shape=("n", "any"), letter=of_robot(letters.of_part("Y", "M"))
+    name="YM",
+    called="the regressor {} of the inertia terms",
+    stage=Stage.PARAMETERS,
+    shape=("n", "any"),
+    letter=of_robot(letters.of_part("Y", "M")),
 )
 
 
 A_GRAVITY = Family(
-    name="ag", stage=Stage.PARAMETERS, shape=("any", 1), letter=of_robot(letters.of_part("a", "g"))
+    name="ag",
+    called="the parameters {} of the gravity terms",
+    stage=Stage.PARAMETERS,
+    shape=("any", 1),
+    letter=of_robot(letters.of_part("a", "g")),
 )
 
 
 Y_GRAVITY = Family(
-    name="Yg", stage=Stage.PARAMETERS, shape=("n", "any"), letter=of_robot(letters.of_part("Y", "g"))
+    name="Yg",
+    called="the regressor {} of the gravity terms",
+    stage=Stage.PARAMETERS,
+    shape=("n", "any"),
+    letter=of_robot(letters.of_part("Y", "g")),
 )
 
 
 Y_REFERENCE = Family(
     name="Yr",
+    called="the regressor {} with reference rates and accelerations",
     stage=Stage.PARAMETERS,
     shape=("n", "any"),
     letter=of_robot(letters.of_part("Y", "r")),

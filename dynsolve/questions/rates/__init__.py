@@ -8,6 +8,7 @@ from dynsolve.quantities.stages import Stage
 
 QD = Family(
     name="qd",
+    called="the rates of the coordinates",
     stage=Stage.RATES,
     shape=("n", 1),
     letter=of_robot(letters.QD),
@@ -19,6 +20,7 @@ QD = Family(
 
 QDD = Family(
     name="qdd",
+    called="the accelerations of the coordinates",
     stage=Stage.RATES,
     shape=("n", 1),
     letter=of_robot(letters.QDD),
@@ -30,6 +32,7 @@ QDD = Family(
 
 NULLSPACE = Family(
     name="nullspace",
+    called="the null space {} of the Jacobian",
     stage=Stage.RATES,
     kind=Kind.SPAN,
     shape=("n", "any"),
@@ -41,6 +44,7 @@ NULLSPACE = Family(
 
 RANGESPACE = Family(
     name="rangespace",
+    called="the range space {} of the Jacobian",
     stage=Stage.RATES,
     kind=Kind.SPAN,
     shape=("m", "any"),
@@ -52,6 +56,7 @@ RANGESPACE = Family(
 
 LOST = Family(
     name="lost",
+    called="the directions {} that are lost",
     stage=Stage.RATES,
     kind=Kind.SPAN,
     shape=("m", "any"),

@@ -11,6 +11,7 @@ from dynsolve.quantities.stages import Stage
 
 SINGULAR = Family(
     name="singular",
+    called="the singular configurations",
     stage=Stage.SINGULAR,
     kind=Kind.EQUATIONS,
     spellings=("singularities",),

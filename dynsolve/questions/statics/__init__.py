@@ -22,6 +22,7 @@ LOAD = Family(
 
 Q = Family(
     name="Q",
+    called="the generalized forces {} of what acts from outside",
     stage=Stage.STATICS,
     shape=("n", 1),
     letter=of_robot(letters.Q_FORCES),
@@ -36,6 +37,7 @@ Q = Family(
 
 TAU_STATIC = Family(
     name="tau_static",
+    called="the forces and torques {} that hold the arm at rest",
     stage=Stage.STATICS,
     shape=("n", 1),
     letter=of_robot(letters.TAU_STATIC),
@@ -50,6 +52,7 @@ TAU_STATIC = Family(
 
 Q_ENTRY = Family(
     name="Q{i}",
+    called="the entry|entries {} of the generalized forces that act from outside",
     rule="Q",
     owner=Owner.COORDINATE,
     stage=Stage.STATICS,
@@ -60,6 +63,7 @@ Q_ENTRY = Family(
 
 TAU_STATIC_ENTRY = Family(
     name="tau_static{i}",
+    called="the entry|entries {} of the forces and torques that hold the arm at rest",
     rule="tau_static",
     owner=Owner.COORDINATE,
     stage=Stage.STATICS,

@@ -9,6 +9,7 @@ from dynsolve.robot.units import LENGTH, NONE, PER_SECOND, VELOCITY
 
 P_POINT = Family(
     name="p{p}",
+    called="the position|positions {} of the point|points",
     owner=Owner.POINT,
     stage=Stage.TASK,
     shape=(3, 1),
@@ -20,6 +21,7 @@ P_POINT = Family(
 
 JV_POINT = Family(
     name="Jv{p}",
+    called="the linear part|parts {} of the Jacobian|Jacobians of the point|points",
     owner=Owner.POINT,
     stage=Stage.TASK,
     shape=(3, "n"),
@@ -33,6 +35,7 @@ JV_POINT = Family(
 
 JW_POINT = Family(
     name="Jw{p}",
+    called="the angular part|parts {} of the Jacobian|Jacobians of the point|points",
     owner=Owner.POINT,
     stage=Stage.TASK,
     shape=(3, "n"),
@@ -45,6 +48,7 @@ JW_POINT = Family(
 
 V_POINT = Family(
     name="v{p}",
+    called="the velocity|velocities {} of the point|points",
     owner=Owner.POINT,
     stage=Stage.TASK,
     shape=(3, 1),
@@ -56,6 +60,7 @@ V_POINT = Family(
 
 JV_DOT = Family(
     name="Jv_dot",
+    called="the time derivative {} of the linear part of the Jacobian",
     stage=Stage.TASK,
     shape=(3, "n"),
     letter=of_robot(letters.rate(letters.JV)),
@@ -69,6 +74,7 @@ JV_DOT = Family(
 
 JW_DOT = Family(
     name="Jw_dot",
+    called="the time derivative {} of the angular part of the Jacobian",
     stage=Stage.TASK,
     shape=(3, "n"),
     letter=of_robot(letters.rate(letters.JW)),
@@ -81,6 +87,7 @@ JW_DOT = Family(
 
 J_DOT = Family(
     name="J_dot",
+    called="the time derivative {} of the Jacobian",
     stage=Stage.TASK,
     shape=(6, "n"),
     letter=of_robot(letters.rate(letters.J)),
@@ -90,6 +97,7 @@ J_DOT = Family(
 
 R = Family(
     name="r",
+    called="the task vector",
     stage=Stage.TASK,
     shape=("m", 1),
     letter=of_robot(letters.TASK),
@@ -101,6 +109,7 @@ R = Family(
 
 R_ENTRY = Family(
     name="r{i}",
+    called="the component|components {} of the task",
     rule="r",
     owner=Owner.TASK,
     stage=Stage.TASK,
@@ -113,6 +122,7 @@ R_ENTRY = Family(
 
 JR = Family(
     name="Jr",
+    called="the Jacobian of the task",
     stage=Stage.TASK,
     shape=("m", "n"),
     letter=of_robot(letters.J_TASK),
@@ -123,6 +133,7 @@ JR = Family(
 
 JR_DOT = Family(
     name="Jr_dot",
+    called="the time derivative {} of the Jacobian of the task",
     stage=Stage.TASK,
     shape=("m", "n"),
     letter=of_robot(letters.rate(letters.J_TASK)),
@@ -132,6 +143,7 @@ JR_DOT = Family(
 
 DET = Family(
     name="det",
+    called="the determinant",
     stage=Stage.TASK,
     letter=of_robot(letters.DET),
     spellings=("detJ", "detJr", "detJJT", "Delta"),

@@ -8,6 +8,7 @@ from dynsolve.quantities.stages import Stage
 
 LAMBDA = Family(
     name="Lambda",
+    called="the inertia matrix of the task",
     stage=Stage.TASK_INERTIA,
     shape=("m", "m"),
     letter=of_robot(letters.TASK_INERTIA),

@@ -6,16 +6,14 @@ from pathlib import Path
 import pytest
 
 from dynsolve.answers.reading.files import pandoc
-from dynsolve.exercise.asked import MEMBERS, parts
+from dynsolve.exercise.asked import parts
 from dynsolve.exercise.sheet import SheetFormat, exam_source, sheet
-from dynsolve.explain.given import CALLED
 from dynsolve.explain.step import Detail
 from dynsolve.grading.set_file import load_set
 from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.problem.reader import bundled
-from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import quantities
 from tests.support import solved, with_files
@@ -38,11 +36,6 @@ def told(file: Path, **options: str) -> str:
 @pytest.fixture
 def arm(tmp_path: Path) -> Path:
     return with_files(tmp_path, {"arm.yaml": ARM}) / "arm.yaml"
-
-
-def test_every_answer_has_words() -> None:
-    nameless = [f.name for f in FAMILIES if f.is_answer and f.stem not in MEMBERS and f.name not in CALLED]
-    assert nameless == []
 
 
 def test_what_is_asked_is_told_with_its_points(arm: Path) -> None:

@@ -39,7 +39,8 @@ CASES = [
         "through (0, 0, 0). Joint 2, with the variable θ₂, turns about (0, 1, 0) through (0, Loff, L₁). "
         "Joint 3, with the variable L₃, slides along (1, 0, 0) through (0, Loff, L₁ + L₂). In this pose the "
         "hand is at (L₃, Loff, L₁ + L₂).",
-        "To be found: the Denavit-Hartenberg parameters, the task vector 𝐫, 𝐉_v, the determinant det 𝐉_r "
+        "To be found: the Denavit-Hartenberg parameters, the task vector 𝐫, the linear part 𝐉_v of the "
+        "Jacobian, the determinant det 𝐉_r "
         "and the singular configurations.",
     ),
     (
@@ -48,8 +49,8 @@ CASES = [
         "of inertia about axis z through its mass centre is J. There is no gravity "
         "and no friction. Every motion keeps ẋ sin(φ) - ẏ cos(φ) = 0.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and "
-        "centrifugal terms 𝐂, the gravity terms 𝐠, the matrix of the constraints 𝐀_c, its rate 𝐀̇_c "
-        "and the multipliers 𝛌.",
+        "centrifugal terms 𝐂, the gravity terms 𝐠, the matrix of the constraints 𝐀_c, the "
+        "time derivative 𝐀̇_c of the matrix of the constraints and the multipliers 𝛌.",
     ),
 ]
 

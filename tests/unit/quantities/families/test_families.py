@@ -70,6 +70,11 @@ def test_dimensions_are_those_of_the_derivation(stem: str) -> None:
                 assert wanted is not None and dimensions.fits(entry, wanted), (quantity.name, i, j)
 
 
+def test_every_answer_is_called_something() -> None:
+    assert [family.name for family in FAMILIES if family.is_answer and not family.called] == []
+    assert [family.name for family in FAMILIES if family.called.count("{}") > 1] == []
+
+
 @pytest.mark.parametrize("stem", SMALL)
 def test_every_answer_has_a_letter(stem: str) -> None:
     for quantity in quantities(robot(stem)).answers():
