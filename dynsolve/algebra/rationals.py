@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from fractions import Fraction
 from math import gcd, isqrt, lcm
 from typing import Any
@@ -80,3 +80,31 @@ def rational_sqrt(value: Fraction) -> Fraction | None:
         return None
     above, below = isqrt(value.numerator), isqrt(value.denominator)
     return Fraction(above, below) if Fraction(above, below) ** 2 == value else None
+
+
+FEWEST_DIGITS = 3
+"""A decimal with fewer significant digits is exact."""
+
+
+def half_unit(value: Fraction, exact: Container[Fraction] = ()) -> Fraction | None:
+    """Half a unit of the last place of a decimal that stands for all that round to it; None of another."""
+    places = _places(value)
+    if not places or value in exact:
+        return None
+    digits = len(str(abs(value.numerator) * 10**places // value.denominator))
+    return Fraction(1, 2 * 10**places) if digits >= FEWEST_DIGITS else None
+
+
+def _places(value: Fraction) -> int:
+    """How many decimals a number was written with, at least; 0 for one that was no decimal."""
+    q, places = value.denominator, 0
+    if q == 1:
+        return 0
+    while q % 10 == 0:
+        q, places = q // 10, places + 1
+    twos = fives = 0
+    while q % 2 == 0:
+        q, twos = q // 2, twos + 1
+    while q % 5 == 0:
+        q, fives = q // 5, fives + 1
+    return places + max(twos, fives) if q == 1 else 0

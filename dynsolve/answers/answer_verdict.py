@@ -24,7 +24,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
-from dynsolve.answers.diagnosis.slips import SET_SLIPS, slip
+from dynsolve.answers.diagnosis.slips import slip, told
 from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
 from dynsolve.answers.judging.answer_values import AnswerValue, same
 from dynsolve.answers.judging.configurations import ConfigurationKey
@@ -35,7 +35,6 @@ from dynsolve.answers.judging.hand_in import Chain, ComparedHandIn, last
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.verdict import (
     ConfigurationAnswer,
-    Diagnosis,
     EntryVerdict,
     JudgedAnswer,
     Occurrence,
@@ -48,6 +47,7 @@ from dynsolve.derivation.graph import Derivation
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.letters import key
 from dynsolve.questions.definite.derive import Definiteness
+from dynsolve.questions.definite.judge import fault
 from dynsolve.robot.model import Robot
 
 # The verdict of one answer that was given
@@ -329,20 +329,20 @@ def judged_set(
     base = _as_read(answer, of, key.values.rules)
     if base.fault:
         return base
-    if key.is_skipped(answer.name):
+    if key[answer.name].is_skipped:
         return replace(base, fault=f"{answer.name} could not be derived here; a person must judge it")
     found = key.verdict(answer)
     if found.is_right:
         return replace(base, verdict=Verdict.CORRECT, notes=found.notes)
-    if zero := key.vanishing(answer.name):
+    if zero := key[answer.name].vanishing:
         graph = explanations.hand_in.graph
         for own in explanations.own_values(zero):
             if key.is_where_zero(answer, own.value):
                 return replace(base, verdict=Verdict.FOLLOWS, follows_from=in_order(graph, own.used))
         if sources := in_order(graph, explanations.before(zero, unread)):
             return replace(base, fault=MAY_FOLLOW.format(" and ".join(sources)))
-    slip = SET_SLIPS[found.code].told(number=str(found.number), where=found.where)
-    return replace(base, verdict=Verdict.WRONG, diagnosis=(slip,))
+    fault = told(key.fault(answer.name, found.code), number=str(found.number), where=found.where)
+    return replace(base, verdict=Verdict.WRONG, diagnosis=(fault,))
 
 
 # The verdict of what a student says of matrices: whether each can be an inertia matrix
@@ -380,14 +380,7 @@ def _entry(place: int, name: str, found: object, word: str) -> EntryVerdict:
         return EntryVerdict((place,), Verdict.UNREADABLE)
     if not word:
         return EntryVerdict((place,), Verdict.MISSING)
-    if word == found.answer.value:
+    wrong = fault(found, word)
+    if wrong is None:
         return EntryVerdict((place,), Verdict.CORRECT)
-    return EntryVerdict((place,), Verdict.WRONG, (_slip(name, found),))
-
-
-def _slip(name: str, found: Definiteness) -> Diagnosis:
-    if found.refusal is None:
-        code = "definite_if" if found.conditions else "is_definite"
-    else:
-        code = f"refused_{found.refusal.name.lower()}"
-    return SET_SLIPS[code].told(number=name)
+    return EntryVerdict((place,), Verdict.WRONG, (told(wrong, number=name),))

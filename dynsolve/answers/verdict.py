@@ -26,6 +26,7 @@ from msgspec.structs import replace
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.quantities.index import Quantities
+from dynsolve.questions.judging import Part
 
 # The record of one hand-in: its answers with their places, before anything is judged
 
@@ -88,13 +89,6 @@ class Answer(Struct, frozen=True):
     partial: Matrix | None = None
     unread: tuple[tuple[int, int], ...] = ()
     occurrence: tuple[int, int] = (0, 0)
-
-
-class Part(Struct, frozen=True):
-    """One formula of an alternative: that of a coordinate, or without a name what is 0."""
-
-    coordinate: str
-    node: Node
 
 
 class ConfigurationAnswer(Struct, frozen=True):

@@ -15,6 +15,5 @@ follow_through     the values that the student's own answers lead to, and which 
                    so that nothing explains itself
 explanation        which of those explains an answer, and what a wrong one keeps of the key, so that
                    inventions lead nowhere
-configurations     sets of equations in numbers: singular configurations, equilibria, reduced motions
-branches           branches of the inverse, and configurations that are to reach numbers
+configurations     answers that are sets, each judged in the folder of its question
 """

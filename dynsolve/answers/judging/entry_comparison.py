@@ -26,7 +26,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, equal, simplified
 from dynsolve.algebra.linear_systems import rank_parts, same_span
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.rationals import rational
+from dynsolve.algebra.rationals import half_unit, rational
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, walk, with_children
@@ -35,8 +35,6 @@ from dynsolve.notation.tree import Node, Number, walk, with_children
 
 ROUNDED = "rounded"
 
-FEWEST_DIGITS = 3
-"""A decimal with fewer significant digits is exact."""
 
 MOST_DECIMALS = 40
 """An answer with more decimals than this is compared exactly only."""
@@ -240,30 +238,6 @@ def moved_decimals(node: Node, exact: Container[Fraction] = ()) -> Iterator[Node
     for place in range(count):
         mover.left = place
         yield mover.tree(node)
-
-
-def half_unit(value: Fraction, exact: Container[Fraction] = ()) -> Fraction | None:
-    """Half a unit of the last place of a decimal that stands for all that round to it; None of another."""
-    places = _places(value)
-    if not places or value in exact:
-        return None
-    digits = len(str(abs(value.numerator) * 10**places // value.denominator))
-    return Fraction(1, 2 * 10**places) if digits >= FEWEST_DIGITS else None
-
-
-def _places(value: Fraction) -> int:
-    """How many decimals a number was written with, at least; 0 for one that was no decimal."""
-    q, places = value.denominator, 0
-    if q == 1:
-        return 0
-    while q % 10 == 0:
-        q, places = q // 10, places + 1
-    twos = fives = 0
-    while q % 2 == 0:
-        q, twos = q // 2, twos + 1
-    while q % 5 == 0:
-        q, fives = q // 5, fives + 1
-    return places + max(twos, fives) if q == 1 else 0
 
 
 class _Mover:

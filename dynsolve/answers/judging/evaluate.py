@@ -22,10 +22,9 @@ from msgspec import Struct, field
 from dynsolve.algebra.angles import Angle, Contents, ContentsCollector, angle_from_tree, names_of
 from dynsolve.algebra.expr import Expr, dotted, is_sign
 from dynsolve.algebra.fraction import RationalExpr
-from dynsolve.algebra.rationals import rational_value
+from dynsolve.algebra.rationals import half_unit, rational_value
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import Evaluator, Unreduced
-from dynsolve.answers.judging.entry_comparison import half_unit
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Function, Node, Product, Reference, Symbol, walk

@@ -38,7 +38,7 @@ from dynsolve.answers.reading.set_text import alternatives, joined
 from dynsolve.answers.reading.sources import is_balanced, levels
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.reading.yaml_values import MAX_DEPTH, YamlNode
-from dynsolve.answers.verdict import ConfigurationAnswer, Part, Place
+from dynsolve.answers.verdict import ConfigurationAnswer, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import (
@@ -56,6 +56,7 @@ from dynsolve.quantities import families
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
 from dynsolve.questions.constraints import REDUCED
+from dynsolve.questions.judging import Part
 
 # Formulas of sets and branches: read, and asked which coordinates and names stand in them
 

@@ -16,8 +16,7 @@ from math import atan2, hypot
 from msgspec import Struct
 
 from dynsolve.algebra.ring_values import evaluate
-from dynsolve.algebra.sampling import ENOUGH, samples
-from dynsolve.derivation.arm_values import states_with
+from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.configurations import NO_VALUE, is_zero
 from dynsolve.derivation.elimination import is_positive_definite, rank, solved
 from dynsolve.derivation.reached import CLOSE
@@ -25,6 +24,7 @@ from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Matrix, Negative, Node, Product, Sum
 from dynsolve.notation.tree_values import Program, compile_trees
+from dynsolve.questions.equation_sets import starts
 from dynsolve.questions.equilibria.balance import STATES, never_zero, table_lengths
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
@@ -46,27 +46,6 @@ class Case(Struct, frozen=True):
     zeros: tuple[Node, ...]
     points: tuple[Point, ...]
     excluded: tuple[tuple[Node, ...], ...] = ()
-
-
-def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator[dict[str, float]]:
-    """Configurations in all quadrants, with parameters as is assumed of them."""
-
-    def assumed(values: Mapping[str, float]) -> None:
-        if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
-            raise ValueError  # the next sample is taken
-
-    for found, _ in islice(states_with(robot.ring, assumed), ENOUGH):
-        values = {**found, **(numbers or {})}
-        yield values | _moving(robot, values)
-
-
-def _moving(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
-    """Rates and accelerations: 0, but for the rates that are held constant."""
-    still = {name: 0.0 for q in robot.coordinates for name in (q.velocity, q.acceleration)}
-    steady = robot.questions.model.steady
-    rates = {q.name: q.velocity for q in robot.coordinates}
-    held = compile_trees([value for _, value in steady]).run(values)
-    return still | {rates[name]: float(value) for (name, _), value in zip(steady, held, strict=True)}
 
 
 def balanced_forces(robot: Robot) -> str:

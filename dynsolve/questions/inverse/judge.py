@@ -1,15 +1,12 @@
-"""Verdicts on the branches of the inverse kinematics, whose values of the task are names.
+"""Verdicts on the branches of the inverse kinematics, and on configurations that are to reach numbers.
 
-A branch is put into r(q) at values that configurations in all quadrants reach, within the limits of the
-joints where there are any; it is right where it gives them back, whatever its formula.
+Where the values of the task are names, a branch is put into r(q) at values that configurations in all
+quadrants reach, within the limits of the joints where there are any; it is right where it gives them back,
+whatever its formula.
 
-What is found of a set of configurations.
-
-Verdicts on configurations that are to reach a target in numbers.
-
-Each is compared with those of the key; one that is none of these is right where r(q) gives the
-target.  A decimal that may have been rounded stands for its interval, so that a coordinate
-may be off by what all decimals of its branch do to it together.
+Where they are numbers, each configuration is compared with those of the key; one that is none of these is
+right where r(q) gives the target.  A decimal that may have been rounded stands for its interval, so that a
+coordinate may be off by what all decimals of its branch do to it together.
 """
 
 from __future__ import annotations
@@ -18,14 +15,15 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
+from math import pi
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.entry_comparison import ROUNDED, half_unit
-from dynsolve.answers.verdict import Part
-from dynsolve.derivation.configurations import on_branch, reaches, solution_of
+from dynsolve.algebra.rationals import half_unit
+from dynsolve.algebra.sampling import WIDEST
+from dynsolve.derivation.configurations import on_branch, reaches, solution_of, states_of
 from dynsolve.derivation.reached import CLOSE, angle_rows, gap, near, same_configuration
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.text import ARCS
@@ -43,31 +41,15 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.questions.equation_sets import turning_in
 from dynsolve.questions.inverse.forms import InverseForms
+from dynsolve.questions.judging import Alternatives, Fault, Judged, SetKey, SetVerdict, by_code
 from dynsolve.robot.model import Robot
 
 if TYPE_CHECKING:
     from dynsolve.questions.inverse.target import Configuration, TargetForms
 
 # Branches whose values of the task are names
-
-# What is found of a set of configurations
-
-
-class SetVerdict(Struct, frozen=True):
-    """Whether a set is right, else the `code` of what is said of alternative `number`, and `where`.
-
-    `notes` are what is said of one that is right.
-    """
-
-    is_right: bool
-    code: str = ""
-    number: int = 0
-    notes: tuple[str, ...] = ()
-    where: str = ""
-
-
-RIGHT = SetVerdict(True)
 
 INCOMPLETE = "incomplete"
 """The note of an answer that has some of the branches, all right."""
@@ -105,7 +87,7 @@ class BranchKey:
         self.robot, self.shown, self.states = robot, shown, states
         self._task, self._angles = compile_trees([task]), angle_rows(r)
 
-    def verdict(self, alternatives: Sequence[Sequence[Part]]) -> SetVerdict:
+    def verdict(self, alternatives: Alternatives) -> SetVerdict:
         """Whether branches are right."""
         given = branches_of(alternatives)
         found = self._compared(given)
@@ -179,7 +161,7 @@ def _has_half_a_turn(branch: Formulas) -> bool:
     return any(isinstance(part, Function) and part.name in {*ARCS} - {"atan2"} for part in parts)
 
 
-def branches_of(alternatives: Sequence[Sequence[Part]]) -> list[dict[str, Node]]:
+def branches_of(alternatives: Alternatives) -> list[dict[str, Node]]:
     """The alternatives as formulas by coordinate; what is given once, behind ±, belongs to all of them."""
     counts = Counter(part.coordinate for one in alternatives for part in one)
     once = {
@@ -231,7 +213,7 @@ class TargetKey(Struct, frozen=True, dict=True):
     exact: frozenset[Fraction]
     all_branches: bool
 
-    def verdict(self, alternatives: Sequence[Sequence[Part]]) -> SetVerdict:
+    def verdict(self, alternatives: Alternatives) -> SetVerdict:
         """Whether configurations are right."""
         given = branches_of(alternatives)
         found = self._compared(given)
@@ -267,7 +249,7 @@ class TargetKey(Struct, frozen=True, dict=True):
         is_incomplete = len(met) < len(keys)
         if is_incomplete and self.all_branches:
             return SetVerdict(False, "branches_missing", where=f"{len(keys)}")
-        notes = ((INCOMPLETE, is_incomplete), (ROUNDED, is_rounded))
+        notes = ((INCOMPLETE, is_incomplete), ("rounded", is_rounded))
         return SetVerdict(True, notes=tuple(note for note, is_so in notes if is_so))
 
     @property
@@ -342,3 +324,74 @@ def _moved(branch: Formulas, exact: frozenset[Fraction]) -> list[dict[str, Node]
 def _putting(old: Number | Degrees, value: Fraction) -> Callable[[Node], Node]:
     new = type(old)(value.numerator, value.denominator)
     return lambda part: new if part == old else part
+
+
+class InverseKey(SetKey):
+    """The branches of one problem, or the configurations that reach its numbers."""
+
+    faults = by_code(
+        Fault("atan2_order", "the order of atan2", "The arguments of atan2 are exchanged: it takes y first.",
+              "atan2(y, x) is the angle of the point (x, y)."),
+        Fault("quadrant_lost", "a quadrant",
+              "Branch {number} gives the values of the task in some quadrants only.",
+              "arctan(y/x), arcsin and arccos go half way round; atan2(y, x) looks at both signs."),
+        Fault("branch_misses", "a branch", "Branch {number} does not give the values of the task.",
+              "Put the branch into r(q), at values for which you know a configuration."),
+        Fault("branch_sometimes_misses", "a branch",
+              "Branch {number} gives the values of the task at some configurations only.",
+              "Put the branch into r(q), at values for which you know a configuration."),
+        Fault("branch_never_exists", "a branch",
+              "Branch {number} gives no configuration at values that the arm reaches.",
+              "Look at the arguments of roots, arccos and arcsin, and at what each formula needs."),
+        Fault("branch_not_real", "a branch", "Branch {number} gives no real configuration for these numbers.",
+              "Look at the arguments of roots, arccos and arcsin."),
+        Fault("target_missed", "a branch", "Branch {number} does not reach the target.",
+              "Put it into r(q), and compare with the numbers that were given."),
+        Fault("out_of_reach", "a branch",
+              "No configuration reaches these numbers, and branch {number} does not.",
+              "Compare the distance of the target with the longest and the shortest that the arm can make."),
+        Fault("is_reachable", "a branch", "There are configurations that reach these values.",
+              "Compare the distance of the target with the longest and the shortest that the arm can make."),
+        Fault("branch_lacks_coordinate", "a branch", "Branch {number} gives no {where}.",
+              "A branch is a formula for each coordinate."),
+        Fault("branches_missing", "a branch",
+              "Your branches are right, and some are missing: "
+              "up to {where} configurations give the same values.",
+              "A root, an arccos and an arcsin leave two values each."),
+    )  # fmt: skip
+
+    def __init__(self, judged: Judged, name: str) -> None:
+        super().__init__(judged, name)
+        self.names = set(self.robot.questions.reached)
+        self._shown = InverseForms(self.robot, judged.values)
+
+    @property
+    def is_skipped(self) -> bool:
+        """Whether nothing is known that reaches the numbers."""
+        return self.robot.questions.target is not None and self._shown.target is None
+
+    @cached_property
+    def _key(self) -> BranchKey | TargetKey:
+        if self._shown.target is not None:
+            return TargetKey(self._shown.target, self.judged.exact, self.robot.questions.all_branches)
+        task = self._shown.task
+        form = self.forms(task)
+        states = states_of(self.robot, compile_trees([form]))
+        limited = [self._limited({**values, **self.judged.numbers}) for values in states]
+        return BranchKey(self.robot, self.judged.values[task], form, self._shown, limited)
+
+    def _limited(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The configuration, moved into the limits of the joints in proportion."""
+        limited = dict(values)
+        for one in self.robot.questions.limits:
+            low, high = compile_trees([one.low, one.high]).run(values)
+            widest = pi if one.coordinate in turning_in(self.robot) else WIDEST
+            limited[one.coordinate] = low + (high - low) * (values[one.coordinate] + widest) / (2 * widest)
+        return limited
+
+    def verdict(self, given: Alternatives) -> SetVerdict:
+        """Whether branches are right."""
+        return self._key.verdict(given)
+
+
+KEYS = {"inverse": InverseKey}

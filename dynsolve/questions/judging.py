@@ -1,0 +1,106 @@
+"""What the judge of a question is given, what it says of a set, and what may be wrong with it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping, Sequence, Set
+from fractions import Fraction
+from typing import Any, ClassVar
+
+from msgspec import Struct
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Node
+from dynsolve.robot.model import Robot
+
+
+class Part(Struct, frozen=True):
+    """One formula of an alternative: that of a coordinate, or without a name what is 0."""
+
+    coordinate: str
+    node: Node
+
+
+Alternatives = Sequence[Sequence[Part]]
+
+
+class Fault(Struct, frozen=True):
+    """What may be wrong: its class in a few words, what is said of it, and what to look at.
+
+    In the words {number} counts the branch or alternative, or is the name of a matrix.
+    """
+
+    code: str
+    kind: str
+    message: str
+    look: str
+
+
+def by_code(*faults: Fault) -> dict[str, Fault]:
+    """A table of faults."""
+    return {fault.code: fault for fault in faults}
+
+
+class SetVerdict(Struct, frozen=True):
+    """Whether a set is right, else the `code` of what is said of alternative `number`, and `where`.
+
+    `notes` are what is said of one that is right.
+    """
+
+    is_right: bool
+    code: str = ""
+    number: int = 0
+    notes: tuple[str, ...] = ()
+    where: str = ""
+
+
+RIGHT = SetVerdict(True)
+
+
+class Judged(Struct, frozen=True):
+    """What a question judges by: the robot, its results, as they are printed, and the problem's numbers.
+
+    `exact` are the decimals that stand in its file.
+    """
+
+    robot: Robot
+    values: Derivation
+    forms: Forms
+    numbers: Mapping[str, float]
+    exact: frozenset[Fraction]
+
+
+class SetKey(ABC):
+    """The key of a set: alternatives, each of formulas that hold together.
+
+    `vanishing` is the result that is 0 on the set, where there is one; `names` are what may stand in it
+    beside coordinates and parameters.
+    """
+
+    faults: ClassVar[Mapping[str, Fault]] = {}
+
+    def __init__(self, judged: Judged, name: str) -> None:
+        self.judged, self.name = judged, name
+        self.robot, self.forms = judged.robot, judged.forms
+        self.vanishing = ""
+        self.names: Set[str] = frozenset()
+
+    @abstractmethod
+    def verdict(self, given: Alternatives) -> SetVerdict:
+        """Whether a set is that of the key."""
+
+    @property
+    def is_skipped(self) -> bool:
+        """Whether the key has no such set, because it would be too long."""
+        return isinstance(self.judged.values[self.name], Skipped)
+
+    def zeros(self, value: Any) -> Sequence[Node]:
+        """What is 0 where a value of `vanishing` is."""
+        return [Compactor(value.ring).form(value)]
+
+
+def nodes_of(given: Iterable[Sequence[Part]]) -> list[Node]:
+    """The formulas of all alternatives."""
+    return [part.node for one in given for part in one]
