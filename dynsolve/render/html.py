@@ -464,7 +464,10 @@ class _Page(MarkupPage):
             yield from self.entry_by_entry(node, matrix, formula)
 
     def widest(self, node: Node) -> float:
-        """The width of the widest part that cannot be broken."""
+        """The width of the widest part that cannot be broken; of a matrix wider than any page its own."""
+        given = node.parts[-1] if isinstance(node, Relation) else node
+        if isinstance(given, Matrix) and (width := self.ruler.width(given)) > PAGE:
+            return width
         return max(piece.width for piece in self.formulas.pieces(node))
 
     def broken(self, node: Node, room: float = PHONE) -> str:

@@ -159,6 +159,10 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
         return None
     if not named and (called := _called(vocabulary, members)):
         return called
+    if any(
+        len(member) > 1 and block(member) == member for member in members
+    ):  # a matrix is no equation of one
+        return None
     rests = [_rest(vocabulary, terms) for terms in sides]
     values = [rest.value for rest in rests if rest is not None and isinstance(rest.value, Node)]
     if len(values) < 2:
@@ -238,6 +242,18 @@ def signed_terms(member: Sequence[Token]) -> list[tuple[list[Token], bool]]:
             piece.append(token)
         level += OPENS.get(token.kind, 0)
     return [*found, (piece, negative)]
+
+
+def block(tokens: Sequence[Token]) -> list[Token]:
+    """The matrix that tokens begin with; empty where they begin with none."""
+    if not tokens or tokens[0].kind != "begin":
+        return []
+    level = 0
+    for position, token in enumerate(tokens, 1):
+        level += OPENS.get(token.kind, 0)
+        if level == 0:
+            return list(tokens[:position])
+    return []
 
 
 def _rest(vocabulary: Vocabulary, terms: Sequence[_Term]) -> RightSide | None:

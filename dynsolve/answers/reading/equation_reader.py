@@ -20,6 +20,7 @@ from msgspec.structs import replace
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
 from dynsolve.answers.reading.by_content import (
     acceleration_of,
+    block,
     called_force,
     calls_forces,
     force_meant,
@@ -30,7 +31,7 @@ from dynsolve.answers.reading.by_content import (
     signed_terms,
     states_constant,
 )
-from dynsolve.answers.reading.displays import OPENS, Display, Equation, equations, is_label
+from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
 from dynsolve.answers.reading.grammar.names import SEVERAL
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS, Abstract, Grid
@@ -71,10 +72,10 @@ _NAMES = ("linear_A", "linear_B")
 
 def linear_parts(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> Iterator[tuple[str, Member]]:
     """A and B with their names, of the chain ẋ = A x + B u; nothing of every other chain."""
-    if len(members) != 2 or _NAMES[0] not in vocabulary.quantities or _block(members[0]) == members[0]:
+    if len(members) != 2 or _NAMES[0] not in vocabulary.quantities or block(members[0]) == members[0]:
         return
     terms = signed_terms(members[1])
-    blocks = [_block(tokens) for tokens, _ in terms]
+    blocks = [block(tokens) for tokens, _ in terms]
     if len(terms) > 2 or any(negative for _, negative in terms):
         return
     if any(not block or len(block) == len(tokens) for block, (tokens, _) in zip(blocks, terms, strict=True)):
@@ -85,18 +86,6 @@ def linear_parts(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> Iter
     shapes = [value.shape for value in values if isinstance(value, Grid)]
     if shapes[:1] == [(n, n)] and len(shapes) == len(made) and all(rows == n for rows, _ in shapes):
         yield from zip(_NAMES, made, strict=False)
-
-
-def _block(tokens: Sequence[Token]) -> list[Token]:
-    """The matrix that tokens begin with; empty where they begin with none."""
-    if not tokens or tokens[0].kind != "begin":
-        return []
-    level = 0
-    for position, token in enumerate(tokens, 1):
-        level += OPENS.get(token.kind, 0)
-        if level == 0:
-            return list(tokens[:position])
-    return []
 
 
 _CONTROL = re.compile(
