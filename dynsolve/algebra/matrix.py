@@ -24,7 +24,7 @@ from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.tree import Function, Node, walk
+from dynsolve.notation.tree import ZERO, Function, Node, Symbol, walk
 
 if TYPE_CHECKING:
     from dynsolve.algebra.surds import SurdAngle
@@ -299,6 +299,12 @@ class AtState:
         for (name, dots), tree in self.values.items():
             if _has_value(tree):
                 images[self.ring.symbol_indices[name, dots]] = value_of(self.ring, tree)
+        at_rest = [
+            Function("sgn", Symbol(*of)) for of, tree in self.values.items() if of[1] == 1 and tree == ZERO
+        ]
+        for g in self.ring.generators:
+            if g.node in at_rest:
+                images[g.index] = self.ring.zero
         return tuple(image.poly for image in images)
 
     def _turned(self, pair: Pair) -> tuple[Expr, Expr]:

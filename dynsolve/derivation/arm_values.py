@@ -30,7 +30,7 @@ from dynsolve.derivation.newton_euler import (
     transposed,
 )
 from dynsolve.errors import VerificationError
-from dynsolve.robot.actions import Motor
+from dynsolve.robot import actions
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
 _MISSES = 200
@@ -80,7 +80,7 @@ def arm_at(robot: Robot, values: Mapping[str, float]) -> Arm:
         gravity=numbers.vector(robot.gravity),
         qd=tuple(values[c.velocity] for c in robot.coordinates),
         qdd=tuple(values[c.acceleration] for c in robot.coordinates),
-        rotors=tuple(numbers.rotor(motor) for motor in robot.actions.motors),
+        rotors=tuple(map(numbers.rotor, robot.actions.rotors)),
     )
 
 
@@ -143,10 +143,9 @@ class RobotValues(Struct, frozen=True):
             inertia = _to_center(inertia, mass, minus(center, self.vector(body.about_point)))
         return Mass(mass, body.link, center, inertia)
 
-    def rotor(self, motor: Motor) -> Rotor:
-        """The rotor of a motor."""
-        inertia, ratio = self.number(motor.inertia), self.number(motor.ratio)
-        return Rotor(inertia, motor.carrier, motor.axis, motor.turns, ratio)
+    def rotor(self, one: actions.Rotor) -> Rotor:
+        """The rotor in numbers."""
+        return Rotor(self.number(one.inertia), one.carrier, one.axis, one.turns, self.number(one.ratio))
 
 
 def _to_center(inertia: Rotation, mass: float, offset: Vector) -> Rotation:

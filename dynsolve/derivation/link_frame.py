@@ -144,7 +144,7 @@ def link_frame_rules(robot: Robot) -> Iterator[Rule]:
         yield Rule(f"Kv{b}", (f"Dv{b}",), partial(quadratic_energy, robot))
         yield Rule(f"Kw{b}", (f"Dw{b}",), partial(quadratic_energy, robot))
     parts = [f"D{kind}{body.name}" for body in robot.bodies for kind in "vw"]
-    parts += ["Dm"] if robot.actions.motors else []
+    parts += ["Dm"] if robot.actions.rotors else []
     yield Rule("D_direct", tuple(parts), partial(inertia_matrix, robot))
 
 

@@ -160,8 +160,8 @@ class Mechanism(Struct, frozen=True):
     @property
     def _rotors(self) -> list[tuple[int, float]]:
         """(coordinate, moment of inertia felt there) of each rotor: no link carries one."""
-        motors = self.robot.actions.motors
-        return [(m.turns, self._number(m.inertia) * self._number(m.ratio) ** 2) for m in motors]
+        rotors = self.robot.actions.rotors
+        return [(one.turns, self._number(one.inertia) * self._number(one.ratio) ** 2) for one in rotors]
 
     def _of_masses(self, qd: Sequence[float], qdd: Sequence[float], has_gravity: bool) -> list[float]:
         given = self.robot.given

@@ -58,7 +58,7 @@ def _potential(robot: Robot, given: GivenModel) -> Expr:
 
 def direct_rules(robot: Robot) -> Iterator[Rule]:
     """K_v and K_ω from each body's part of D, along its own axes, and D without the forces (`D_direct`)."""
-    rotors = ("Dm",) if robot.actions.motors else ()
+    rotors = ("Dm",) if robot.actions.rotors else ()
     if robot.given is not None:
         D = robot.given.D
         if D is not None:

@@ -59,7 +59,7 @@ def _asked(robot: Robot) -> Iterator[Rule]:
 
 
 def _acting_energies(robot: Robot) -> Iterator[Rule]:
-    """The energies of springs and rotors; imported where something acts beside gravity."""
+    """The energies of what is stored and of rotors; imported where something acts beside gravity."""
     from dynsolve.derivation.actions import energy_rules
 
     yield from energy_rules(robot)
@@ -67,7 +67,7 @@ def _acting_energies(robot: Robot) -> Iterator[Rule]:
 
 def _rotors(robot: Robot) -> Iterator[Rule]:
     """The link frames' rules of the rotors."""
-    if robot.has_dynamics and robot.actions.motors:
+    if robot.has_dynamics and robot.actions.rotors:
         from dynsolve.derivation.actions import rotor_rules
 
         yield from rotor_rules(robot)
@@ -146,9 +146,7 @@ def _own_tensor(robot: Robot, body: Body) -> Rule:
 
 
 def _energies(robot: Robot) -> Iterator[Rule]:
-    kinds = robot.actions.kinds
-    stored = ["Ps"] if "springs" in kinds else []
-    moving = ["Km"] if "motors" in kinds else []
+    stored, moving = ([name] if name in robot.actions.terms else [] for name in ("Ps", "Km"))
     if robot.given is not None:
         from dynsolve.derivation.model_rules import given_rules
 
@@ -180,7 +178,7 @@ def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
 
 def _friction(robot: Robot) -> tuple[str, ...]:
     """The rule of friction, where there is any."""
-    return ("friction",) if "friction" in robot.actions.kinds else ()
+    return ("friction",) if robot.actions.resisting else ()
 
 
 def _vectorized(robot: Robot) -> Iterator[Rule]:

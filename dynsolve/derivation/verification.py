@@ -5,10 +5,10 @@ shares no formula with the rest of the derivation.  First the robot is put in nu
 `arm_values`),
 then each result is compared: H and J of the last frame, D, C q̇, g, τ, K and P.
 
-What acts beside gravity, on numbers: springs, friction and dampers, for the independent check.
+What acts beside gravity, on numbers, for the independent check.
 
-No derivative of the ring is taken: the force of a spring is the slope of its energy by central
-differences, and a linear form of the coordinates, put at the rates, is its own rate.
+No derivative of the ring is taken: the force of what is stored is the slope of its energy by central
+differences.
 """
 
 from __future__ import annotations
@@ -20,8 +20,6 @@ from itertools import islice
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.arm_values import arms
 from dynsolve.derivation.newton_euler import (
     ZERO,
@@ -37,7 +35,7 @@ from dynsolve.derivation.newton_euler import (
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
-from dynsolve.robot.actions import Spring
+from dynsolve.robot.actions import Stored
 from dynsolve.robot.model import Robot
 
 # What acts beside gravity, on numbers
@@ -48,52 +46,30 @@ _WEIGHTS = (4 / 5, -1 / 5, 4 / 105, -1 / 280)
 
 
 class ActingForces(Struct, frozen=True):
-    """The generalized forces of springs (a part of g) and of friction at a state, and the springs' energy."""
+    """The generalized forces of what is stored (a part of g) and of friction at a state, and the energy."""
 
-    springs: tuple[float, ...]
+    stored: tuple[float, ...]
     friction: tuple[float, ...]
     energy: float = 0.0
 
 
 def acting_forces(robot: Robot, values: Mapping[str, float]) -> ActingForces:
     """Those of a robot at a state; zeros where nothing acts."""
-    n, acting = robot.n, robot.actions
-    springs, friction, energy = [0.0] * n, [0.0] * n, 0.0
-    for spring in acting.springs:
-        energy += _energy(robot, spring, values)
-        for k in range(n):
-            springs[k] += _slope(robot, spring, values, k)
-    for one in acting.friction:
-        rate = values[robot.coordinates[one.coordinate].velocity]
-        viscous, coulomb = (evaluate(expr, values) for expr in (one.viscous, one.coulomb))
-        friction[one.coordinate] += viscous * rate + (math.copysign(coulomb, rate) if rate else 0.0)
-    for damper in acting.dampers:
-        moving = {**values, **{q.name: values[q.velocity] for q in robot.coordinates}}
-        force = evaluate(damper.damping, values) * evaluate(damper.of, moving)
-        for k in range(n):
-            friction[k] += force * _at_unit(robot, damper.of, values, k)
-    return ActingForces(tuple(springs), tuple(friction), energy)
+    none, acting = [0.0] * robot.n, robot.actions
+    slopes = ([_slope(act, values, q.name) for q in robot.coordinates] for act in acting.stored)
+    resisting = (act.force_at(robot, values) for act in acting.resisting)
+    return ActingForces(
+        tuple(map(sum, zip(none, *slopes, strict=True))),
+        tuple(map(sum, zip(none, *resisting, strict=True))),
+        sum(act.energy_at(values) for act in acting.stored),
+    )
 
 
-def _at_unit(robot: Robot, form: Expr, values: Mapping[str, float], k: int) -> float:
-    """A linear form where coordinate k is 1 and the others are 0."""
-    unit = {q.name: float(place == k) for place, q in enumerate(robot.coordinates)}
-    return evaluate(form, {**values, **unit})
-
-
-def _energy(robot: Robot, spring: Spring, values: Mapping[str, float]) -> float:
-    if spring.law is None:
-        return evaluate(spring.energy, values)
-    k, x, rest = (evaluate(expr, values) for expr in (spring.law.stiffness, spring.law.of, spring.law.rest))
-    return k * (x - rest) ** 2 / 2
-
-
-def _slope(robot: Robot, spring: Spring, values: Mapping[str, float], k: int) -> float:
-    name = robot.coordinates[k].name
+def _slope(act: Stored, values: Mapping[str, float], name: str) -> float:
     total = 0.0
     for times, weight in enumerate(_WEIGHTS, 1):
         beyond, before = ({**values, name: values[name] + sign * times * _STEP} for sign in (1, -1))
-        total += weight * (_energy(robot, spring, beyond) - _energy(robot, spring, before))
+        total += weight * (act.energy_at(beyond) - act.energy_at(before))
     return total / _STEP
 
 
@@ -228,9 +204,9 @@ def _dynamic_errors(state: _Independent, ours: Results) -> Iterator[tuple[str, f
     theirs = {
         "D": [[columns[j][i] for j in range(n)] for i in range(n)],
         "Cqd": [[x] for x in state.forces(state.qd, still, False)],
-        "g": _column(state.forces(still, still, True), acting.springs),
+        "g": _column(state.forces(still, still, True), acting.stored),
         "friction": _column(acting.friction),
-        "tau": _column(state.forces(state.qd, state.qdd, True), acting.springs, acting.friction),
+        "tau": _column(state.forces(state.qd, state.qdd, True), acting.stored, acting.friction),
     }
     size = max((state.negligible, *(_size(matrix) for matrix in theirs.values()))) or 1.0
     mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, state.qd, strict=True))] for row in ours["C"]]}

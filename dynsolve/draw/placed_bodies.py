@@ -308,15 +308,14 @@ def _springs(pose: PlacedPose, turning: Sequence[Turning], notes: Notes) -> list
     """Every spring with its stiffness and every damper with its damping; what is to be said of them."""
     actions, compactor = pose.robot.actions, Compactor(pose.robot.ring, decimal=True)
     said = []
-    for spring in actions.springs:
-        law = spring.law
-        name = None if law is None else compactor.form(law.stiffness)
-        drawn = law is not None and name is not None and _draw(law.of, name, pose, turning, notes)
+    for spring in actions.stored:
+        along = spring.along
+        drawn = along is not None and _draw(along[0], compactor.form(along[1]), pose, turning, notes)
         said.append(SPRINGS if drawn else NOT_DRAWN)
-    for damper in actions.dampers:
-        ends = _ends(damper.of, pose)
+    for of, damping in (act.along for act in actions.resisting if act.along):
+        ends = _ends(of, pose)
         if ends is not None:
-            _dashpot(*_apart(*ends, pose, notes), compactor.form(damper.damping), notes)
+            _dashpot(*_apart(*ends, pose, notes), compactor.form(damping), notes)
         said.append(DAMPERS if ends else NOT_DRAWN)
     return list(dict.fromkeys(said))
 

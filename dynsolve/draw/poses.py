@@ -19,6 +19,7 @@ from itertools import combinations, pairwise
 from msgspec import Struct, field
 
 from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Taken, Wanted
 from dynsolve.draw.mass_centers import DrawnBody
@@ -46,7 +47,6 @@ from dynsolve.draw.vectors import (
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.actions import Elastic
 from dynsolve.robot.model import JointType, Robot
 
 # A robot in a pose, and the cost of the pose
@@ -430,27 +430,25 @@ _BESIDE, _HALF, _ENDS, _TOOTH, _LONGEST = 22.0, 6.0, 10.0, 6.0, 96.0
 """Of a zigzag: how far beside its joint it runs, half its width, its ends, half its period, all its teeth."""
 
 
-def joint_springs(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Elastic]]:
-    """The linear springs that act on the coordinate of just one joint, with that joint."""
+def joint_springs(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Expr]]:
+    """The joints on whose coordinate alone a spring acts along, with its stiffness."""
     found = []
-    for spring in robot.actions.springs:
-        if spring.law is None:
-            continue
-        stretched = {k for k, q in enumerate(robot.coordinates) if _rate(spring.law, q.name, numbers) > NEAR}
+    for of, stiffness in (act.along for act in robot.actions.stored if act.along):
+        stretched = {k for k, q in enumerate(robot.coordinates) if _rate(of, q.name, numbers) > NEAR}
         rows = [joint.index for joint in robot.joints if {k for k, _ in joint.rates} & stretched]
-        found += [(part, spring.law) for part in pose.parts.joints if rows == [part.row]]
+        found += [(part, stiffness) for part in pose.parts.joints if rows == [part.row]]
     return found
 
 
-def _rate(law: Elastic, coordinate: str, numbers: RobotNumbers) -> float:
+def _rate(of: Expr, coordinate: str, numbers: RobotNumbers) -> float:
     """How much the form that a spring is given by grows with a coordinate, without its sign."""
-    return abs(finite(law.of, {**numbers.values, coordinate: 1.0}) - finite(law.of, numbers.values))
+    return abs(finite(of, {**numbers.values, coordinate: 1.0}) - finite(of, numbers.values))
 
 
 def springs(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
     """Every such spring with its stiffness."""
-    for part, law in joint_springs(robot, numbers, pose):
-        name = Compactor(robot.ring, decimal=True).form(law.stiffness)
+    for part, stiffness in joint_springs(robot, numbers, pose):
+        name = Compactor(robot.ring, decimal=True).form(stiffness)
         if part.type is JointType.REVOLUTE:
             draw_spring(spiral(part.center, part.axis, pose.view), name, notes)
         else:

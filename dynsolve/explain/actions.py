@@ -6,6 +6,7 @@ The stages that they belong to, `energy`, `torque` and `vectorized`, put them in
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -29,13 +30,12 @@ from dynsolve.explain.writing import (
     sum_of,
 )
 from dynsolve.notation import tree
-from dynsolve.notation.build import negated, times, total
+from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
-    Power,
     Product,
     Row,
     Sum,
@@ -43,60 +43,45 @@ from dynsolve.notation.tree import (
     Transpose,
     Words,
     equation,
-    walk,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.actions import Elastic, Motor
+from dynsolve.robot.actions import Act, Resisting, Rotor, Stored, part
 from dynsolve.robot.model import Body, Coordinate
 from dynsolve.robot.shapes import AXES
 
 
-def _half_square(factor: Node, of: Node) -> Node:
+def half_square(factor: Node, of: Node) -> Node:
     """½ factor of²"""
     return formula("½ {a} ({x})²" if isinstance(of, Sum) else "½ {a} {x}²", a=factor, x=of)
 
 
-# -- springs ---------------------------------------------------------------------------------------
+def _kinds(context: Context, term: type[Act]) -> list[tuple[Any, list[Any]]]:
+    """What is told of each kind of a term (`acts/<kind>/explain.py`), with those that act."""
+    by_kind = context.robot.actions.by_kind
+    return [(part(kind, "explain"), acts) for kind, acts in by_kind.items() if isinstance(acts[0], term)]
 
 
-def spring_steps(context: Context) -> Iterator[Step]:
+# -- what stores energy ----------------------------------------------------------------------------
+
+
+def stored_steps(context: Context) -> Iterator[Step]:
     """The potential energy of the springs, where there are any."""
-    springs = context.robot.actions.springs
-    if not springs:
+    kinds, stored = _kinds(context, Stored), context.robot.actions.stored
+    if not stored:
         return
-    laws = [spring.law for spring in springs if spring.law]
-    several = "s" if len(springs) > 1 else ""
-    if not laws:
-        why = "The energies are given." if several else "The energy of the spring is given."
-    else:
-        why = "A linear spring stores half its stiffness times the square of its deflection from rest."
-        why += " The other energies are given." if len(laws) < len(springs) else ""
-    terms = [
-        _stretched(context, spring.law) if spring.law else context.show(spring.energy) for spring in springs
-    ]
-    hint = "Half the stiffness times the square of the deflection of each spring from its rest."
+    terms = [told.term(context, act) for told, acts in kinds for act in acts]
+    has_law = any(term is not None for term in terms)
+    shown = [term or context.show(act.energy) for term, act in zip(terms, stored, strict=True)]
+    hint = " ".join(filter(None, (told.hint(acts) for told, acts in kinds)))
     yield Step(
         id="Ps",
-        title=f"Potential energy of the spring{several}",
-        why=(why,),
-        formula=equation(letters.PS, sum_of(terms)) if laws else None,
+        title=f"Potential energy of the spring{'s' if len(stored) > 1 else ''}",
+        why=(" ".join(told.why(acts) for told, acts in kinds),),
+        formula=equation(letters.PS, sum_of(shown)) if has_law else None,
         source=siciliano("7.1.2"),
         result=(equation(letters.PS, context.form("Ps")),),
-        hint=(hint,) if laws else (),
+        hint=(hint,) if hint else (),
     )
-
-
-def _stretched(context: Context, law: Elastic) -> Node:
-    """½ k (x - rest)², the deflection with the terms in the order that they have in the sum of all."""
-    squares = (one for one in walk(context.form("Ps")) if isinstance(one, Power))
-    sums = [one.base for one in squares if isinstance(one.base, Sum)]
-    for sign in (1, -1):
-        shown = context.show((law.of - law.rest) * sign)
-        for base in sums:
-            if isinstance(shown, Sum) and set(base.terms) == set(shown.terms):
-                return _half_square(context.show(law.stiffness), base)
-    stretch = total([context.show(law.of), negated(context.show(law.rest))])
-    return _half_square(context.show(law.stiffness), stretch)
 
 
 # -- rotors ----------------------------------------------------------------------------------------
@@ -104,7 +89,7 @@ def _stretched(context: Context, law: Elastic) -> Node:
 
 def rotor_steps(context: Context) -> Iterator[Step]:
     """The kinetic energy of the rotors, where there are any."""
-    motors = context.robot.actions.motors
+    motors = context.robot.actions.rotors
     if not motors:
         return
     carried = [motor for motor in motors if motor.carrier]
@@ -136,24 +121,24 @@ def rotor_steps(context: Context) -> Iterator[Step]:
     )
 
 
-def _turned(context: Context, motor: Motor) -> tuple[Node, Expr]:
+def _turned(context: Context, rotor: Rotor) -> tuple[Node, Expr]:
     """The rate that a rotor turns with on its carrier, as a formula, and what the carrier adds."""
     robot = context.robot
-    frames = tuple(context.values[name] for name in frame_names(motor.carrier))
-    row = actions.rotor_turn(robot, motor, frames) - actions.spin(robot, motor)
+    frames = tuple(context.values[name] for name in frame_names(rotor.carrier))
+    row = actions.rotor_turn(robot, rotor, frames) - actions.spin(robot, rotor)
     carried = robot.ring.dot(row.entries, [robot.ring.symbol(name, 1) for name in robot.ring.names])
-    rate = Symbol(robot.ring.names[motor.turns], 1)
-    return times(1, [(context.show(motor.ratio), 1), (rate, 1)]), carried
+    rate = Symbol(robot.ring.names[rotor.turns], 1)
+    return times(1, [(context.show(rotor.ratio), 1), (rate, 1)]), carried
 
 
-def _energy(context: Context, motor: Motor) -> Node:
-    spin, carried = _turned(context, motor)
-    return _half_square(context.show(motor.inertia), total([spin, context.show(carried)]))
+def _energy(context: Context, rotor: Rotor) -> Node:
+    spin, carried = _turned(context, rotor)
+    return half_square(context.show(rotor.inertia), total([spin, context.show(carried)]))
 
 
 def _carriers(context: Context) -> Iterator[Prose]:
     """What link a rotor rides on, and what that turns it with."""
-    for place, motor in enumerate(context.robot.actions.motors, 1):
+    for place, motor in enumerate(context.robot.actions.rotors, 1):
         if motor.carrier:
             axis = letters.bold(AXES[motor.axis], Number(motor.carrier))
             link = letters.bold("omega", Row((Words("link"), Number(motor.carrier))))
@@ -169,7 +154,7 @@ def _carriers(context: Context) -> Iterator[Prose]:
 
 def rotor_part_step(context: Context) -> Iterator[Step]:
     """What the rotors add to D, where there are any."""
-    if context.robot.actions.motors:
+    if context.robot.actions.rotors:
         quadratic = letters.transposed_product(letters.QD, letters.DM)
         yield Step(
             id="Dm",
@@ -187,59 +172,38 @@ def rotor_part_step(context: Context) -> Iterator[Step]:
 
 def friction_steps(context: Context) -> Iterator[Step]:
     """The dissipative terms, where there are any."""
-    robot = context.robot
-    if "friction" not in robot.actions.kinds:
+    kinds = _kinds(context, Resisting)
+    if not kinds:
         return
-    viscous = [one for one in robot.actions.friction if not one.viscous.is_zero]
-    sliding = [one for one in robot.actions.friction if not one.coulomb.is_zero]
-    parts: list[Node] = []
+    squares = [term for told, acts in kinds for act in acts if (term := told.dissipation(context, act))]
+    parts: list[Node] = [formula("∂{R}/∂q̇_k", R=letters.DISSIPATION)] if squares else []
     viscosity: Prose = ()
-    coulomb: Prose = ()
-    if viscous or robot.actions.dampers:
+    if squares:
         viscosity = say(
             " Viscous friction and dampers are the slopes of {R}, Rayleigh's dissipation function, in the "
             "rates.",
             R=letters.DISSIPATION,
         )
-        parts.append(formula("∂{R}/∂q̇_k", R=letters.DISSIPATION))
-    if sliding:
-        coulomb = say(
-            " Coulomb friction, of {which}, has the size of its coefficient, $f_ck$, and the sign of the "
-            "rate; at rest sgn is 0.",
-            which=listed([Symbol(robot.ring.names[one.coordinate]) for one in sliding]),
-        )
-        parts.append(formula("f_ck sgn q̇_k"))
+    beside: Prose = ()
+    for told, acts in kinds:
+        if hasattr(told, "beside") and (found := told.beside(context, acts)):
+            beside, parts = (*beside, *found[0]), [*parts, found[1]]
     yield Step(
         id="friction",
         title="Friction",
         why=say(
             "Friction has no potential energy. It acts against the motion, so it stands on the side of the "
-            "inertial forces, with the sign of the rate.{viscosity}{coulomb}",
+            "inertial forces, with the sign of the rate.{viscosity}{beside}",
             viscosity=viscosity,
-            coulomb=coulomb,
+            beside=beside,
         ),
         formula=formula("τ_fk = {sum}", sum=sum_of(parts)),
         source=siciliano("7.1.3"),
-        working=tuple(_dissipation(context)),
+        working=(equation(letters.DISSIPATION, sum_of(squares)),) if squares else (),
         result=(equation(letters.FRICTION, context.form("friction")),),
-        entries=tuple((letters.friction(q.index),) for q in robot.coordinates),
+        entries=tuple((letters.friction(q.index),) for q in context.robot.coordinates),
         detail=Detail.BRIEF,
     )
-
-
-def _dissipation(context: Context) -> Iterator[Node]:
-    """ℛ = ½ Σ f_v q̇² + ½ Σ b ẋ²"""
-    robot = context.robot
-    terms: list[Node] = []
-    for one in robot.actions.friction:
-        if not one.viscous.is_zero:
-            rate = Symbol(robot.ring.names[one.coordinate], 1)
-            terms.append(_half_square(context.show(one.viscous), rate))
-    for damper in robot.actions.dampers:
-        stretching = context.show(robot.ring.time_derivative(damper.of))
-        terms.append(_half_square(context.show(damper.damping), stretching))
-    if terms:
-        yield equation(letters.DISSIPATION, sum_of(terms))
 
 
 def in_recursions(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
@@ -250,12 +214,12 @@ def in_recursions(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
     robot, k = context.robot, q.index - 1
     why = ""
     terms: list[Node] = []
-    for motor in robot.actions.motors:
+    for motor in robot.actions.rotors:
         if motor.turns == k:
             why += " It also drives the rotor, through its gear."
             dw = context.values[f"wdl{motor.carrier}"] if motor.carrier else None
             terms.append(context.show(actions.rotor_drive(robot, motor, dw) * motor.ratio))
-    if robot.actions.springs and not robot.ring.diff(context.values["Ps"], k).is_zero:
+    if robot.actions.stored and not robot.ring.diff(context.values["Ps"], k).is_zero:
         why += " Springs are held."
         terms.append(letters.partial_derivative(letters.PS, Symbol(q.name)))
     if context.has_friction(k):
@@ -266,7 +230,7 @@ def in_recursions(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
 
 def rotor_moments(context: Context, link: int) -> Iterator[tuple[Node, Matrix]]:
     """What each rotor that rides on a link takes from it, a moment, with its value."""
-    for place, motor in enumerate(context.robot.actions.motors, 1):
+    for place, motor in enumerate(context.robot.actions.rotors, 1):
         if motor.carrier == link:
             w, dw = context.values[f"wl{link}"], context.values[f"wdl{link}"]
             name = letters.bold("n", Row((Words("m"), Number(place))))
@@ -285,7 +249,7 @@ def passive_prose(context: Context) -> Prose:
 
 def acting_steps(context: Context) -> tuple[list[Step], list[Step]]:
     """The step of the springs and that of the rotors, where there are any."""
-    return list(spring_steps(context)), list(rotor_steps(context))
+    return list(stored_steps(context)), list(rotor_steps(context))
 
 
 # -- steps of the potential energy of each body: by its height, or by the vectors ------------------

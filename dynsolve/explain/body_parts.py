@@ -144,7 +144,7 @@ def sum_step(context: Context) -> Step | None:
     if len(parts) < 2:
         return None
     same = context.values["D"] == context.values["D_direct"]
-    motors, bodies = bool(context.robot.actions.motors), context.robot.bodies
+    motors, bodies = bool(context.robot.actions.rotors), context.robot.bodies
     who = ("body" if len(bodies) == 1 else "bodies") + (" and the rotors" if motors else "")
     added = [f"{part}{b.name}" for b in bodies for part in ("D_direct", *["Dw"] * _is_in_two(context, b))]
     end = ending_of_several(context, "D_sum", tuple(_summed_entries(context, parts)))
@@ -171,7 +171,7 @@ def sum_step(context: Context) -> Step | None:
 def _summands(context: Context) -> list[str]:
     """The quantities that D is the sum of, without those that are zero."""
     names = [part + body.name for body in context.robot.bodies for part in ("Dv", "Dw")]
-    names += ["Dm"] * bool(context.robot.actions.motors)
+    names += ["Dm"] * bool(context.robot.actions.rotors)
     return [name for name in names if name in context.values.rules and not context.values[name].is_zero]
 
 

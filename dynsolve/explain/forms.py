@@ -155,7 +155,7 @@ class Forms:
         """Σ P_i as it is added up, unless collecting makes it much shorter."""
         if is_numeric(self.robot) or not self.robot.bodies:
             return compact
-        springs = ["Ps"] if self.robot.actions.springs else []
+        springs = ["Ps"] if self.robot.actions.stored else []
         added = total([self(name) for name in (*(f"P{body.name}" for body in self.robot.bodies), *springs)])
         return added if cost(added) <= 1.5 * cost(compact) else compact
 
@@ -261,7 +261,7 @@ def leading_names(robot: Robot) -> list[str]:
     """The masses and then the moments of inertia, in the order of the bodies, rotors last."""
     masses = [name for body in robot.bodies for name in _linear_names(body.mass)]
     given = [body.inertia for body in robot.bodies if body.inertia is not None and body.shape is None]
-    rotors = [name for motor in robot.actions.motors for name in _linear_names(motor.inertia)]
+    rotors = [name for motor in robot.actions.rotors for name in _linear_names(motor.inertia)]
     inertias = [name for tensor in given for entry in tensor.entries for name in _linear_names(entry)]
     return list(dict.fromkeys([*masses, *inertias, *rotors]))
 

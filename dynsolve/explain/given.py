@@ -58,8 +58,7 @@ from dynsolve.quantities.families import DH
 from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.owners import derived_stages
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot import units
-from dynsolve.robot.actions import JointFriction, Motor
+from dynsolve.robot import actions, units
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
 from dynsolve.robot.questions import TIP, Load
 from dynsolve.robot.shapes import AXES, KINDS, Shape
@@ -532,43 +531,19 @@ def _gravity(forms: Forms) -> Prose:
         ground = "the world" if in_world or not robot.has_table else "frame 0"
         told = ("The acceleration of gravity is ", equation(letters.GRAVITY, vector))
         told += (f" along the axes of {ground}",)
-    if "friction" in robot.actions.kinds:
+    if robot.actions.resisting:
         return (*told, ".")
     return (*told, "; there is no friction." if along else " and no friction.")
 
 
 def _actions(forms: Forms) -> Iterator[Prose]:
     """A sentence for each thing that acts beside gravity."""
-    actions = forms.robot.actions
-    names = [Symbol(q.name) for q in forms.robot.coordinates]
-    for spring in actions.springs:
-        if spring.law is None:
-            yield ("A spring has the potential energy ", forms.of(spring.energy), ".")
-        else:
-            slides = _slides(forms.robot, spring.law.of)
-            at_rest = equation(
-                forms.of(spring.law.of), measured(forms.of(spring.law.rest), "m" if slides else "rad")
-            )
-            stiffness = measured(forms.of(spring.law.stiffness), "N/m" if slides else "N m/rad")
-            yield ("A spring of stiffness ", stiffness, " is at rest at ", at_rest, ".")
-    for damper in actions.dampers:
-        unit = "N s/m" if _slides(forms.robot, damper.of) else "N m s/rad"
-        yield (
-            *("A damper of coefficient ", measured(forms.of(damper.damping), unit)),
-            *(" acts against changes of ", forms.of(damper.of), "."),
-        )
-    yield from (_friction(forms, friction) for friction in actions.friction)
-    yield from (_motor(forms, motor) for motor in actions.motors)
-    if actions.passive:
-        yield ("No motor drives ", *listed([names[k] for k in actions.passive]), ".")
-
-
-def _slides(robot: Robot, of: Expr) -> bool:
-    """Whether a form of the coordinates is a length: where one that slides stands in it alone."""
-    slopes = (
-        robot.ring.diff(of, k) for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC
-    )
-    return any(slope.is_number and not slope.is_zero for slope in slopes)
+    acting = forms.robot.actions
+    for act in (*acting.stored, *acting.resisting, *acting.rotors):
+        yield actions.part(act.kind, "explain").given(forms, act)
+    if acting.passive:
+        names = [Symbol(forms.robot.coordinates[k].name) for k in acting.passive]
+        yield ("No motor drives ", *listed(names), ".")
 
 
 def _indices(robot: Robot) -> Prose:
@@ -582,34 +557,6 @@ def _indices(robot: Robot) -> Prose:
         *listed([Symbol(q.name) for q in others]),
         *(": ", letters.force(others[0]), " belongs to ", Symbol(others[0].name), "."),
     )
-
-
-def _friction(forms: Forms, friction: JointFriction) -> Prose:
-    """On q₁ acts viscous friction of coefficient f_v and Coulomb friction of coefficient f_c."""
-    is_length = forms.robot.coordinates[friction.coordinate].type is JointType.PRISMATIC
-    viscous, coulomb = ("N s/m", "N") if is_length else ("N m s/rad", "N m")
-    kinds = (("viscous", friction.viscous, viscous), ("Coulomb", friction.coulomb, coulomb))
-    there = [
-        (f"{kind} friction of coefficient ", measured(forms.of(value), unit))
-        for kind, value, unit in kinds
-        if not value.is_zero
-    ]
-    on = Symbol(forms.robot.coordinates[friction.coordinate].name)
-    return ("On ", on, " acts ", *listed(there), ".")
-
-
-def _motor(forms: Forms, motor: Motor) -> Prose:
-    """The rotor that turns q₂ has the moment of inertia I_m2 and the gear ratio k_r2; link 1 carries it."""
-    q = forms.robot.coordinates[motor.turns]
-    whose = "of" if forms.robot.is_of_motor(q) else "that drives"
-    told: Prose = (f"The rotor {whose} ", Symbol(q.name))
-    told += (" has the moment of inertia ", measured(forms.of(motor.inertia), "kg m^2"))
-    if motor.ratio != forms.robot.ring.one:
-        told += (" and the gear ratio ", forms.of(motor.ratio))
-    if motor.carrier:
-        axis = letters.bold(AXES[motor.axis], Number(motor.carrier))
-        told += ("; it spins about ", axis, f" and is carried by link {motor.carrier}")
-    return (*told, ".")
 
 
 # -- what is asked, and in which state; numbers ----------------------------------------------------

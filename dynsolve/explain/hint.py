@@ -24,6 +24,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.actions import part
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
 
 
@@ -205,7 +206,7 @@ PITFALLS = {
             sin² {angle_1}$, is something else: the cosine of twice the angle.
         A point has no tensor, and so no rotational energy: that holds for {points}.
         extended? $𝛚$ and the tensor must be in the same frame.
-        springs? The energy of a spring has a ½, and the stretch is squared as a whole, with its rest.
+        {of_stored}
         geared? The ratio of a gear is squared with the rate: the rotor turns that much faster.
         carried? A rotor that rides on a link turns with the link, too: add the rates before you square.
     """,
@@ -296,12 +297,18 @@ def _of_masses(robot: Robot) -> dict[str, Value]:
         "weightless": robot.gravity.is_zero,
         "weighs": not robot.gravity.is_zero,
         "ground": "world" if in_world else "base, against gravity",
-        "springs": any(spring.law for spring in actions.springs),
-        "geared": any(motor.ratio != robot.ring.one for motor in actions.motors),
-        "carried": any(motor.carrier for motor in actions.motors),
-        "friction": "friction" in actions.kinds,
+        "of_stored": _of_stored(robot),
+        "geared": any(rotor.ratio != robot.ring.one for rotor in actions.rotors),
+        "carried": any(rotor.carrier for rotor in actions.rotors),
+        "friction": bool(actions.resisting),
         "passive": bool(actions.passive),
     }
+
+
+def _of_stored(robot: Robot) -> str:
+    """What goes wrong with the energies of each kind that stores some."""
+    kinds = {act.kind: part(act.kind, "explain") for act in robot.actions.stored}
+    return " ".join(filter(None, (told.pitfall(robot.actions.by_kind[kind]) for kind, told in kinds.items())))
 
 
 def _called(bodies: Iterable[Body]) -> str:

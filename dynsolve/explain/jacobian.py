@@ -203,7 +203,7 @@ def _column(context: Context, q: Coordinate) -> Step:
         uses=("axes",),
     )
     if in_letters is None:
-        drives = not context.robot.joints_of(q) and any(m.turns == k for m in context.robot.actions.motors)
+        drives = not context.robot.joints_of(q) and any(m.turns == k for m in context.robot.actions.rotors)
         why = " turns a rotor alone and moves no link" if drives else f" does not move {context.end}"
         return replace(step, why=(Symbol(q.name), why, ": its column is zero."))
     linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from dynsolve.document import Block, Inline, Prose, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated
-from dynsolve.explain.parameter_meanings import Role, meanings, shape_letters, told_together
+from dynsolve.explain.parameter_meanings import Role, in_order, meanings, shape_letters, told_together
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, shorthands, units_of
 from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
 from dynsolve.explain.writing import agreeing, listed, side_by_side
@@ -37,7 +37,7 @@ COUNTING = ("i", "j", "k", "n", "t")
 def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
     """The coordinates, and the parameters by what they are; without `frames` by no frame."""
     of_joint = "joint " if robot.has_table else ""
-    own = (motor for motor in robot.actions.motors if robot.is_of_motor(robot.coordinates[motor.turns]))
+    own = (motor for motor in robot.actions.rotors if robot.is_of_motor(robot.coordinates[motor.turns]))
     geared = any(motor.ratio != robot.ring.one for motor in own)
     of_motor = "angle|angles of a|the motor|motors" + " behind its|their gear|gears" * geared
     for is_of_motor, kind, what, unit in (
@@ -51,10 +51,10 @@ def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
     if robot.given is None and robot.questions.candidates:
         yield _named([one.name for one in robot.questions.candidates], "matrices that are to be judged", "")
     known, has_bodies = meanings(robot), bool(robot.bodies)
-    for role in Role:
+    for role in in_order(robot):
         if role is Role.GRAVITY and not robot.has_dynamics:
             continue
-        units = dict.fromkeys(unit for own, unit, _ in known.values() if own is role)
+        units = dict.fromkeys(unit for own, unit, _ in known.values() if own == role)
         for unit in units:
             alike = [(name, told) for name, (own, its, told) in known.items() if (own, its) == (role, unit)]
             for names, words in told_together(

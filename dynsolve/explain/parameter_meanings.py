@@ -29,7 +29,6 @@ from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.tree import names_in as names_in_trees
 from dynsolve.notation.unicode import lowered, to_unicode
 from dynsolve.quantities import letters
-from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
 from dynsolve.robot.shapes import AXES, MASS, Shape
@@ -91,14 +90,6 @@ class Role(Enum):
     CENTER = "place of a|the mass centre|centres in its|their link|links"
     POSITION = "length|lengths in the given positions"
     DIRECTION = "angle|angles in the given positions"
-    ROTOR = "moment|moments of inertia of a|the rotor|rotors"
-    RATIO = "ratio|ratios of a|the gear|gears"
-    STIFFNESS = "stiffness|stiffnesses of a|the spring|springs"
-    REST = "where a|the spring|springs is|are relaxed"
-    VISCOUS = "coefficient|coefficients of viscous friction"
-    COULOMB = "coefficient|coefficients of Coulomb friction"
-    DAMPING = "coefficient|coefficients of a|the damper|dampers"
-    SPRING = "parameter|parameters of a|the spring|springs"
     DOWN = "angle|angles of gravity to the axes of the base"
     FORCE = "force|forces from outside"
     MOMENT = "moment|moments from outside"
@@ -117,6 +108,30 @@ class Role(Enum):
         return agreeing(called, count)
 
 
+class Acting(Struct, frozen=True):
+    """The role of a parameter of something that acts, as its record says it (`robot.actions.Parameter`)."""
+
+    words: str
+
+    def of(self, count: int, unit: str) -> str:
+        """What so many of them are."""
+        return agreeing(self.words, count)
+
+
+AnyRole = Role | Acting
+
+
+def in_order(robot: Robot) -> Iterator[AnyRole]:
+    """The roles in the order in which they are listed: of the model, of what acts (rotors first), others."""
+    acting = robot.actions
+    acts = (*acting.rotors, *acting.stored, *acting.resisting)
+    words = (one.words for act in acts for one in act.parameters(robot))
+    for role in Role:
+        if role is Role.DOWN:
+            yield from map(Acting, dict.fromkeys(filter(None, words)))
+        yield role
+
+
 _BY_UNIT = {
     "m": "length|lengths",
     "kg": "mass|masses",
@@ -129,30 +144,25 @@ _BY_UNIT = {
 """What a parameter is that is no value by itself, but a part of one."""
 
 
-_ACTING = frozenset({Role.STIFFNESS, Role.VISCOUS, Role.DAMPING})
-
-_OF_ACTING = {"N m": "N m/rad", "kg/s^2": "N/m", "kg m^2/s": "N m s/rad", "kg/s": "N s/m"}
-"""What stiffnesses and coefficients of damping are measured in, of what turns and of what slides."""
-
-
-def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
+def roles(robot: Robot) -> dict[str, tuple[AnyRole, str]]:
     """The role and the SI unit of every parameter; the first role counts where one has several."""
-    found: dict[str, Role] = {}
+    found: dict[str, AnyRole] = {}
     for role, name, _ in _places(robot):
         found.setdefault(name, role)
     dimensions, at_state = _dimensions(robot), units_of_values(robot)
+    acting = (one for act in robot.actions.acts for one in act.parameters(robot) if one.unit)
+    of_acts = {name: one.unit for one in acting for name in _alone(one.value)}
     pairs = (pair.angle for pair in robot.ring.pairs)
     angles = frozenset(name for angle in pairs for name in names_of(angle))
 
-    def unit(name: str, role: Role) -> str:
+    def unit(name: str, role: AnyRole) -> str:
         own = dimensions.get(name) or at_state.get(name, "")
-        if role in _ACTING:
-            return _OF_ACTING.get(own, own)
-        is_angle = role is Role.REST and dimensions.get(name) == ""
-        is_angle |= role is Role.OTHER and not own and name in angles
+        if isinstance(role, Acting):
+            return of_acts.get(name, own) if name in dimensions else own
+        is_angle = role is Role.OTHER and not own and name in angles
         return "rad" if is_angle or role in (Role.TURN, Role.DOWN, Role.DIRECTION) else own
 
-    def told(name: str) -> Role:
+    def told(name: str) -> AnyRole:
         own = found.get(name, Role.OTHER)
         return own if own is not Role.POSITION or dimensions.get(name) == "m" else Role.OTHER
 
@@ -169,9 +179,9 @@ def units_of_values(robot: Robot) -> dict[str, str]:
     return {own: base[name] + per[dots] for name, dots, value in given for own in _alone_in_tree(value)}
 
 
-def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
+def meanings(robot: Robot) -> dict[str, tuple[AnyRole, str, Meaning]]:
     """The role, the SI unit and the meaning of every parameter, in their order."""
-    places: dict[tuple[Role, str], dict[Meaning, None]] = {}
+    places: dict[tuple[AnyRole, str], dict[Meaning, None]] = {}
     for role, name, meaning in _places(robot):
         if meaning is not _UNTOLD:
             places.setdefault((role, name), {})[meaning] = None
@@ -197,7 +207,7 @@ def _dimensions(robot: Robot) -> dict[str, str]:
     return units
 
 
-def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
+def _as_one(role: AnyRole, places: Sequence[Meaning]) -> Meaning:
     """What a parameter is that may stand in several places: in two rows, of two bodies, about two axes."""
     if role is Role.SHAPE:  # r is the inner radius, if it is half the outer one as well
         derived = ("half ", "twice ", "in ")
@@ -223,7 +233,7 @@ def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
 # -- where parameters stand ------------------------------------------------------------------------
 
 
-def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
+def _places(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Where parameters stand, and what they are there; the strongest role first."""
     for entry in robot.gravity.entries:
         yield from _untold(Role.GRAVITY, names_in(entry))
@@ -251,33 +261,17 @@ def _places(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
             yield from _untold(Role.DIRECTION, *map(angles_in, body.center.entries))
         rates = (rate for turn in body.turns for rate in turn.rates.entries)
         yield from _untold(Role.POSITION, *map(names_in, rates))
-    yield from _acting(robot.actions)
+    for one in (one for act in robot.actions.acts for one in act.parameters(robot) if one.words):
+        yield from _untold(Acting(one.words), _alone(one.value) if one.is_whole else names_in(one.value))
     yield from _asked(robot)
 
 
-def _untold(role: Role, *names: Iterable[str]) -> Iterator[tuple[Role, str, Meaning]]:
+def _untold(role: AnyRole, *names: Iterable[str]) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Parameters of which a role tells all that there is to say."""
     return ((role, name, _UNTOLD) for some in names for name in some)
 
 
-def _acting(actions: Actions) -> Iterator[tuple[Role, str, Meaning]]:
-    """Where the parameters of what acts stand."""
-    for motor in actions.motors:
-        yield from _untold(Role.ROTOR, _alone(motor.inertia))
-        yield from _untold(Role.RATIO, _alone(motor.ratio))
-    for spring in (spring for spring in actions.springs if not spring.law):
-        yield from _untold(Role.SPRING, names_in(spring.energy))
-    for law in (spring.law for spring in actions.springs if spring.law):
-        yield from _untold(Role.STIFFNESS, _alone(law.stiffness))
-        yield from _untold(Role.REST, _alone(law.rest))
-    for one in actions.friction:
-        yield from _untold(Role.VISCOUS, _alone(one.viscous))
-        yield from _untold(Role.COULOMB, _alone(one.coulomb))
-    for damper in actions.dampers:
-        yield from _untold(Role.DAMPING, _alone(damper.damping))
-
-
-def _asked(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
+def _asked(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Where the parameters of what is asked stand: in forces, points, rates, a state, constraints."""
     questions = robot.questions
     of_exact = (
@@ -344,7 +338,7 @@ def _is_upright(robot: Robot) -> bool:
 # -- the bodies ------------------------------------------------------------------------------------
 
 
-def _mass(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
+def _mass(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """The mass or the density, and the dimensions of a body with a density."""
     density = body.density
     if density is None:
@@ -358,7 +352,7 @@ def _mass(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
         yield Role.MASS, name, Meaning(f"{part}density of body {{body}}", body=body.name)
 
 
-def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[Role, str, Meaning]]:
+def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """The dimensions of a shape."""
     for key, value in shape.dimensions if shape is not None else ():
         for name in names_in(value):
@@ -377,7 +371,7 @@ def _dimension(body: Body, key: str, value: Expr, name: str) -> Meaning:
     return Meaning(share + what, body=body.name, axes=axes)
 
 
-def _inertia(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
+def _inertia(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """The dimensions of a shape, or the entries of a given tensor."""
     rows = body.inertia.rows if body.inertia is not None else ()
     if body.shape is not None:
@@ -399,7 +393,7 @@ def _inertia(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
                     yield Role.INERTIA, name, replace(moment, axes=(AXES[i],))
 
 
-def _center(robot: Robot, body: Body) -> Iterator[tuple[Role, str, Meaning]]:
+def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
     near = _from_near_end(robot, body.link, body.center)
     link, before = body.link, robot.joints[body.link - 1].parent

@@ -110,7 +110,7 @@ def _all_terms(context: Context, k: int) -> Iterator[Term]:
 
 def _held_by(context: Context, k: int) -> Kind:
     """What a term without rates holds: gravity, a spring, or both."""
-    springs = context.robot.actions.springs
+    springs = context.robot.actions.stored
     spring = context.robot.ring.diff(context.values["Ps"], k) if springs else None
     if spring is None or spring.is_zero:
         return Kind.GRAVITY
@@ -342,7 +342,7 @@ def _meanings(context: Context) -> Prose:
         "$𝐃 𝐪̈$ are the inertial terms, $𝐂 𝐪̇$ the Coriolis and centrifugal ones, {friction}$𝐠$ those of "
         "gravity{springs}.{outside}{held}{passive}",
         friction=say("$𝛕_f$ those of friction, ") if has_friction(context) else "",
-        springs=" and springs" if robot.actions.springs else "",
+        springs=" and springs" if robot.actions.stored else "",
         outside=say(" $𝐐$ are the forces from outside.") if robot.questions.loads else "",
         held=say(" $𝐀_cᵀ 𝛌$ are the forces of the constraints.") if robot.questions.constraints else "",
         passive=passive,

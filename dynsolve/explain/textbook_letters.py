@@ -28,6 +28,7 @@ from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
 from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.actions import part
 from dynsolve.robot.model import Convention, JointType, Robot
 
 WIDEST = 8.0
@@ -184,7 +185,7 @@ P_i: potential energy | of body i | J
 * {DM} | what the rotors add to the inertia matrix
 * 𝐧_mi | moment that the rotor of motor i takes from its link | N m
 * {DISSIPATION} | Rayleigh's dissipation function | W
-* f_ck | coefficient of Coulomb friction of coordinate k
+(letters of kinds)
 * {FRICTION}: column of the friction; τ_fk: its entries
 𝐃: inertia matrix; d_ij: its entries | | {inertia}
 {D_POINTS} | inertia matrix of the masses alone, as points | {inertia}
@@ -213,7 +214,9 @@ Value = str | Node | tuple[Node, ...] | None
 def textbook(robot: Robot, style: Style, *, beside: bool = False) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation; or those `beside` the course."""
     values = {**_OF_ANY_ROBOT, **_asked(robot), **_of_robot(robot), **_of_forces(robot, style)}
-    tables = [TEXTBOOK, DYNAMICS]
+    kinds = (part(kind, "explain") for kind in robot.actions.by_kind)
+    of_kinds = "\n".join(getattr(kind, "LETTERS", "") for kind in kinds)
+    tables = [TEXTBOOK, DYNAMICS.replace("(letters of kinds)", of_kinds)]
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
         tables.insert(1, RECURSIONS)
     for row in "".join(tables).split("\n"):

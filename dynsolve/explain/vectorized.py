@@ -166,7 +166,7 @@ def _inertia_direct(context: Context) -> Step:
     terms: list[Node] = []
     for body in robot.bodies:
         terms += [linear_name(context, body), *(() if body.is_point else (angular_name(body),))]
-    rotors = (letters.DM,) if robot.actions.motors else ()
+    rotors = (letters.DM,) if robot.actions.rotors else ()
     return Step(
         id="D_direct",
         title="The inertia matrix, assembled from the Jacobians",
@@ -249,7 +249,7 @@ def coriolis(context: Context, told: tuple[Prose, tuple[Node, ...]] | None = Non
 
 def gravity(context: Context, told: tuple[Prose, Way] | None = None) -> Step:
     """g, from the potential energy; of a long model as it is `told`."""
-    still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
+    still, springs = context.values["g"].is_zero, bool(context.robot.actions.stored)
     directly = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
     why = say(
         "{way}{springs}{still}",

@@ -18,7 +18,7 @@
                      questions      `points`, `task`, what each question reads in its folder, up to the robot
                      state          `state`
                      decoder        mappings and lists, by the kinds of their keys and items
-                     acting         `friction`, `springs`, `dampers`, `motors`, `passive`, up to the robot
+                     acting         what acts, each kind by its own folder in `acts`, up to the robot
                      exercise       `find`, `marks`, `values`, `units`, `remarks`, `text`
                      variation      `vary`, and the text of the file with a choice made
       -> Robot       values         one name is one thing; the ring that holds everything, each cell in it,
@@ -27,10 +27,10 @@
       -> Problem     model          the robot, and what the exercise says about it: `also`, `strict`
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.
-Which keys there are is said once, in `specification`, `action_keys`, `kinematic_keys` and the folders of
-`dynsolve.questions` (in terms of `kinds`); from there come the reader's keys, and in `schema` the JSON
-Schema, the file of `dynsolve new` and the tables of the documentation.  `lint` finds what is no fault but
-deserves a look, `reader` goes the whole way, and finds the problems that come with dynsolve.
+Which keys there are is said once, in `specification`, `model_keys`, `kinematic_keys` and the folders of
+`dynsolve.questions` and `dynsolve.acts` (in terms of `kinds`); from there come the reader's keys, and in
+`schema` the JSON Schema, the file of `dynsolve new` and the tables of the documentation.  `lint` finds what
+is no fault but deserves a look, `reader` goes the whole way, and finds the problems that come with dynsolve.
 
 To add a key, write its record in `specification` and read it in the file of its part
 above; to add a kind of value, write its class in `kinds`.

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.notation.tree import Function
 from dynsolve.problem.base import ParsedRotation, read_rotation
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_vector
 from dynsolve.problem.kinds import (
@@ -78,12 +79,14 @@ class Stated(NamedTuple):
 class Decoder:
     """Decodes the values of one file: `coordinates` are their types by name, `rows` those of the table.
 
-    `stated` gathers the expressions that were decoded, in the order of the keys.
+    `stated` gathers the expressions that were decoded, in the order of the keys, `functions` what stands in
+    none of them.
     """
 
     def __init__(self, faults: Faults, coordinates: Mapping[str, str], rows: int) -> None:
         self.faults, self.coordinates, self.rows = faults, coordinates, rows
         self.stated: list[Stated] = []
+        self.functions: list[Function] = []
 
     def value(self, key: Key, node: YamlNode | None, of: str) -> Any:
         """The value of a key of the mapping `of`; None where it was reported, or nothing is decoded."""

@@ -223,6 +223,16 @@ MEASURED = Keyed((*ALONG.keys, *NEAR.keys, *DRAWN.keys))
 PLACE = OneOf((CENTERS, ALONG, NEAR, DRAWN, VECTOR))
 LINK = Plain("a whole number", {"type": "integer", "minimum": 1})
 FRAME = Plain("a whole number", {"type": "integer", "minimum": 0})
+OF_PROBLEM = "it is a constant of the problem"
+PARAMETER = Expression(constant=OF_PROBLEM)
+VISCOUS = Expression("a coefficient of viscous friction", OF_PROBLEM)
+MOST_ACTS = 20
+"""The most springs, dampers and motors that are read, of each."""
+
+
+def list_of(name: str, record: Keyed) -> ListOf:
+    """A list of what acts: springs, each a record of these keys."""
+    return ListOf(Shared(name, record, f"a {name}"), f"a list of {name}s", 0, MOST_ACTS)
 
 
 # The structure of a problem file: which keys a mapping has, what kind of value each holds

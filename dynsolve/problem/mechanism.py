@@ -21,18 +21,6 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.build import times, total
 from dynsolve.notation.characters import normalize
 from dynsolve.notation.tree import Function, Node, Number, Quotient, Symbol, walk
-from dynsolve.problem.action_keys import (
-    ASSUME,
-    CANDIDATES,
-    CHAIN,
-    FIXED,
-    MAX_ASSUMED,
-    MAX_CANDIDATES,
-    MAX_COORDINATES,
-    MAX_TURNS,
-    TURN,
-    TYPES,
-)
 from dynsolve.problem.bodies import check_names, read_name, read_tensor
 from dynsolve.problem.cells import (
     Cell,
@@ -45,6 +33,18 @@ from dynsolve.problem.cells import (
 )
 from dynsolve.problem.decoder import Decoder, Record, Stated
 from dynsolve.problem.kinds import Fields, describe, did_you_mean, items, word
+from dynsolve.problem.model_keys import (
+    ASSUME,
+    CANDIDATES,
+    CHAIN,
+    FIXED,
+    MAX_ASSUMED,
+    MAX_CANDIDATES,
+    MAX_COORDINATES,
+    MAX_TURNS,
+    TURN,
+    TYPES,
+)
 from dynsolve.problem.specification import MODEL, PROBLEM
 from dynsolve.problem.table import coordinate_name
 from dynsolve.problem.values import CellValues, mass_value, tensor_value

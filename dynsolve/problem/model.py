@@ -238,7 +238,7 @@ class ParsedFile(Struct, frozen=True):
                 )
                 if there
             ),
-            actions=self.acting.kinds if self.acting else frozenset(),
+            actions=self.acting.terms if self.acting else frozenset(),
             has_matrices=self.has_matrices,
             has_robot=not self.is_of_matrices,
         )

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from dynsolve.errors import Finding, ProblemError
-from dynsolve.problem.action_keys import ACTION_KEYS
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, Framed, read_base, read_gravity
 from dynsolve.problem.bodies import DrawnFrames, read_bodies
 from dynsolve.problem.build import build_robot
@@ -28,7 +27,7 @@ from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.kinds import Fields, describe, free_text, word
 from dynsolve.problem.model import FilePlace, ParsedFile, Problem, read_accepted_tables
 from dynsolve.problem.questions import read_questions
-from dynsolve.problem.specification import CONVENTION, DRAWING, EDITION, OF_A_TABLE, PROBLEM
+from dynsolve.problem.specification import ACTION_KEYS, CONVENTION, DRAWING, EDITION, OF_A_TABLE, PROBLEM
 from dynsolve.problem.table import DHTable, read_table
 from dynsolve.problem.values import check_size, check_symbols
 from dynsolve.problem.yaml_nodes import (

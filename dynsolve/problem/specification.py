@@ -16,14 +16,8 @@ in its own folder, in `keys`.
 
 from __future__ import annotations
 
-from dynsolve.problem.action_keys import (
-    ACTION_KEYS,
-    COORDINATES,
-    DEFINITE_KEYS,
-    model,
-    placed_body,
-)
 from dynsolve.problem.kinds import (
+    COORDINATE,
     EXPRESSION,
     FRAME,
     LINK,
@@ -46,7 +40,9 @@ from dynsolve.problem.kinds import (
     Word,
 )
 from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
+from dynsolve.problem.model_keys import COORDINATES, DEFINITE_KEYS, model, placed_body
 from dynsolve.quantities.stages import ASKED_FOR
+from dynsolve.robot.actions import keys_of_kinds
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
 
@@ -250,6 +246,15 @@ AXES_LIST = ListOf(
     at_key=True,
 )
 BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES, "a list of bodies; ")
+PASSIVE = Key(
+    "passive",
+    ListOf(COORDINATE, "a list of names"),
+    "Coordinates without a motor: their generalized force is 0.",
+    "[L2]",
+    "none",
+    remedy="write passive: [q2], the coordinates that no motor drives",
+)
+ACTION_KEYS = (*keys_of_kinds(), PASSIVE)
 BASE = Keyed((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
 
 VARIED = Plain("alternatives", {"type": ["array", "object", "string", "number"]})

@@ -292,7 +292,7 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
     trees: list[Node] = [cell.tree for cell in cells]
     if parsed.model:
         trees += (*parsed.model.rates, *parsed.model.slopes)
-    trees += [Function("sgn", Symbol(name, 1)) for name in parsed.acting.signs] if parsed.acting else []
+    trees += parsed.acting.functions if parsed.acting else ()
     angles = [angle for _, angle in parsed.angles]
     states = list(parsed.questions.states)
     for state in states:

@@ -1,4 +1,4 @@
-"""The families of what acts beside gravity: springs, rotors, friction; see `quantities.families`."""
+"""The families of what acts beside gravity: stored energy, rotors, friction; see `quantities.families`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PS = Family(
     dimension=ENERGY,
     unit="J",
     spellings=("Us", "Vs", "Pel", "Pspring", "Uel", "Uspring", "Pe", "Ue"),
-    brought_by="springs",
+    brought_by="Ps",
     part_of="P",
 )
 
@@ -29,7 +29,7 @@ KM = Family(
     dimension=ENERGY,
     unit="J",
     spellings=("Tm", "Kmotor", "Kmot", "Krotor", "Tmotor"),
-    brought_by="motors",
+    brought_by="Km",
     part_of="K",
 )
 
@@ -65,7 +65,7 @@ FRICTION_ENTRY = Family(
 
 # -- read by no answer: how the derivation adds them up --------------------------------------------
 
-DM = Family(name="Dm", stage=Stage.VECTORIZED, shape=("n", "n"), is_answer=False, brought_by="motors")
+DM = Family(name="Dm", stage=Stage.VECTORIZED, shape=("n", "n"), is_answer=False, brought_by="Km")
 """What the rotors add to D."""
 
 OF_ENERGY: tuple[Family, ...] = (PS, KM)

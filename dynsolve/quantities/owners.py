@@ -106,8 +106,8 @@ class Owners(Struct, frozen=True):
     `task_names` what else each of them is called where the task is a function r(q), which a twist is
     not.  `given` is what families may need (`Family.needs`): `mass`, a task that is a `function` r(q), its
     `velocity` or `acceleration`, an equilibrium to `linearize` at, `references`; `actions` what acts beside
-    gravity: friction, springs, motors.  `has_matrices` says that there are matrices to be judged, and
-    without `has_robot` there is nothing else.
+    gravity, by its results `Ps`, `Km` and `friction`.  `has_matrices` says that there are matrices to be
+    judged, and without `has_robot` there is nothing else.
     """
 
     rows: int
@@ -153,7 +153,7 @@ class Owners(Struct, frozen=True):
                 )
                 if there
             ),
-            actions=robot.actions.kinds,
+            actions=robot.actions.terms,
             has_matrices=bool(asked.candidates),
             has_robot=robot.has_table or robot.has_dynamics,
         )

@@ -1,8 +1,9 @@
-"""What acts on a manipulator beside gravity: friction, springs, dampers, motors.
+"""What acts on a manipulator beside gravity: the list of its kinds, and what every room asks of one.
 
-A `Robot` carries its `Actions`, exact values in its ring.  Friction and dampers take energy
-away, springs store it, and rotors have kinetic energy of their own.  A robot of which a file
-says none of this has `NOTHING_ACTS`.
+A `Robot` carries its `Actions`, exact values in its ring.  What acts is one of three terms: it stores
+energy (P_s), has kinetic energy of its own (K_m), or resists without a potential (friction).  Rooms know
+these terms; of which kinds they are is in the folders of `dynsolve.acts`.  A robot of which a file says
+none of this has `NOTHING_ACTS`.
 
 Constraints on the motion of a manipulator: A_c(q) q̇ = 0.
 
@@ -17,51 +18,125 @@ the Lagrangian themselves, and no body is known.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import asdict, astuple, replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Function, Node
+from dynsolve.robot.units import Dimension
 
-# What acts on a manipulator beside gravity: friction, springs, dampers, motors
+if TYPE_CHECKING:
+    from dynsolve.robot.model import Robot
 
+Values = Mapping[str, float]
+"""Numbers of parameters, coordinates and rates by their names."""
 
-class JointFriction(Struct, frozen=True):
-    """Friction of coordinate k, counted from 0: f_v q̇_k + f_c sgn(q̇_k)."""
+# What acts on a manipulator beside gravity, of whatever kind
 
-    coordinate: int
-    viscous: Expr
-    coulomb: Expr
-
-
-class Damper(Struct, frozen=True):
-    """A damper between what a linear form x of the coordinates says: the force b ẋ along x."""
-
-    damping: Expr
-    of: Expr
+KINDS = ("friction", "springs", "dampers", "motors")
+"""The one list of the kinds: each is a key of the problem file, and a folder of `dynsolve.acts`."""
 
 
-class Elastic(Struct, frozen=True):
-    """A linear spring: ½ k (x - rest)², x a linear form of the coordinates."""
+def part(kind: str, file: str = "") -> Any:
+    """A file of the folder `acts/<kind>`, or the folder itself, imported when it is asked for.
 
-    stiffness: Expr
-    of: Expr
-    rest: Expr
+    This is how rooms below `acts` reach a kind, by its path: none of them names one.
 
-
-class Spring(Struct, frozen=True):
-    """A spring by its energy, a function of the coordinates; `law` is that of a linear one."""
-
-    energy: Expr
-    law: Elastic | None = None
+    >>> part("springs").KEY.name
+    'springs'
+    """
+    return import_module(".".join(filter(None, ("dynsolve.acts", kind, file))))
 
 
-class Motor(Struct, frozen=True):
-    """The rotor of a motor that turns coordinate `turns`, counted from 0, through a gear.
+def keys_of_kinds() -> Iterator[Any]:
+    """The key of every kind."""
+    return (part(kind).KEY for kind in KINDS)
+
+
+class Parameter(NamedTuple):
+    """A value that an act has: what it is, for one and for several, and what it is measured in.
+
+    `unit` is what is said of the dimension: a stiffness is in N m/rad, and not in N m.  `is_whole` says that
+    the words are those of a symbol that is the value, else of every symbol in it.
+    """
+
+    value: Expr
+    words: str = ""
+    dimension: Dimension | None = None
+    unit: str = ""
+    is_whole: bool = True
+
+
+class Act(Struct, frozen=True):
+    """One thing that acts: a record of its kind (`acts/<kind>/act.py`), its fields exact values.
+
+    It is one of three terms of the equations of motion, by its class: `Stored`, `Rotor`, `Resisting`.
+    """
+
+    kind: ClassVar[str]
+    """The name of its kind."""
+
+    def parameters(self, robot: Robot) -> Iterator[Parameter]:
+        """What its values are."""
+        raise NotImplementedError
+
+    def mistaken(self, robot: Robot) -> Iterator[tuple[str, Any]]:
+        """(slip, the energy or the force) as it is got wrong; the slips are in `answers.diagnosis.slips`."""
+        yield from ()
+
+    @property
+    def along(self) -> tuple[Expr, Expr] | None:
+        """(x, k) where it acts along a linear form x of the coordinates with a coefficient k, as drawn."""
+        return None
+
+    def functions(self, robot: Robot) -> tuple[Function, ...]:
+        """Functions of the rates in its force, which jump: they stand in none of its values."""
+        return ()
+
+    @property
+    def values(self) -> Iterator[Expr]:
+        """Its exact values."""
+        return (value for value in astuple(self) if isinstance(value, Expr))
+
+    def with_values(self, changed: Callable[[Expr], Expr]) -> Self:
+        """The same with every value changed, into those of another ring for example."""
+        fields = asdict(self)
+        return replace(self, **{name: changed(v) for name, v in fields.items() if isinstance(v, Expr)})
+
+
+class Stored(Act, frozen=True):
+    """What stores energy, a part of P_s."""
+
+    @property
+    def energy(self) -> Expr:
+        """The potential energy, a function of the coordinates."""
+        raise NotImplementedError
+
+    def energy_at(self, values: Values) -> float:
+        """The same in numbers, for the independent check, by no formula of `energy`."""
+        raise NotImplementedError
+
+
+class Resisting(Act, frozen=True):
+    """What has no potential and stands beside g, a part of the friction."""
+
+    def force(self, robot: Robot) -> Matrix:
+        """The generalized force, n×1."""
+        raise NotImplementedError
+
+    def force_at(self, robot: Robot, values: Values) -> Sequence[float]:
+        """The same in numbers, n of them, for the independent check, by no formula of `force`."""
+        raise NotImplementedError
+
+
+class Rotor(Act, frozen=True):
+    """What spins beside the bodies and has a part in K_m: it turns coordinate `turns`, counted from 0.
 
     It spins with `ratio` q̇ about its axis, the axis x, y or z (`axis` 0, 1 or 2) of frame
     `carrier`, and is carried round by that link; a carrier 0 is the ground.  Its mass is a body's.
@@ -74,58 +149,52 @@ class Motor(Struct, frozen=True):
     axis: int = 2
 
 
+TERMS: dict[str, type[Act]] = {"Ps": Stored, "Km": Rotor, "friction": Resisting}
+"""The results that what acts is told by; `Family.brought_by` has their names."""
+
+
 class Actions(Struct, frozen=True):
     """Everything that acts; `passive` are the coordinates, from 0, that no motor drives."""
 
-    friction: tuple[JointFriction, ...] = ()
-    dampers: tuple[Damper, ...] = ()
-    springs: tuple[Spring, ...] = ()
-    motors: tuple[Motor, ...] = ()
+    acts: tuple[Act, ...] = ()
     passive: tuple[int, ...] = ()
 
     @property
-    def kinds(self) -> frozenset[str]:
-        """What there is of it: `friction` (dampers too), `springs`, `motors`."""
-        found = {"friction": self.friction or self.dampers, "springs": self.springs, "motors": self.motors}
-        return frozenset(kind for kind, there in found.items() if there)
+    def stored(self) -> tuple[Stored, ...]:
+        """What stores energy."""
+        return tuple(act for act in self.acts if isinstance(act, Stored))
+
+    @property
+    def rotors(self) -> tuple[Rotor, ...]:
+        """What spins."""
+        return tuple(act for act in self.acts if isinstance(act, Rotor))
+
+    @property
+    def resisting(self) -> tuple[Resisting, ...]:
+        """What stands beside g and has no potential."""
+        return tuple(act for act in self.acts if isinstance(act, Resisting))
+
+    @property
+    def terms(self) -> frozenset[str]:
+        """The results that there are by them, of `TERMS`."""
+        return frozenset(
+            name for name, term in TERMS.items() if any(isinstance(act, term) for act in self.acts)
+        )
+
+    @property
+    def by_kind(self) -> dict[str, list[Act]]:
+        """Those of each kind that there is, in the order of the kinds."""
+        found: dict[str, list[Act]] = {}
+        for act in self.acts:
+            found.setdefault(act.kind, []).append(act)
+        return found
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
-        return bool(self.kinds or self.passive)
+        return bool(self.acts or self.passive)
 
 
 NOTHING_ACTS = Actions()
-
-
-def values_of(actions: Actions) -> Iterator[Expr]:
-    """Every value in them."""
-    for friction in actions.friction:
-        yield from (friction.viscous, friction.coulomb)
-    for damper in actions.dampers:
-        yield from (damper.damping, damper.of)
-    for spring in actions.springs:
-        yield spring.energy
-        if spring.law is not None:
-            yield from (spring.law.stiffness, spring.law.of, spring.law.rest)
-    for motor in actions.motors:
-        yield from (motor.inertia, motor.ratio)
-
-
-def with_values(actions: Actions, changed: Callable[[Expr], Expr]) -> Actions:
-    """The same with every value changed, into those of another ring for example."""
-
-    def law(found: Elastic | None) -> Elastic | None:
-        return found and Elastic(changed(found.stiffness), changed(found.of), changed(found.rest))
-
-    return replace(
-        actions,
-        friction=tuple(
-            replace(f, viscous=changed(f.viscous), coulomb=changed(f.coulomb)) for f in actions.friction
-        ),
-        dampers=tuple(Damper(changed(d.damping), changed(d.of)) for d in actions.dampers),
-        springs=tuple(Spring(changed(s.energy), law(s.law)) for s in actions.springs),
-        motors=tuple(replace(m, inertia=changed(m.inertia), ratio=changed(m.ratio)) for m in actions.motors),
-    )
 
 
 # Constraints on the motion of a manipulator: A_c(q) q̇ = 0

@@ -60,9 +60,8 @@ class Dimensions:
 
     def _coordinates(self) -> None:
         for q in self.robot.coordinates:
-            base = NONE if q.type is JointType.REVOLUTE else LENGTH
             for dots in (0, 1, 2):
-                self._of[self.ring.symbol_indices[(q.name, dots)]] = times(base, dimension(time=-dots))
+                self._of[self.ring.symbol_indices[(q.name, dots)]] = times(q.dimension, dimension(time=-dots))
         for g in self.ring.generators:
             if g.kind in ("sin", "cos", "constant") or is_sign(g.node):
                 self._of[g.index] = NONE
@@ -162,8 +161,10 @@ def _roles(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
         yield entry, ACCELERATION
     if robot.given is not None:
         yield from _given_roles(robot, robot.given)
-
-    yield from _roles_of_actions(robot)
+    for act in robot.actions.acts:
+        for value, _, role, *_ in act.parameters(robot):
+            if role is not None:
+                yield value, role
 
 
 def _given_roles(robot: Robot, given: GivenModel) -> Iterator[tuple[Expr, Dimension]]:
@@ -244,38 +245,8 @@ def _of_component(robot: Robot, entry: Node) -> Dimension | None:
     return NONE if found == {JointType.REVOLUTE} else LENGTH if found == {JointType.PRISMATIC} else None
 
 
-def _roles_of_actions(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
-    """The same of what acts: friction, stiffnesses, rotors; what a form of the coordinates is not told of."""
-    acting = robot.actions
-
-    def coordinate(k: int) -> Dimension:
-        return LENGTH if robot.coordinates[k].type is JointType.PRISMATIC else NONE
-
-    for one in acting.friction:
-        x = coordinate(one.coordinate)
-        yield one.viscous, times(times(ENERGY, x, -2), dimension(time=1))
-        yield one.coulomb, times(ENERGY, x, -1)
-    for motor in acting.motors:
-        x = coordinate(motor.turns)
-        geared = motor.ratio != robot.ring.one
-        yield motor.inertia, INERTIA if geared else times(INERTIA, x, -2)
-        yield motor.ratio, times(NONE, x, -1) if geared else NONE
-    for form, stiffness, rest, power in _forms(robot):
-        moved = {k for k in range(robot.n) if not robot.ring.diff(form, k).is_zero}
-        kinds = {coordinate(k) for k in moved if robot.ring.diff(form, k).is_number}
-        if len(kinds) == 1:
-            (x,) = kinds
-            yield form, x
-            yield rest, x
-            yield stiffness, times(times(ENERGY, x, -2), dimension(time=power))
-    for spring in acting.springs:
-        if spring.law is None:
-            yield spring.energy, ENERGY
-
-
-def _forms(robot: Robot) -> Iterator[tuple[Expr, Expr, Expr, int]]:
-    """(x, its stiffness or damping, where it is relaxed, the power of time in the first of these)"""
-    for law in (spring.law for spring in robot.actions.springs if spring.law):
-        yield law.of, law.stiffness, law.rest, 0
-    for damper in robot.actions.dampers:
-        yield damper.of, damper.damping, robot.ring.zero, 1
+def measured_along(robot: Robot, form: Expr) -> Dimension | None:
+    """What a linear form of the coordinates is measured in, where those that stand in it alone agree."""
+    slopes = ((q, robot.ring.diff(form, k)) for k, q in enumerate(robot.coordinates))
+    found = {q.dimension for q, slope in slopes if slope.is_number and not slope.is_zero}
+    return found.pop() if len(found) == 1 else None

@@ -23,6 +23,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.robot.actions import NOTHING_ACTS, Actions, BodyTurn, GivenModel
 from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import Density, Shape
+from dynsolve.robot.units import LENGTH, NONE, Dimension
 
 
 class Convention(Enum):
@@ -59,6 +60,11 @@ class Coordinate(Struct, frozen=True):
     def acceleration(self) -> str:
         """The name of its acceleration in plain text."""
         return f"{self.name}_ddot"
+
+    @property
+    def dimension(self) -> Dimension:
+        """A number of an angle, or a length."""
+        return LENGTH if self.type is JointType.PRISMATIC else NONE
 
     @property
     def force(self) -> str:

@@ -42,6 +42,15 @@ def times(a: Dimension, b: Dimension, power: int | Fraction = 1) -> Dimension:
     return a[0] + b[0] * power, a[1] + b[1] * power, a[2] + b[2] * power
 
 
+def along(x: Dimension | None, turning: str, sliding: str) -> str:
+    """The unit of what acts along x: along an angle or along a length.
+
+    >>> along(LENGTH, "N m/rad", "N/m")
+    'N/m'
+    """
+    return sliding if x == LENGTH else turning
+
+
 class Unit(Struct, frozen=True):
     """`size` in SI units of this dimension; `degrees` marks an angle counted in degrees."""
 

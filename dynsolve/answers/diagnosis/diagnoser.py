@@ -399,7 +399,7 @@ class Diagnoser:
         """A wrong sign of a potential energy, or of g, is the wrong sign of gravity."""
         quantity = self.dimension_check.quantity(wrong)
         is_gravity = quantity is not None and quantity.family in (families.P_BODY, families.P, families.G)
-        is_gravity = is_gravity and not self.graph.robot.actions.springs
+        is_gravity = is_gravity and not self.graph.robot.actions.stored
         if is_gravity and one.code in ("sign", "sign_all"):
             return slip("gravity_sign")
         return one

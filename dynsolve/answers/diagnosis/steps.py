@@ -256,7 +256,7 @@ def _linear(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
 
 
 def _spring_part(robot: Robot, value: InputValue) -> Expr:
-    part: Expr = value("Ps") if robot.actions.springs else robot.ring.zero
+    part: Expr = value("Ps") if robot.actions.stored else robot.ring.zero
     return part
 
 
@@ -265,7 +265,7 @@ def _total_potential(robot: Robot, of: None, value: InputValue) -> Iterator[Vari
     yield springs + springs - right, slip("gravity_sign")
     for body in robot.bodies:
         yield right - value(f"P{body.name}"), slip("body_missing", part=body.name, other="P")
-    if robot.actions.springs:
+    if robot.actions.stored:
         yield right - springs, slip("springs_missing")
         yield right - springs - springs, slip("spring_sign")
 
@@ -283,14 +283,14 @@ def _kinetic(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
 
 
 def _total_kinetic(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
-    rotors = value("Km") if robot.actions.motors else robot.ring.zero
+    rotors = value("Km") if robot.actions.rotors else robot.ring.zero
     if bodies := robot.bodies:
         every = link_frame.total(robot.ring, (*(value(f"K{b.name}") for b in bodies), rotors))
         for b in bodies if len(bodies) > 1 else ():
             yield every - value(f"K{b.name}"), slip("body_missing", part=b.name, other="K")
         linear = link_frame.total(robot.ring, (*(value(f"Kv{b.name}") for b in bodies), rotors))
         yield linear, slip("rotation_missing")
-    if robot.actions.motors:
+    if robot.actions.rotors:
         yield value("K") - rotors, slip("rotors_missing")
 
 
@@ -301,7 +301,7 @@ def _lagrangian(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     K, P, springs = value("K"), value("P"), _spring_part(robot, value)
     yield K + P, slip("lagrangian_sum")
     yield K - springs, slip("gravity_missing")
-    if robot.actions.springs:
+    if robot.actions.stored:
         yield K - P + springs, slip("springs_missing")
 
 
@@ -336,14 +336,14 @@ def _sum(start: Expr, terms: Iterable[Expr]) -> Expr:
 def _force(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
     """A force without ∂L/∂q or with its wrong sign; the same of friction; without springs."""
     ring, rate, slope = robot.ring, value(f"ddt{q.index}"), value(f"dLdq{q.index}")
-    friction = value("friction")[q.index - 1, 0] if "friction" in robot.actions.kinds else ring.zero
+    friction = value("friction")[q.index - 1, 0] if robot.actions.resisting else ring.zero
     if not slope.is_zero:
         yield rate + slope + friction, slip("slope_sign")
         yield rate + friction, slip("slope_missing")
     if not friction.is_zero:
         yield rate - slope, slip("friction_missing")
         yield rate - slope - friction, slip("friction_sign")
-    if robot.actions.springs and not (held := ring.diff(value("Ps"), q.index - 1)).is_zero:
+    if robot.actions.stored and not (held := ring.diff(value("Ps"), q.index - 1)).is_zero:
         yield rate - slope + friction - held, slip("springs_missing")
 
 
@@ -365,11 +365,11 @@ def _rows_of(name: str, robot: Robot, of: None, value: InputValue) -> Iterator[V
 
 def _gravity(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     right, springs = value("g"), Matrix.zero(robot.ring, robot.n, 1)
-    if robot.actions.springs:
+    if robot.actions.stored:
         springs = euler_lagrange.gravity_vector(robot, value("Ps"))
     yield springs + springs - right, slip("gravity_sign")
     yield from _rows_of("g", robot, of, value)
-    if robot.actions.springs:
+    if robot.actions.stored:
         yield right - springs, slip("springs_missing")
 
 
@@ -388,36 +388,25 @@ def _coriolis(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
 # -- springs, rotors, friction ---------------------------------------------------------------------
 
 
-_SQUARES: tuple[tuple[str, Callable[[Expr, Expr], Expr]], ...] = (
-    ("spring_rest", lambda x, rest: x * x),
-    ("spring_square", lambda x, rest: x * x - rest * rest),
-    ("spring_rest_sign", lambda x, rest: (x + rest) ** 2),
-)
-"""What stands in the place of the square of a spring's stretch x - rest."""
-
-
 def _springs(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
-    right = value("Ps")
-    yield right + right, slip("spring_half")
-    yield -right, slip("spring_sign")
-    for code, square in _SQUARES:
-        energies = (
-            spring.energy if (law := spring.law) is None else law.stiffness * square(law.of, law.rest) / 2
-            for spring in robot.actions.springs
-        )
-        yield _sum(robot.ring.zero, energies), slip(code)
+    stored = robot.actions.stored
+    mistaken = [dict(act.mistaken(robot)) for act in stored]
+    yield -value("Ps"), slip("spring_sign")
+    for code in dict.fromkeys(chain(*mistaken)):
+        wrong = (found.get(code, act.energy) for found, act in zip(mistaken, stored, strict=True))
+        yield _sum(robot.ring.zero, wrong), slip(code)
 
 
 def _rotors(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     from dynsolve.derivation.actions import rotor_energy
 
-    motors, one = robot.actions.motors, robot.ring.one
+    motors, one = robot.actions.rotors, robot.ring.one
     last = max(motor.carrier for motor in motors)
     frames = tuple(value(name) for name in kinematics.frame_names(last)) if last else ()
 
     def energy(**changes: Any) -> Expr:
         changed = tuple(replace(motor, **changes) for motor in motors)
-        return rotor_energy(replace(robot, actions=Actions(motors=changed)), *frames)
+        return rotor_energy(replace(robot, actions=Actions(changed)), *frames)
 
     if last:
         yield energy(carrier=0), slip("carried_spin")
@@ -432,15 +421,12 @@ def _rotors(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
 
 
 def _friction(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
-    from dynsolve.derivation.actions import friction
-
-    acting, zero = robot.actions, robot.ring.zero
+    resisting = robot.actions.resisting
+    mistaken = [dict(act.mistaken(robot)) for act in resisting]
     yield -value("friction"), slip("friction_sign")
-    if any(not one.coulomb.is_zero for one in acting.friction):
-        smooth = replace(acting, friction=tuple(replace(one, coulomb=zero) for one in acting.friction))
-        yield friction(replace(robot, actions=smooth)), slip("coulomb_missing")
-    if acting.dampers:
-        yield friction(replace(robot, actions=replace(acting, dampers=()))), slip("dampers_missing")
+    for code in dict.fromkeys(chain(*mistaken)):
+        wrong = [found.get(code, act.force(robot)) for found, act in zip(mistaken, resisting, strict=True)]
+        yield sum(wrong[1:], start=wrong[0]), slip(code)
 
 
 _OTHERWISE: dict[Family, Variants] = {

@@ -188,12 +188,13 @@ def _differs_by_springs(case: Case) -> bool:
     The constant has none of masses or gravity: these have one zero of height for all bodies.
     """
     robot, difference = case.robot, case.difference()
-    if not robot.actions.springs or difference is None:
+    stored = robot.actions.stored
+    if not stored or difference is None:
         return False
-    own = _parameters(spring.energy for spring in robot.actions.springs)
+    own = _parameters(act.energy for act in stored)
     own -= _parameters((*(body.mass for body in robot.bodies), *robot.gravity.entries))
     symbols = robot.ring.symbol_indices
-    stiff = _parameters(s.law.stiffness if s.law else s.energy for s in robot.actions.springs)
+    stiff = _parameters(act.along[1] if act.along else act.energy for act in stored)
     places = [symbols[name, 0] for name in stiff & own]
     return (
         not difference.is_zero

@@ -106,7 +106,7 @@ MOST_BODIES = 2
 def worked_entry(context: Context) -> InertiaEntry | None:
     """The entry that is worked out: of two bodies where one is found, else of the last body alone."""
     robot = context.robot
-    if robot.is_tree or not robot.has_table or not robot.moves_each_joint_alone or robot.actions.motors:
+    if robot.is_tree or not robot.has_table or not robot.moves_each_joint_alone or robot.actions.rotors:
         return None
     entries = list(_entries(context))
     several = [entry for entry in entries if len(entry.shares) > 1 and entry.is_of_both_parts]

@@ -260,7 +260,7 @@ def on_parallel_axes(context: Context) -> Prose:
 def _parallel(context: Context) -> Iterator[tuple[Coordinate, Coordinate]]:
     """Neighbouring joints that turn about the same direction, in the same sense."""
     robot = context.robot
-    if robot.is_tree or not robot.has_table or not robot.moves_each_joint_alone or robot.actions.motors:
+    if robot.is_tree or not robot.has_table or not robot.moves_each_joint_alone or robot.actions.rotors:
         return
     moving = [joint for joint in robot.joints if joint.type]
     for (q, joint), (following, after) in pairwise(zip(robot.coordinates, moving, strict=True)):

@@ -167,7 +167,7 @@ def _acting_on(context: Context, q: Coordinate) -> Node:
 def _named(context: Context, q: Coordinate) -> Prose:
     """What the momentum is of a coordinate that moves one joint, or shifts all bodies alike."""
     robot = context.robot
-    if robot.actions.motors:
+    if robot.actions.rotors:
         return ()
     if not robot.has_table:
         shift = _shifts_all(context, q)
@@ -223,7 +223,7 @@ def _written(context: Context, q: Coordinate) -> Node:
 def dependence_step(context: Context) -> Step | None:
     """The coordinates that no entry may depend on, and the entry that is constant."""
     robot = context.robot
-    if not is_carried_along(context) or robot.actions.motors:
+    if not is_carried_along(context) or robot.actions.rotors:
         return None
     k = robot.coordinates[-1].index
     form = context.show(context.values["D"][k - 1, k - 1])

@@ -243,7 +243,7 @@ def _by_bodies(context: Context) -> Step | None:
         "$𝐪̇ᵀ 𝐃 𝐪̇ = 2 𝒦$, and no body{rotor} has a negative kinetic energy: where their sum is 0, each of "
         "them is 0. In each line the rates of the lines before are 0, so that it is 0 only where its own "
         "rate is:",
-        rotor=" and no rotor" if robot.actions.motors else "",
+        rotor=" and no rotor" if robot.actions.rotors else "",
     )
     concluding = say("So $𝐪̇ᵀ 𝐃 𝐪̇ = 0$ at rest alone: $𝐃$ is positive definite.")
     return _step(context, why, (Line((), tuple(lines)),), concluding, by_energies=True)
@@ -265,7 +265,7 @@ def _own_part(context: Context, k: int) -> tuple[str, Node] | None:
         (f"body {body.name} adds ", context.values[f"Dv{body.name}"] + context.values[f"Dw{body.name}"])
         for body in context.robot.bodies
     ]
-    parts += [("the rotors add ", context.values["Dm"])] if context.robot.actions.motors else []
+    parts += [("the rotors add ", context.values["Dm"])] if context.robot.actions.rotors else []
     shown = ((who, context.show(added[k, k])) for who, added in parts)
     return next(((who, form) for who, form in shown if _is_positive(context, form)), None)
 

@@ -54,7 +54,7 @@ Names = frozenset[str]
 
 def masses_and_moments(robot: Robot) -> Names:
     """The masses and the moments of inertia of a problem; products of inertia may be negative."""
-    inertias = [*(body.mass for body in robot.bodies), *(motor.inertia for motor in robot.actions.motors)]
+    inertias = [*(body.mass for body in robot.bodies), *(motor.inertia for motor in robot.actions.rotors)]
     names = {name for inertia in inertias for name in _names(inertia)}
     return frozenset((names | _of_tensors(robot, moments=True)) - _of_tensors(robot, moments=False))
 

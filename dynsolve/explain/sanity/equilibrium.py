@@ -21,7 +21,7 @@ from dynsolve.robot.model import Coordinate, JointType
 def equilibrium_step(context: Context) -> Step | None:
     """That the arm needs no torques against gravity, whatever its pose, or some in every pose."""
     robot = context.robot
-    if robot.gravity.is_zero or robot.given is not None or robot.actions.springs:
+    if robot.gravity.is_zero or robot.given is not None or robot.actions.stored:
         return None
     if "equilibria" in context.wanted:
         return None
@@ -80,7 +80,7 @@ def _nowhere(context: Context) -> Step | None:
 def unloaded_step(context: Context) -> Step | None:
     """The entries of g that must be zero, by the axes of the joints alone."""
     robot = context.robot
-    if not robot.has_table or robot.gravity.is_zero or robot.actions.springs or robot.given is not None:
+    if not robot.has_table or robot.gravity.is_zero or robot.actions.stored or robot.given is not None:
         return None
     free = [q for q in robot.coordinates if _is_level(context, q)]
     if not free or any(not context.values["g"][q.index - 1, 0].is_zero for q in free):

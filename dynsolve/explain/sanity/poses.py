@@ -50,7 +50,7 @@ def inertia_poses_step(context: Context) -> Step | None:
     if not shown:
         return None
     names = listed([letters.entry("d", q.index, q.index) for q in shown])
-    of_rotors = context.values["Dm"] if context.robot.actions.motors else None
+    of_rotors = context.values["Dm"] if context.robot.actions.rotors else None
     has_rotors = of_rotors is not None and any(not of_rotors[q.index - 1, q.index - 1].is_zero for q in shown)
     moved = [context.robot.joints_of(q)[0][0] for q in shown]
     after = [j.index for j in context.robot.joints if j.type and j.index > moved[0].index]
@@ -133,7 +133,7 @@ def _summed(context: Context, q: Coordinate, pose: Pose) -> Node:
             in_numbers = linear.is_number and body.mass.is_number
             terms.append(_mass_at_a_distance(context, body, k, pose) if in_numbers else context.show(linear))
         terms += [] if angular.is_zero else [context.show(angular)]
-    rotors = at(context.robot.ring, values["Dm"][k, k], pose) if context.robot.actions.motors else None
+    rotors = at(context.robot.ring, values["Dm"][k, k], pose) if context.robot.actions.rotors else None
     return sum_of([*terms, *([] if rotors is None or rotors.is_zero else [context.show(rotors)])])
 
 
@@ -266,12 +266,12 @@ def _why(context: Context, moving: Sequence[Body]) -> Prose:
         "Without the moments of inertia of the bodies{rotors} each body is a point at its mass centre, and "
         "$𝐃$ is {points}, the sum of the linear parts{zero}. What is left over of $𝐃${where} is what the "
         "turning of the bodies{rotors} adds: the rotational parts{parts}{sliding}.",
-        rotors=" and of the rotors" if robot.actions.motors else "",
+        rotors=" and of the rotors" if robot.actions.rotors else "",
         points=letters.D_POINTS,
         zero=say(f" ({zero} zero)", these=and_joined(still)) if still else "",
         where=Reference(looked_at(context, "D", [context.result("D")]), " in "),
         parts=Reference(tuple(rotational), " in "),
         sliding=say(turn_none, names=listed(sliding), s="s" * (len(sliding) == 1))
-        if robot.has_table and sliding and not robot.actions.motors
+        if robot.has_table and sliding and not robot.actions.rotors
         else "",
     )

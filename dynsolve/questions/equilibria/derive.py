@@ -24,7 +24,7 @@ def rules(robot: Robot) -> Iterator[Rule]:
     else:
         yield Rule("equilibria", ("g",), partial(equilibria, robot))
     if robot.questions.model.linearize:
-        friction = ("friction",) if "friction" in robot.actions.kinds else ()
+        friction = ("friction",) if robot.actions.resisting else ()
         acting = (*outside_names(robot), *friction)
         yield Rule("linear_A", ("D", "g", *acting), partial(linearization.state_matrix, robot))
         yield Rule("linear_B", ("D",), partial(linearization.input_matrix, robot))

@@ -372,9 +372,9 @@ def _state_matrix(context: Context) -> Step:
     robot, value = context.robot, context.values["linear_A"]
     if isinstance(value, Skipped):
         return not_derived("linear_A", "The matrix A of the linear model", value.why)
-    has_friction = "friction" in robot.actions.kinds
+    has_friction = robot.actions.resisting
     passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
-    by = "gravity and springs do" if robot.actions.springs else "gravity does"
+    by = "gravity and springs do" if robot.actions.stored else "gravity does"
     balanced = f"No motor drives {{passive}}: in the equilibrium {by} not move {{which}}. "
     rests = [
         equation(Symbol(name, dots), value)
@@ -415,7 +415,7 @@ def _state_matrix(context: Context) -> Step:
         source=_SOURCE,
         working=tuple(working),
         result=(equation(letters.LINEAR_A, context.form("linear_A")),),
-        notes=((jumps,),) if any(not one.coulomb.is_zero for one in robot.actions.friction) else (),
+        notes=((jumps,),) if any(act.functions(robot) for act in robot.actions.resisting) else (),
         detail=Detail.BRIEF,
     )
 

@@ -122,13 +122,13 @@ def still_forces(robot: Robot, gravity: Matrix, outside: Matrix | None) -> Matri
 def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, *acting: Matrix) -> Linear:
     """A, 2n×2n; `acting` are Q and the friction, those that there are."""
     outside = acting[0] if robot.questions.loads else None
-    friction = acting[-1] if "friction" in robot.actions.kinds else None
+    friction = acting[-1] if robot.actions.resisting else None
     gravity = still_forces(robot, gravity, outside)
     if robot.questions.constraints:
         return Skipped(CONSTRAINED)
     name = unbalanced(robot, gravity)
     if name:
-        by = "gravity and springs move" if robot.actions.springs else "gravity moves"
+        by = "gravity and springs move" if robot.actions.stored else "gravity moves"
         by = "the given forces move" if robot.questions.loads else by
         return Skipped(f"the given state is no equilibrium: {by} {name}, which no motor holds")
     below = Matrix(
@@ -224,19 +224,10 @@ def _curl(robot: Robot, momentum: Matrix, i: int, j: int) -> Expr:
 
 def _braked(robot: Robot) -> str:
     """The name of a coordinate that friction acts on in the motion, and no motor holds; else nothing."""
-    ring, wanted = robot.ring, wanted_rows(robot)
-    rates = steady_rates(robot)
-    for one in robot.actions.friction:
-        name = robot.coordinates[one.coordinate].name
-        is_turning = rates[name, 1] != Number(0)
-        if one.coordinate in wanted and is_turning and not (one.viscous.is_zero and one.coulomb.is_zero):
-            return to_unicode(Symbol(name))
-    at = AtState(ring, rates)
-    for damper in robot.actions.dampers:
-        parts = [ring.diff(damper.of, k) for k in range(robot.n)]
-        speed = sum((p * v for p, v in zip(parts, velocities(robot).entries, strict=True)), start=ring.zero)
-        for k in wanted:
-            if not at(damper.damping * speed * parts[k]).is_zero:
+    at = AtState(robot.ring, steady_rates(robot))
+    for force in (act.force(robot) for act in robot.actions.resisting):
+        for k in wanted_rows(robot):
+            if not at(force[k, 0]).is_zero:
                 return to_unicode(Symbol(robot.coordinates[k].name))
     return ""
 

@@ -62,7 +62,7 @@ def outside_names(robot: Robot) -> tuple[str, ...]:
 
 def acting_names(robot: Robot) -> tuple[str, ...]:
     """The rules of the forces that act beside τ."""
-    friction = ("friction",) if "friction" in robot.actions.kinds else ()
+    friction = ("friction",) if robot.actions.resisting else ()
     return ("Cqd", "g", *friction, *outside_names(robot))
 
 

@@ -108,7 +108,7 @@ def _force(robot: Robot, joint: Joint) -> Rule:
 def _moment(robot: Robot, joint: Joint) -> Rule:
     i = joint.index
     after, bodies = robot.links_after(i), robot.bodies_on(i)
-    rotors = [motor for motor in robot.actions.motors if motor.carrier == i]
+    rotors = [motor for motor in robot.actions.rotors if motor.carrier == i]
     none = Matrix.zero(robot.ring, 3, 1)
 
     def compute(A: Matrix, H: Matrix, w: Matrix, dw: Matrix, *values: Matrix) -> Matrix:
@@ -134,10 +134,8 @@ def torque_rule(robot: Robot, q: Coordinate) -> Rule:
     what they resist with.
     """
     moved, k = robot.joints_of(q), q.index - 1
-    motors = [motor for motor in robot.actions.motors if motor.turns == k]
-    beside = [
-        name for name, kind in (("Ps", "springs"), ("friction", "friction")) if kind in robot.actions.kinds
-    ]
+    motors = [motor for motor in robot.actions.rotors if motor.turns == k]
+    beside = [name for name in ("Ps", "friction") if name in robot.actions.terms]
 
     def compute(*values: Any) -> Expr:
         held, rest = values[: 2 * len(moved)], list(values[2 * len(moved) :])

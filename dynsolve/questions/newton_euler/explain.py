@@ -18,7 +18,7 @@ from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
-from dynsolve.explain.actions import friction_steps, in_recursions, rotor_moments, spring_steps
+from dynsolve.explain.actions import friction_steps, in_recursions, rotor_moments, stored_steps
 from dynsolve.explain.context import MOST_JOINTS, Context
 from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import Detail, Group, Line, Step
@@ -61,7 +61,7 @@ def steps(context: Context) -> Iterator[Step]:
         group = Group(f"inwards{joint.index}", f"Link {joint.index}, inwards")
         yield from (replace(step, group=group) for step in _inwards(context, joint))
     if by_method:
-        yield from (*spring_steps(context), *friction_steps(context))
+        yield from (*stored_steps(context), *friction_steps(context))
         for q in robot.coordinates:
             yield replace(_torque(context, q), group=Group("tau", "The generalized forces"))
         yield _lagrange(context)

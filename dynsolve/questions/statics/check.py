@@ -47,7 +47,7 @@ def verify_statics(robot: Robot, results: Mapping[str, Node], states: int = 5) -
         still = [0.0] * arm.n
         Q = generalized_forces(robot, values, arm)
         weight = inverse_dynamics(arm, still, still, arm.gravity)
-        held = [a + b for a, b in zip(weight, acting_forces(robot, values).springs, strict=True)]
+        held = [a + b for a, b in zip(weight, acting_forces(robot, values).stored, strict=True)]
         theirs = {"Q": Q, "tau_static": [a - b for a, b in zip(held, Q, strict=True)]}
         size = max((1.0, *map(abs, Q), *map(abs, held)))
         for name, mine in zip(results, program.run(values), strict=True):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.problem import read_problem
 from tests.unit.problem.marked import errors, places, unmarked
 
@@ -24,7 +25,7 @@ def test_a_file_without_them_has_a_robot_on_which_nothing_acts() -> None:
 
 def test_a_bare_value_is_viscous_friction() -> None:
     found = robot("friction: {q1: f, q2: {viscous: f, coulomb: c}}")
-    first, second = found.actions.friction
+    first, second = found.actions.acts
     f, c = found.ring.symbol("f"), found.ring.symbol("c")
     assert (first.coordinate, first.viscous, first.coulomb.is_zero) == (0, f, True)
     assert (second.coordinate, second.viscous, second.coulomb) == (1, f, c)
@@ -32,11 +33,11 @@ def test_a_bare_value_is_viscous_friction() -> None:
 
 def test_a_spring_is_half_its_stiffness_times_the_square_of_its_stretch() -> None:
     found = robot("springs: [{stiffness: k, of: q2 - q1, rest: delta}, {energy: h*(1 - cos(q1))}]")
-    first, second = found.actions.springs
+    first, second = found.actions.acts
     ring = found.ring
     stretch = ring.symbol("q2") - ring.symbol("q1") - ring.symbol("delta")
     assert first.energy * 2 == ring.symbol("k") * stretch * stretch
-    assert second.law is None
+    assert second.energy == ring.symbol("h") * (ring.one - ring.cos(Angle.of("q1"))) and second.along is None
 
 
 def test_a_starred_motor_brings_a_coordinate_after_those_of_the_table() -> None:
@@ -46,7 +47,7 @@ def test_a_starred_motor_brings_a_coordinate_after_those_of_the_table() -> None:
     assert [(q.name, q.type.value) for q in found.coordinates] == [
         ("q1", "revolute"), ("q2", "revolute"), ("q3", "revolute"),
     ]  # fmt: skip
-    elastic, carried = found.actions.motors
+    elastic, carried = found.actions.acts
     assert (elastic.turns, elastic.carrier, elastic.ratio) == (2, 0, found.ring.one)
     assert (carried.turns, carried.carrier, carried.axis) == (0, 2, 0)
 
@@ -59,7 +60,7 @@ def test_coordinates_orders_those_of_motors_too() -> None:
 def test_a_mechanism_by_positions_has_them_too() -> None:
     text = "model: {coordinates: {x: prismatic}, bodies: [{mass: m, at: [x, 0, 0]}]}\n"
     found = read_problem(text + "friction: {x: f}\nsprings: [{stiffness: k, of: x}]").robot
-    assert found.actions.kinds == {"friction", "springs"}
+    assert found.actions.terms == {"friction", "Ps"}
 
 
 FAULTS = {

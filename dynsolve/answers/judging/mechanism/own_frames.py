@@ -59,7 +59,6 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem.model import Problem
 from dynsolve.problem.questions import default_task
-from dynsolve.robot.actions import values_of, with_values
 from dynsolve.robot.geometry import Turn, absolute_angles, elementary
 from dynsolve.robot.model import Axes, AxesKind, Body, Convention, Joint, JointType, Robot
 from dynsolve.robot.questions import Load, NamedPoint, Questions, State
@@ -173,7 +172,7 @@ class OwnPlaces:
         coordinates = [(q.name, q.type.value) for q in key.coordinates]
         trees = [restated(self.form(value), self.counts) for value in self._key_values()]
         trees += [cell for row in self.table for cell in row.constants[1:3]]
-        trees += [Function("sgn", Symbol(names[f.coordinate], dots=1)) for f in key.actions.friction]
+        trees += [function for act in key.actions.acts for function in act.functions(key)]
         trees += self._asked_trees({}) + self._asked_trees(self.counts)
         turns = [
             Turn(self.theta(i), alpha, row.variable == 0)
@@ -203,7 +202,7 @@ class OwnPlaces:
         matrices += [m for m in (asked.velocity, asked.acceleration) if m is not None]
         for matrix in matrices:
             yield from matrix.entries
-        yield from values_of(key.actions)
+        yield from (value for act in key.actions.acts for value in act.values)
         yield from (length for joint in key.joints for length in (joint.d, joint.a))
 
     def _asked_trees(self, counts: Counts) -> list[Node]:
@@ -443,7 +442,7 @@ class _Own:
     def robot(self, sense: Sense) -> Robot:
         """The robot in the student's frames."""
         key, start = self.key, self.places.start
-        if any(motor.carrier for motor in key.actions.motors):
+        if any(rotor.carrier for rotor in key.actions.rotors):
             raise NotExact  # the axis of the rotor is one of the key's frame
         place = Displacement(self.places.moved(key.base_rotation), self.places.moved(key.base_position))
         world = Displacement(Matrix.identity(self.ring, 3), Matrix.zero(self.ring, 3, 1))
@@ -453,13 +452,14 @@ class _Own:
             world = place @ start
         else:
             seen = (place @ start).R.T
+        moved = self.places.moved_value
         own = replace(
             key,
             ring=self.ring,
             joints=tuple(self._joint(i, row) for i, row in enumerate(self.places.table, 1)),
             bodies=tuple(self._body(body, self.places.changes[body.link]) for body in key.bodies),
             gravity=seen @ gravity,
-            actions=with_values(key.actions, self.places.moved_value),
+            actions=replace(key.actions, acts=tuple(act.with_values(moved) for act in key.actions.acts)),
             base_rotation=world.R,
             base_position=world.o,
             parameters=tuple(name for name in self.ring.parameters if name != "pi"),

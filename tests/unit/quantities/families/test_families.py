@@ -38,7 +38,7 @@ def test_every_rule_gives_a_quantity_and_in_this_order(stem: str) -> None:
     found = [q.rule for q in quantities(robot(stem)).values() if not q.is_read_off]
     assert [rule for rule in found if rule in rules] == rules
     if robot(stem).bodies:
-        rotors = {"Dm"} if robot(stem).actions.motors else set()
+        rotors = {"Dm"} if robot(stem).actions.rotors else set()
         assert set(found) - set(rules) == {"D_direct", "DH"} | rotors
 
 

@@ -1,25 +1,17 @@
-"""The keys of a problem file that say what acts on the robot beside gravity; see `specification`.
-
-The key of a problem file that constrains the motion; see `specification`.
+"""The keys of `model`: a mechanism by positions, or given energies; see `specification`.
 
 The keys about inertia matrices that are to be judged; see `specification`.
-
-The keys of `model`: a mechanism by positions, or given energies; see `specification`.
 """
 
 from __future__ import annotations
 
 from dynsolve.problem.kinds import (
-    COORDINATE,
     EXPRESSION,
-    LINK,
     NAME,
     VECTOR,
-    Coordinate,
     Expression,
     Key,
     Keyed,
-    Link,
     ListOf,
     MapOf,
     OneOf,
@@ -28,142 +20,6 @@ from dynsolve.problem.kinds import (
     Word,
     vector,
 )
-from dynsolve.robot.shapes import AXES
-
-# The keys of a problem file that say what acts on the robot beside gravity
-
-MOST_ACTIONS = 20
-"""The most springs, dampers and motors that are read, of each."""
-
-_CONSTANT = "it is a constant of the problem"
-VISCOUS = Expression("a coefficient of viscous friction", _CONSTANT)
-PARAMETER = Expression(constant=_CONSTANT)
-
-FRICTION = Keyed(
-    (
-        Key("viscous", VISCOUS, "f_v of viscous friction: f_v q̇.", "fv1", "0"),
-        Key(
-            "coulomb",
-            Expression("a coefficient of Coulomb friction", _CONSTANT),
-            "f_c of Coulomb friction: f_c sgn(q̇).",
-            "fc1",
-            "0",
-        ),
-    ),
-    least=1,
-)
-
-SPRING = Keyed(
-    (
-        Key(
-            "stiffness",
-            Expression("a stiffness", _CONSTANT),
-            "k of a linear spring, of the energy ½ k (x - rest)².",
-            "k",
-        ),
-        Key("of", EXPRESSION, "x, linear in the coordinates.", "q2 - q1"),
-        Key("rest", PARAMETER, "Where the spring is relaxed.", "delta", "0"),
-        Key(
-            "energy",
-            EXPRESSION,
-            "In place of these the energy itself, a function of the coordinates.",
-            "k*(1 - cos(q1))",
-        ),
-    ),
-    least=1,
-)
-
-DAMPER = Keyed(
-    (
-        Key("damping", VISCOUS, "b of the force b ẋ.", "b", required=True),
-        Key("of", EXPRESSION, "x, linear in the coordinates.", "q2 - q1", required=True),
-    )
-)
-
-MOTOR = Keyed(
-    (
-        Key(
-            "turns",
-            Coordinate("a name", {"type": "string"}, new=True),
-            "The coordinate that it turns; with a star, a new angle that it turns alone, as in an elastic "
-            "joint.",
-            "q1",
-            required=True,
-            remedy="write turns: q1, a coordinate of the table, or turns: thm1*, a new angle",
-        ),
-        Key(
-            "inertia",
-            Expression("a moment of inertia", _CONSTANT),
-            "The moment of inertia of the rotor about its axis.",
-            "Im1",
-            required=True,
-        ),
-        Key("ratio", PARAMETER, "The ratio of its gear: it turns so much faster.", "kr1", "1"),
-        Key(
-            "carrier",
-            Link(LINK.called, LINK.json, "which carries a motor that has no `carrier`"),
-            "The link that carries the motor round.",
-            "1",
-            "the ground",
-        ),
-        Key(
-            "axis",
-            Word(AXES),
-            "The axis of frame `carrier` that it spins about.",
-            "z",
-            "z",
-            called="axis of {of}",
-        ),
-    )
-)
-
-ACTION_KEYS = (
-    Key(
-        "friction",
-        MapOf(
-            OneOf((VISCOUS, Shared("friction", FRICTION, "`{viscous, coulomb}`"))),
-            "friction by coordinate",
-        ),
-        "Friction of the joints, f_v q̇ + f_c sgn(q̇); a bare value is f_v.",
-        "{theta1: {viscous: fv1, coulomb: fc1}, L2: fv2}",
-        "none",
-        remedy="write friction: {q1: fv1}, or friction: {q1: {viscous: fv1, coulomb: fc1}}",
-    ),
-    Key(
-        "springs",
-        ListOf(Shared("spring", SPRING, "a spring"), "a list of springs", 0, MOST_ACTIONS),
-        "Springs, ½ k (x - rest)² with x linear in the coordinates, or by their energy.",
-        "[{stiffness: k, of: L2, rest: L0}]",
-        "none",
-        remedy="a spring is written {stiffness: k, of: q2 - q1, rest: delta} or {energy: k*(1 - cos(q1))}",
-    ),
-    Key(
-        "dampers",
-        ListOf(Shared("damper", DAMPER, "a damper"), "a list of dampers", 0, MOST_ACTIONS),
-        "Dampers, the force b ẋ with x linear in the coordinates.",
-        "[{damping: b, of: L2}]",
-        "none",
-        remedy="a damper is written {damping: b, of: q2 - q1}",
-    ),
-    Key(
-        "motors",
-        ListOf(Shared("motor", MOTOR, "a motor"), "a list of motors", 0, MOST_ACTIONS),
-        "Rotors of motors: what they turn, their moment of inertia, their gear. Their mass is a body's.",
-        "[{turns: theta1, inertia: Im1, ratio: kr1}]",
-        "none",
-        remedy="a motor is written {turns: q1, inertia: Im1, ratio: kr1, carrier: 1}",
-    ),
-    Key(
-        "passive",
-        ListOf(COORDINATE, "a list of names"),
-        "Coordinates without a motor: their generalized force is 0.",
-        "[L2]",
-        "none",
-        remedy="write passive: [q2], the coordinates that no motor drives",
-    ),
-)
-"""The keys, in the order of the documentation."""
-
 
 # The keys of `model`: a mechanism by positions, or given energies; see `specification`
 

@@ -1,0 +1,23 @@
+"""What acts on a manipulator beside gravity: a folder a kind, complete.
+
+    springs     ½ k (x - rest)², or an energy that is given
+    dampers     b ẋ
+    friction    f_v q̇ + f_c sgn(q̇)
+    motors      rotors, with their gears
+
+A kind is a key of the problem file and a folder of that name, with these files:
+
+    __init__    `KEY`, the key of the problem file: data alone, loaded with every file
+    act         the record, a class of `robot.actions` by the term of the equations that it is a part of: what
+                its values are and in which units, its energy or force, exact and, by another formula, in
+                numbers, and what goes wrong with it; `TERM`, that class; `read(decoder, fields)`, what the
+                file gives of each one, and `build(values, given)`, the record of it, with the helpers of
+                `problem.acting`; imported where a file has the key
+    explain     `given(forms, act)`, the sentence among what is given, and what its part of the step of its
+                term is: of the energy P_s `why(acts)`, `hint(acts)` and `term(context, act)`, of friction
+                `why(context, acts)` and `dissipation(context, act)`; `LETTERS`, the rows of
+                `explain.textbook_letters` for letters that its step alone has; imported for a solution
+
+`robot.actions.KINDS` is the list of them, and `robot.actions.part` imports a file by its path: no other room
+names a kind.  A new one is a name there and such a folder.
+"""

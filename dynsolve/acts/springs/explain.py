@@ -1,0 +1,59 @@
+"""What is told of springs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dynsolve.acts.springs.act import Spring
+from dynsolve.document import Prose
+from dynsolve.explain.actions import half_square
+from dynsolve.explain.context import Context
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.writing import measured
+from dynsolve.notation.build import negated, total
+from dynsolve.notation.tree import Node, Power, Sum, equation, walk
+from dynsolve.robot.actions import Stored
+
+
+def given(forms: Forms, spring: Stored) -> Prose:
+    """A spring of stiffness k is at rest at q₁ = δ."""
+    if not isinstance(spring, Spring):
+        return ("A spring has the potential energy ", forms.of(spring.energy), ".")
+    stiffness, rest, _ = (measured(forms.of(one.value), one.unit) for one in spring.parameters(forms.robot))
+    return ("A spring of stiffness ", stiffness, " is at rest at ", equation(forms.of(spring.of), rest), ".")
+
+
+def why(springs: Sequence[Stored]) -> str:
+    """What a linear spring stores."""
+    laws = [spring for spring in springs if isinstance(spring, Spring)]
+    if not laws:
+        return "The energies are given." if len(springs) > 1 else "The energy of the spring is given."
+    told = "A linear spring stores half its stiffness times the square of its deflection from rest."
+    return told + (" The other energies are given." if len(laws) < len(springs) else "")
+
+
+def hint(springs: Sequence[Stored]) -> str:
+    """The same of what is to be done."""
+    told = "Half the stiffness times the square of the deflection of each spring from its rest."
+    return told if any(isinstance(spring, Spring) for spring in springs) else ""
+
+
+def pitfall(springs: Sequence[Stored]) -> str:
+    """What goes wrong with the energy."""
+    told = "The energy of a spring has a ½, and the stretch is squared as a whole, with its rest."
+    return told if any(isinstance(spring, Spring) for spring in springs) else ""
+
+
+def term(context: Context, spring: Stored) -> Node | None:
+    """½ k (x - rest)², the deflection with the terms in the order that they have in the sum of all."""
+    if not isinstance(spring, Spring):
+        return None
+    squares = (one for one in walk(context.form("Ps")) if isinstance(one, Power))
+    sums = [one.base for one in squares if isinstance(one.base, Sum)]
+    for sign in (1, -1):
+        shown = context.show((spring.of - spring.rest) * sign)
+        for base in sums:
+            if isinstance(shown, Sum) and set(base.terms) == set(shown.terms):
+                return half_square(context.show(spring.stiffness), base)
+    stretch = total([context.show(spring.of), negated(context.show(spring.rest))])
+    return half_square(context.show(spring.stiffness), stretch)
