@@ -13,10 +13,12 @@ A kind is a key of the problem file and a folder of that name, with these files:
                 numbers, and what goes wrong with it; `TERM`, that class; `read(decoder, fields)`, what the
                 file gives of each one, and `build(values, given)`, the record of it, with the helpers of
                 `problem.acting`; imported where a file has the key
-    explain     `given(forms, act)`, the sentence among what is given, and what its part of the step of its
-                term is: of the energy P_s `why(acts)`, `hint(acts)` and `term(context, act)`, of friction
-                `why(context, acts)` and `dissipation(context, act)`; `LETTERS`, the rows of
-                `explain.textbook_letters` for letters that its step alone has; imported for a solution
+    explain     `given(forms, act)`, the sentence among what is given, and its part of the step of its term:
+                of the energy P_s `why(acts)` and `term(context, act)`, None of an energy that is given, of
+                friction `dissipation(context, act)`, None where there is none; imported for a solution.
+                Where there is more to say: `hint(acts)` and `pitfall(acts)` of an energy,
+                `beside(context, acts)` of friction that no dissipation function has, with its term of the
+                formula, and `LETTERS`, rows of `explain.textbook_letters` for letters in it
 
 `robot.actions.KINDS` is the list of them, and `robot.actions.part` imports a file by its path: no other room
 names a kind.  A new one is a name there and such a folder.

@@ -72,7 +72,7 @@ def stored_steps(context: Context) -> Iterator[Step]:
     terms = [told.term(context, act) for told, acts in kinds for act in acts]
     has_law = any(term is not None for term in terms)
     shown = [term or context.show(act.energy) for term, act in zip(terms, stored, strict=True)]
-    hint = " ".join(filter(None, (told.hint(acts) for told, acts in kinds)))
+    hints = [hint for told, acts in kinds if hasattr(told, "hint") and (hint := told.hint(acts))]
     yield Step(
         id="Ps",
         title=f"Potential energy of the spring{'s' if len(stored) > 1 else ''}",
@@ -80,7 +80,7 @@ def stored_steps(context: Context) -> Iterator[Step]:
         formula=equation(letters.PS, sum_of(shown)) if has_law else None,
         source=siciliano("7.1.2"),
         result=(equation(letters.PS, context.form("Ps")),),
-        hint=(hint,) if hint else (),
+        hint=(" ".join(hints),) if hints else (),
     )
 
 

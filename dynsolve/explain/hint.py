@@ -307,8 +307,8 @@ def _of_masses(robot: Robot) -> dict[str, Value]:
 
 def _of_stored(robot: Robot) -> str:
     """What goes wrong with the energies of each kind that stores some."""
-    kinds = {act.kind: part(act.kind, "explain") for act in robot.actions.stored}
-    return " ".join(filter(None, (told.pitfall(robot.actions.by_kind[kind]) for kind, told in kinds.items())))
+    kinds = [(part(kind, "explain"), acts) for kind, acts in robot.actions.by_kind.items()]
+    return " ".join(filter(None, (told.pitfall(acts) for told, acts in kinds if hasattr(told, "pitfall"))))
 
 
 def _called(bodies: Iterable[Body]) -> str:

@@ -231,8 +231,8 @@ MOST_ACTS = 20
 
 
 def list_of(name: str, record: Keyed) -> ListOf:
-    """A list of what acts: springs, each a record of these keys."""
-    return ListOf(Shared(name, record, f"a {name}"), f"a list of {name}s", 0, MOST_ACTS)
+    """A list of what acts: of springs, each a record of these keys; `name` is what one is called."""
+    return ListOf(Shared(name.replace(" ", "_"), record, f"a {name}"), f"a list of {name}s", 0, MOST_ACTS)
 
 
 # The structure of a problem file: which keys a mapping has, what kind of value each holds
