@@ -6,6 +6,7 @@ exact it is carried out, so that most values become elements of the ring.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
@@ -45,6 +46,10 @@ class RationalExpr(Struct, frozen=True):
         return RationalExpr(-self.numerator, self.divisor)
 
 
+FractionRows = tuple[tuple[RationalExpr, ...], ...]
+"""A matrix of fractions."""
+
+
 def is_zero(expr: Expr) -> bool:
     """Whether an expression is 0, also where several inverses occur.
 
@@ -78,6 +83,13 @@ def equal(a: RationalExpr, b: RationalExpr) -> bool:
     if a.divisor is None and b.divisor is None:
         return a.numerator == b.numerator or is_zero(a.numerator - b.numerator)
     return is_zero(a.numerator * b.denominator - b.numerator * a.denominator)
+
+
+def same(a: FractionRows, b: FractionRows) -> bool:
+    """Whether two matrices are equal, entry by entry."""
+    if len(a) != len(b) or len(a[0]) != len(b[0]):
+        return False
+    return all(equal(x, y) for r, s in zip(a, b, strict=True) for x, y in zip(r, s, strict=True))
 
 
 def simplified(value: RationalExpr) -> RationalExpr:
@@ -175,6 +187,14 @@ def add(a: RationalExpr, b: RationalExpr) -> RationalExpr:
         return RationalExpr(a.numerator + b.numerator, a.divisor)
     above = a.numerator * b.denominator + b.numerator * a.denominator
     return RationalExpr(above, a.denominator * b.denominator)
+
+
+def summed(terms: Iterable[RationalExpr], start: Expr) -> RationalExpr:
+    """The sum of fractions and an expression."""
+    total = RationalExpr(start)
+    for term in terms:
+        total = add(total, term)
+    return total
 
 
 def multiply(a: RationalExpr, b: RationalExpr) -> RationalExpr:

@@ -21,12 +21,12 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.fraction import RationalExpr, same
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.slips import slip, told
 from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
-from dynsolve.answers.judging.answer_values import AnswerValue, same
+from dynsolve.answers.judging.answer_values import AnswerValue
 from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.explanation import Explanations, entry_of
 from dynsolve.answers.judging.follow_through import PossibleValue
@@ -133,10 +133,10 @@ class AnswerJudge:
             notes.append(ROUNDED)
         if self.explanations.lead_elsewhere(compared):
             notes.append(NOT_FROM_OWN)
-        if compared.other is not None:
+        if compared.other:
             notes.append(compared.other)
         notes += self._fewer(base.name)
-        if base.name == "C" and compared.other is None and not self._is_christoffel(compared.answer_value):
+        if base.name == "C" and not compared.other and not self._is_christoffel(compared.answer_value):
             is_skew = self._is_skew(compared.answer_value)
             notes.append(NOT_CHRISTOFFEL.format(("not " if not is_skew else "") + "skew-symmetric"))
         entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in _entries(base.name, compared))

@@ -27,8 +27,9 @@ A folder has the name of its stage (`quantities.stages`), and these files, of wh
                 results `inputs(context)`, and `PITFALLS`, of which those are told whose `facts(robot)` hold
     export      `value(export, name)` of what is no matrix or number, `beside(export)` what the JSON says
                 beside it (`export`)
-    judge       `KEYS`: of each answer that is a set, the class that judges it, with its faults
-                (`judging`; `equation_sets` are those of equations)
+    judge       `KEYS`: of each answer that is a set, the class that judges it, and its faults;
+                `EQUIVALENCES`: what is right without being the key's (`judging`; sets of equations are in
+                `equation_sets`)
 
 `Stage.part` imports a file by its path when it is asked for: rooms below and beside these name no question,
 and one that nobody asks costs nothing.  A new question is a line in `Stage` and such a folder; if it needs

@@ -1,18 +1,27 @@
-"""What the judge of a question is given, what it says of a set, and what may be wrong with it."""
+"""What the judge of a question is given, and what it says.
+
+Of an answer that is a set: whether it is right (`SetKey`), and what may be wrong with it (`Fault`).  Of a
+value that is not the key's: what is right all the same (`Equivalence`).
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Node
+from dynsolve.quantities.family import Family
+from dynsolve.quantities.index import Quantity
 from dynsolve.robot.model import Robot
 
 
@@ -104,3 +113,58 @@ class SetKey(ABC):
 def nodes_of(given: Iterable[Sequence[Part]]) -> list[Node]:
     """The formulas of all alternatives."""
     return [part.node for one in given for part in one]
+
+
+class Case(Protocol):
+    """An answer that is not the key's, in the ring of the answers."""
+
+    node: str
+    """What it is an answer to."""
+
+    @property
+    def quantity(self) -> Quantity | None:
+        """The same as a record."""
+
+    @property
+    def index(self) -> int:
+        """Of which body, coordinate or link it is, from 1."""
+
+    @property
+    def robot(self) -> Robot:
+        """The robot."""
+
+    @property
+    def key(self) -> Any:
+        """The key's value."""
+
+    @property
+    def entries(self) -> Sequence[RationalExpr]:
+        """The first entry of each row that was written."""
+
+    def result(self, name: str) -> Any:
+        """The key's value of something else."""
+
+    def chosen(self, name: str) -> Matrix | None:
+        """A column that is the student's to choose, as it was chosen."""
+
+    def value(self, like: Any) -> Any:
+        """What was written, of the kind of another value; None where it is none."""
+
+    def in_numbers(self, value: RationalExpr) -> RationalExpr:
+        """A value with the numbers of the problem."""
+
+    def is_entry_by_entry(self, wanted: Iterable[Expr]) -> bool:
+        """Whether a column has these entries, as an answer may have them."""
+
+
+class Equivalence(Struct, frozen=True):
+    """What is right though it is not the key: of which families or nodes, by which test, and its words."""
+
+    words: str
+    holds: Callable[[Any], bool]
+    of: frozenset[Family | str]
+
+
+def right_as(words: str, holds: Callable[[Any], bool], *of: Family | str) -> Equivalence:
+    """A row of a table of equivalences."""
+    return Equivalence(words, holds, frozenset(of))

@@ -7,8 +7,8 @@ answer_values      the answers of a hand-in with their values: in the problem's 
 graph              which answers lead to which, by which routes
 entry_comparison   whether two scalars are equal, and whether vectors span the same space
 key_comparison     an answer compared with the key, entry by entry
-equivalences       what is right without being the key's: a table of tests and words; the parameters a of
-                   τ = Y a; A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds
+equivalences       what is right without being the key's: a table of tests and words, with the rows that
+                   questions have in their folders
 mechanism          whether two Denavit-Hartenberg tables describe one mechanism
 hand_in            all of these for one hand-in; the zero of height, equations in which A_cᵀ λ stands
 follow_through     the values that the student's own answers lead to, and which way between τ and D, C, g,

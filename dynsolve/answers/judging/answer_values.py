@@ -484,13 +484,6 @@ def _entries(node: Node) -> tuple[tuple[Node, ...], ...]:
     return node.rows if isinstance(node, tree.Matrix) else ((node,),)
 
 
-def same(a: Rows, b: Rows) -> bool:
-    """Whether two values are equal, entry by entry."""
-    if len(a) != len(b) or len(a[0]) != len(b[0]):
-        return False
-    return all(equal(x, y) for r, s in zip(a, b, strict=True) for x, y in zip(r, s, strict=True))
-
-
 def as_value(rows: Rows, like: Expr | Matrix | FractionMatrix) -> Expr | Matrix | None:
     """The value as one of the ring, of the key's shape; None where it is none."""
     exprs = [[as_expr(entry) for entry in row] for row in rows]

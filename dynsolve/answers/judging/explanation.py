@@ -27,7 +27,6 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.entry_comparison import placed, spans, substituted
-from dynsolve.answers.judging.equivalences import covers
 from dynsolve.answers.judging.follow_through import (
     Direction,
     FollowThrough,
@@ -38,6 +37,7 @@ from dynsolve.answers.judging.follow_through import (
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.questions.parameters import REGRESSORS
+from dynsolve.questions.parameters.judge import covers
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Coordinate
 from dynsolve.robot.units import LENGTH

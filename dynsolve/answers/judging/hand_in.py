@@ -37,10 +37,7 @@ from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues, multiplier_names
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.equivalences import (
-    Other,
-    OwnConstraint,
     as_matrix,
-    own_parameters,
     with_own_constraint,
 )
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -49,7 +46,9 @@ from dynsolve.answers.verdict import Answer
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, Symbol, names_in, walk, with_children
 from dynsolve.quantities import families
+from dynsolve.questions.constraints.judge import WITHOUT_MULTIPLIERS, OwnConstraint
 from dynsolve.questions.parameters import PARAMETERS, REFERENCE, REGRESSORS
+from dynsolve.questions.parameters.judge import own_parameters
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import LENGTH
 
@@ -85,7 +84,7 @@ def with_moved_multipliers(
         if not any(not factor.is_zero for row in equations.beside.values() for factor in row):
             continue
         if equations.beside.keys() <= right:
-            other = Other.WITHOUT_MULTIPLIERS if equations.compared.correct else None
+            other = WITHOUT_MULTIPLIERS if equations.compared.correct else ""
             found[name] = replace(equations.compared, other=other)
         elif equations.compared.correct:
             found[name] = replace(equations.compared, obstacles=(Obstacle("constraint_forces"),))
@@ -258,7 +257,7 @@ class ComparedHandIn:
 
     def _on_constraint(self, compared: Mapping[str, KeyComparison]) -> dict[str, KeyComparison]:
         """The comparisons where the student may choose the matrix of the constraint, and where λ stands."""
-        own = OwnConstraint(self.graph)
+        own = OwnConstraint(self.graph.robot, self.graph.key)
         return with_moved_multipliers(own, with_own_constraint(own, compared), self.compare)
 
     def _own_parameters(self) -> Mapping[str, Matrix]:
@@ -267,7 +266,8 @@ class ComparedHandIn:
             return {}
         values = {name: last(self.chains[name]) for name in self.chains.keys() & asked}
         written = {name: matrix for name, value in values.items() if (matrix := as_matrix(value, name))}
-        return own_parameters(self.answer_ring, written)
+        ring = self.answer_ring
+        return own_parameters(ring.robot, ring.rules, ring.key, written)
 
     def _energies(self) -> Iterator[tuple[str, Expr]]:
         """The student's P_i, P and L, where they are expressions of the ring."""

@@ -15,12 +15,8 @@ from dynsolve.answers.judging.answer_values import AnswerValue, fitted, unfolded
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, difference, readings, spans
 from dynsolve.answers.judging.equivalences import (
     Case,
-    Other,
     as_matrix,
-    forces_of,
-    is_free,
     other_solution,
-    wrong_parameters,
 )
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.derivation.graph import Skipped
@@ -28,6 +24,7 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
 from dynsolve.questions.parameters import REGRESSORS
+from dynsolve.questions.parameters.judge import forces_of, is_free, wrong_parameters
 
 Rows = tuple[tuple[WrittenEntry, ...], ...]
 
@@ -62,7 +59,7 @@ class KeyComparison(Struct, frozen=True):
     rows: tuple[tuple[WrittenEntry, ...], ...] = ()
     right: tuple[tuple[str | None, ...], ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
-    other: Other | None = None
+    other: str = ""
     written: tuple[Matrix, ...] = ()
 
     @property
@@ -131,12 +128,9 @@ class KeyComparer:
         )
         compared = KeyComparison(value, target, rows, right, obstacles)
         is_equation = value.answer.is_equation
-        other = (
-            None
-            if compared.correct
-            else other_solution(Case(self.graph, target.node, rows, self.compare, is_equation))
-        )
-        if other is None:
+        case = Case(self.graph, target.node, rows, self.compare, is_equation)
+        other = "" if compared.correct else other_solution(case)
+        if not other:
             return compared
         return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)
 

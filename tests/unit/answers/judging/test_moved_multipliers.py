@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.answers.judging.equivalences import Other
 from dynsolve.answers.verdict import JudgedAnswer
+from dynsolve.questions.constraints.judge import WITHOUT_MULTIPLIERS
 
 BLADE = """
 gravity: none
@@ -68,7 +68,7 @@ def test_verdicts(problem: str, answers: dict[str, str], expected: str, tmp_path
 
 def test_the_note_and_the_slips(tmp_path: Path) -> None:
     right = answered(tmp_path, BLADE, {"f1": "m*x'' - lambda*sin(phi)"})["f1"]
-    assert Other.WITHOUT_MULTIPLIERS in right.notes
+    assert WITHOUT_MULTIPLIERS in right.notes
     for written, code in (
         ("m*x'' - lambda", "constraint_forces"),
         ("2*m*x'' - lambda*sin(phi)", "factor_all"),

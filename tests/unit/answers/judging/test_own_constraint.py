@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.answers.judging.equivalences import Other
+from dynsolve.questions.constraints.judge import ON_CONSTRAINT
 from tests.unit.answers.hands import Text, judge, verdicts
 
 LINE = """
@@ -88,7 +88,7 @@ def test_what_holds_on_the_constraint_alone_is_told() -> None:
     """q2 cos q1 = k there, and so q̇2 = q2 tan(q1) q̇1."""
     rate = [["-k*q1_dot - q2_dot*sin(q1)", "-sin(q1)*q1_dot"]]
     (answer,) = [a for a in judge(LINE, {"Ac_dot": rate}).answers if a.name == "Ac_dot"]
-    assert Other.ON_CONSTRAINT in answer.notes
+    assert ON_CONSTRAINT in answer.notes
 
 
 def test_the_names_of_forces_in_a_file_are_inputs(tmp_path: Path) -> None:

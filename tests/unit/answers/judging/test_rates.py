@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.answers.judge import check
-from dynsolve.answers.judging.equivalences import Other
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.problem import read_problem
+from dynsolve.questions.rates.judge import OF_MANY
 from tests.unit.answers.hands import judge, judged, verdicts
 
 ELBOW = """
@@ -103,7 +103,7 @@ def test_rates_follow_from_a_jacobian_that_is_wrong() -> None:
 )
 def test_every_solution_counts_where_there_are_many(entries: list[str], verdict: str, noted: bool) -> None:
     found = judged(RANK_1, "qd", [[entry] for entry in entries])
-    assert (found.verdict, Other.OF_MANY in found.notes) == (verdict, noted)
+    assert (found.verdict, OF_MANY in found.notes) == (verdict, noted)
 
 
 def test_least_squares_where_there_is_no_solution() -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.answers.judging.equivalences import Other
 from dynsolve.answers.verdict import Verdict
 from dynsolve.quantities.index import quantities
+from dynsolve.questions.newton_euler.judge import WITH_GRAVITY, WITHOUT_GRAVITY
 from tests.unit.answers.hands import judge, judged, problem, verdicts
 
 PENDULUM = """
@@ -30,19 +30,21 @@ LIFTED = [["-lc*q1_dot^2 + g*sin(q1)"], ["lc*q1_ddot + g*cos(q1)"], ["0"]]
     ("text", "acceleration", "verdict", "note"),
     [
         (PENDULUM, STILL, Verdict.CORRECT, None),
-        (PENDULUM, LIFTED, Verdict.CORRECT, Other.WITH_GRAVITY),
+        (PENDULUM, LIFTED, Verdict.CORRECT, WITH_GRAVITY),
         (MODIFIED, LIFTED, Verdict.CORRECT, None),
-        (MODIFIED, STILL, Verdict.CORRECT, Other.WITHOUT_GRAVITY),
+        (MODIFIED, STILL, Verdict.CORRECT, WITHOUT_GRAVITY),
         (PENDULUM, [["-lc*q1_dot^2 - g*sin(q1)"], ["lc*q1_ddot - g*cos(q1)"], ["0"]], Verdict.WRONG, None),
         (PENDULUM, [["lc*q1_dot^2"], ["lc*q1_ddot"], ["0"]], Verdict.WRONG, None),
     ],
 )
 def test_gravity_may_be_an_acceleration_of_the_base(
-    text: str, acceleration: list[list[str]], verdict: Verdict, note: Other | None
+    text: str, acceleration: list[list[str]], verdict: Verdict, note: str | None
 ) -> None:
     found = judged(text, "acl1", acceleration)
     assert found.verdict is verdict
-    assert [text for text in found.notes if text in tuple(Other)] == ([] if note is None else [note])
+    assert [text for text in found.notes if text in (WITH_GRAVITY, WITHOUT_GRAVITY)] == (
+        [] if note is None else [note]
+    )
 
 
 def test_a_slip_is_followed_to_the_torque() -> None:
