@@ -62,8 +62,8 @@ class Refused(Exception):
     """The file is no problem that dynsolve takes; the message is what it says."""
 
 
-def faults(text: str, which: int = 0) -> list[Fault]:
-    """The faults of a problem file; `which` chooses the form in which everything but text is looked at.
+def faults(text: str, which: int | None = None) -> list[Fault]:
+    """The faults of a problem file; `which` chooses the form that is read as a page, None all of them as text.
 
     Raises Refused.
     """
@@ -86,7 +86,7 @@ def faults(text: str, which: int = 0) -> list[Fault]:
     return found
 
 
-def _faults(text: str, which: int) -> Iterator[Fault]:
+def _faults(text: str, which: int | None) -> Iterator[Fault]:
     try:
         problem = read_problem(text)
     except InputError as error:
@@ -99,7 +99,7 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
     except InputError as error:
         raise Refused(str(error)) from None
     report(solution, Format.JSON)
-    ways = list(product(Abbreviate, Detail))
+    ways, seed = list(product(Abbreviate, Detail)), which or 0
     made: dict[int, tuple[Document, ...]] = {}
     documents: list[Document] = []
     for way in Abbreviate:
@@ -107,16 +107,20 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
         if names not in made:
             made[names] = solution_documents(solution, tuple(Detail), None, way)
         documents += made[names]
-    point = random_point(solution, which)
+    point = random_point(solution, seed)
     written_out = [one for way, one in zip(ways, documents, strict=True) if way[0] is Abbreviate.NEVER]
-    mechanism = Mechanism(solution, written_out[-1], which)
+    mechanism = Mechanism(solution, written_out[-1], seed)
     for sentence, why in untrue_sentences(mechanism, *(one.blocks for one in reversed(written_out))):
         yield Fault("claim", f"{sentence.where}: {why}: {sentence}")
     for place, ((abbreviate, detail), document) in enumerate(zip(ways, documents, strict=True)):
-        if place == which % len(ways):
+        is_chosen = place == seed % len(ways)
+        if is_chosen:
             yield from _misread(solution, document, point.again())
-            format = TEXTS[place % 3]
-            page = report(solution, format, detail=detail, abbreviate=abbreviate)
+            format = TEXTS[seed % len(TEXTS)]
+            if format is Format.HTML:  # every depth of it, and the picture
+                page = report(solution, format, detail=detail, abbreviate=abbreviate)
+            else:
+                page = rendered(document, solution.style, format, fragment=False)
             yield from _program_text(page.decode(), format)
         if document in documents[:place]:  # nothing is long enough to be abbreviated
             continue
@@ -124,9 +128,10 @@ def _faults(text: str, which: int) -> Iterator[Fault]:
             yield Fault(
                 "untrue", f"{one.where}: {to_unicode(one.left)} = {to_unicode(one.right)}: {one.numbers}"
             )
-        yield from _unknown_letters(solution, document, abbreviate)
-        page = rendered(document, solution.style, Format.TEXT, fragment=False)
-        yield from _program_text(page.decode(), Format.TEXT)
+        if which is None or is_chosen or detail is Detail.FULL:  # which has all that the others have
+            yield from _unknown_letters(solution, document, abbreviate)
+            page = rendered(document, solution.style, Format.TEXT, fragment=False)
+            yield from _program_text(page.decode(), Format.TEXT)
 
 
 def _program_text(page: str, format: Format) -> Iterator[Fault]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache, lru_cache, partial
+from functools import lru_cache, partial
 from itertools import pairwise
 from random import Random
 from types import CodeType
@@ -223,10 +223,55 @@ def random_point(solution: Any, seed: int) -> Point:
     return point
 
 
+class _Later:
+    """A value that is evaluated when it is first asked for."""
+
+    def __init__(self, evaluated: Callable[[], Value]) -> None:
+        self.evaluated = evaluated
+        self.value: Value | None = None
+
+    def __call__(self) -> Value:
+        if self.value is None:
+            self.value = self.evaluated()
+        return self.value
+
+
+def _results(solution: Any) -> list[tuple[str, Node, Node, tuple[int, ...]]]:
+    """The name of each result, its letter, its form and its place in that; once for all states."""
+    if "results of the oracle" not in vars(solution):
+        vars(solution)["results of the oracle"] = list(_forms(solution))
+    found: list[tuple[str, Node, Node, tuple[int, ...]]] = vars(solution)["results of the oracle"]
+    return found
+
+
+def _forms(solution: Any) -> Iterator[tuple[str, Node, Node, tuple[int, ...]]]:
+    from dynsolve.quantities.index import quantities
+
+    robot = solution.robot
+    for quantity in quantities(robot).values():
+        family = quantity.family
+        if (
+            not family.has_letter
+            or quantity.rule not in solution.values.rules
+            or family.kind.value != "value"
+        ):
+            continue
+        place: tuple[int, ...] = ()
+        if quantity.rule == "christoffel":
+            i, j, k = quantity.index
+            form = solution.forms.christoffel(i - 1, j - 1, k - 1)
+        else:
+            form = solution.forms(quantity.rule)
+            if isinstance(form, tree.Words):
+                continue
+            if quantity.is_read_off:
+                place = quantity.entry if len(quantity.entry) == 2 else (quantity.entry[0], 0)
+        yield quantity.name, quantity.letter(robot), form, place
+
+
 def state(solution: Any, seed: int, at: Mapping[str, float]) -> Point:
     """The same, where `at` says what some symbols are, a rate as q1_dot."""
     from dynsolve.quantities import letters
-    from dynsolve.quantities.index import quantities
 
     random = Random(seed)
     robot, point = solution.robot, Point()
@@ -256,26 +301,8 @@ def state(solution: Any, seed: int, at: Mapping[str, float]) -> Point:
         number = eval(_code(form), functions, names)  # noqa: S307
         return Value(number, abs(number))
 
-    for quantity in quantities(robot).values():
-        family = quantity.family
-        if (
-            not family.has_letter
-            or quantity.rule not in solution.values.rules
-            or family.kind.value != "value"
-        ):
-            continue
-        place: tuple[int, ...] = ()
-        if quantity.rule == "christoffel":
-            i, j, k = quantity.index
-            form = solution.forms.christoffel(i - 1, j - 1, k - 1)
-        else:
-            form = solution.forms(quantity.rule)
-            if isinstance(form, tree.Words):
-                continue
-            if quantity.is_read_off:
-                place = quantity.entry if len(quantity.entry) == 2 else (quantity.entry[0], 0)
-        result = cache(partial(value, form, place))
-        point.results[quantity.name] = point.letters[quantity.letter(robot)] = result
+    for name, letter, form, place in _results(solution):
+        point.results[name] = point.letters[letter] = _Later(partial(value, form, place))
     coordinates = [q.name for q in robot.coordinates]
     if robot.questions.loads or robot.questions.constraints or robot.actions.passive:
         point.free = {letters.TAU, *map(letters.force, robot.coordinates)}

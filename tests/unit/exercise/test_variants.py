@@ -2,16 +2,18 @@
 
 import csv
 import sqlite3
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import closing
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from statistics import median
 
 import pytest
 
 from dynsolve.errors import ProblemError, UsageError
-from dynsolve.exercise import plot
+from dynsolve.exercise import plot, variants
 from dynsolve.exercise.hardness import COUNTS, Hardness, equally_hard, hardness
 from dynsolve.exercise.variants import MOST_STRUCTURES, Family, _measured, family_of, students_of, vary
 from dynsolve.grading.public import grade
@@ -40,6 +42,15 @@ vary:
 find: [D, g]
 """
 SEED = "autumn"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def measured_once() -> Iterator[None]:
+    """Structures are measured once for all tests, and all is done in this process."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(variants, "_counted", cache(variants._counted))
+        patch.setattr(variants, "ProcessPoolExecutor", lambda jobs, mp_context: ThreadPoolExecutor(jobs))
+        yield
 
 
 def variation(text: str) -> Variation:
@@ -209,7 +220,10 @@ def test_each_variant_is_verified_and_as_hard_as_its_structure(course: Path) -> 
             assert found.counts == counted[student, name]
 
 
-def test_the_same_seed_gives_the_same_bytes_and_a_late_student_changes_no_other(course: Path) -> None:
+def test_the_same_seed_gives_the_same_bytes_and_a_late_student_changes_no_other(
+    course: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(variants, "ProcessPoolExecutor", ProcessPoolExecutor)  # in processes of their own
     problems, again = load_set(str(course / "set")), course / "again"
     vary(problems, {**students_of(course / "roster.csv"), "late": "Late"}, SEED, again, jobs=1)
     first = {path.relative_to(course / "out"): path.read_bytes() for path in (course / "out").rglob("*.*")}
