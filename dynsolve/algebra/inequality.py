@@ -9,15 +9,16 @@ numbers; what is not found in this way is not said.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
 
+from flint import fmpq
 from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.rationals import fraction
 
 Exponents = tuple[int, ...]
-Polynomial = dict[Exponents, Fraction]
+Polynomial = dict[Exponents, fmpq]
+
+_ZERO = fmpq(0)
 
 MOST_PRODUCTS = 120
 """So many products of assumptions are tried."""
@@ -78,7 +79,7 @@ def independent(needed: Sequence[Bound], assumed: Sequence[Bound]) -> tuple[Boun
 
 
 def _polynomial(value: Expr) -> Polynomial:
-    return {tuple(map(int, e)): fraction(f) for e, f in value.poly.to_dict().items()}
+    return {tuple(map(int, e)): f for e, f in value.poly.to_dict().items()}
 
 
 def _degree(value: Expr) -> int:
@@ -109,57 +110,58 @@ def _products(target: Expr, assumed: Sequence[Bound]) -> Iterator[tuple[Polynomi
 
 
 def _is_sum(
-    target: Mapping[Exponents, Fraction], products: Sequence[tuple[Polynomial, bool]], is_strict: bool
+    target: Mapping[Exponents, fmpq], products: Sequence[tuple[Polynomial, bool]], is_strict: bool
 ) -> bool:
     """Whether the target is Σ λ_j p_j with λ_j ≥ 0; where it is to be strict, with a strict p_j in it."""
     rows = sorted({e for p, _ in products for e in p} | target.keys())
-    right = [target.get(e, Fraction(0)) for e in rows]
-    columns = [[p.get(e, Fraction(0)) for e in rows] for p, _ in products]
-    gain = [Fraction(int(strict)) for _, strict in products]
+    right = [target.get(e, _ZERO) for e in rows]
+    columns = [[p.get(e, _ZERO) for e in rows] for p, _ in products]
+    gain = [fmpq(int(strict)) for _, strict in products]
     best = _Simplex(columns, right).maximum(gain)
     return best is not None and (best > 0 or not is_strict)
 
 
 class _Simplex:
-    """Σ λ_j column_j = right with λ ≥ 0, by Bland's rule, which never circles."""
+    """Σ λ_j column_j = right with λ ≥ 0, by Bland's rule, which never circles.
 
-    def __init__(self, columns: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> None:
+    `worth` is what each λ_j would add to what is largest, and last what there is of it, with a minus.  A row
+    begins with a slack of its own in the basis; one that has left it is not looked at again.
+    """
+
+    def __init__(self, columns: Sequence[Sequence[fmpq]], right: Sequence[fmpq]) -> None:
         self.width = len(columns)
-        signs = [-1 if value < 0 else 1 for value in right]
         self.rows = [
-            [sign * column[i] for column in columns] + [Fraction(int(i == k)) for k in range(len(right))]
-            + [sign * right[i]]
-            for i, sign in enumerate(signs)
-        ]  # fmt: skip
+            [-x if value < 0 else x for x in (*(column[i] for column in columns), value)]
+            for i, value in enumerate(right)
+        ]
         self.basis = [self.width + i for i in range(len(right))]
+        self.worth: list[fmpq] = []
 
-    def maximum(self, gain: Sequence[Fraction]) -> Fraction | None:
+    def maximum(self, gain: Sequence[fmpq]) -> fmpq | None:
         """The largest Σ gain_j λ_j, 1 where there is none; None where the equations have no solution."""
-        slack = len(self.rows)
-        if self._improve([Fraction(0)] * self.width + [Fraction(-1)] * slack, self.width + slack) != 0:
+        self.worth = [sum(column, _ZERO) for column in zip(*self.rows, strict=True)]
+        self._improve()
+        if self.worth[-1] != 0:
             return None
         self._leave_slack()
-        best = self._improve([*gain, *[Fraction(0)] * slack], self.width)
-        return Fraction(1) if best is None else best
+        self.worth = [*gain, _ZERO]
+        for i, j in enumerate(self.basis):
+            if j < self.width:
+                self._subtract(i, self.worth[j])
+        return -self.worth[-1] if self._improve() else fmpq(1)
 
-    def _improve(self, gain: Sequence[Fraction], width: int) -> Fraction | None:
-        """The largest value over the first `width` columns; None where it grows without end."""
-        while True:
-            costs = [gain[j] for j in self.basis]
-            entering = next((j for j in range(width) if self._worth(gain, costs, j) > 0), None)
-            if entering is None:
-                return sum((c * row[-1] for c, row in zip(costs, self.rows, strict=True)), Fraction(0))
+    def _improve(self) -> bool:
+        """Go where the value is largest; False where it grows without end."""
+        while (entering := next((j for j in range(self.width) if self.worth[j] > 0), None)) is not None:
             ratios = [
                 (row[-1] / row[entering], self.basis[i], i)
                 for i, row in enumerate(self.rows)
                 if row[entering] > 0
             ]
             if not ratios:
-                return None
+                return False
             self._pivot(min(ratios)[2], entering)
-
-    def _worth(self, gain: Sequence[Fraction], costs: Sequence[Fraction], j: int) -> Fraction:
-        return gain[j] - sum((c * row[j] for c, row in zip(costs, self.rows, strict=True) if c), Fraction(0))
+        return True
 
     def _leave_slack(self) -> None:
         """Take the slack out of the basis; a row that cannot is 0 = 0."""
@@ -174,6 +176,14 @@ class _Simplex:
         self.rows[i] = [x / head for x in self.rows[i]]
         for k, row in enumerate(self.rows):
             if k != i and row[entering]:
-                factor = row[entering]
-                self.rows[k] = [x - factor * y for x, y in zip(row, self.rows[i], strict=True)]
+                self.rows[k] = self._without(row, i, row[entering])
+        self._subtract(i, self.worth[entering])
         self.basis[i] = entering
+
+    def _subtract(self, i: int, factor: fmpq) -> None:
+        """Write what is largest without the variable of row i."""
+        if factor:
+            self.worth = self._without(self.worth, i, factor)
+
+    def _without(self, row: Sequence[fmpq], i: int, factor: fmpq) -> list[fmpq]:
+        return [x - factor * y if y else x for x, y in zip(row, self.rows[i], strict=True)]

@@ -3,12 +3,13 @@
 import json
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from dynsolve.answers.judge import Checker, check_file
+from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import pandoc
 from dynsolve.answers.verdict import Report, Verdict
 from dynsolve.exercise.template import SUFFIXES, Template, TemplateFormat, template, template_of
@@ -44,8 +45,15 @@ CASES = [
 SUFFIX = {form: suffix for suffix, form in SUFFIXES.items()}
 
 
+@cache
+def checker(problem: str) -> Checker:
+    return Checker(solved(problem).problem)
+
+
 def judged(problem: str, page: bytes | str, form: TemplateFormat) -> Report:
-    return check_file(Checker(solved(problem).problem), page, f"hand-in{SUFFIX[form]}")
+    """In this process, which derives the key of a problem once."""
+    own = checker(problem)
+    return own(own.reader(page, f"hand-in{SUFFIX[form]}"))
 
 
 @pytest.mark.parametrize(("name", "form"), CASES)
