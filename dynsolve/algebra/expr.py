@@ -96,14 +96,31 @@ def sine_cosine_pairs(generators: Sequence[Generator]) -> tuple[Pair, ...]:
     return tuple(Pair(s.angle, s.index, c.index) for s, c in zip(sines, cosines, strict=True))
 
 
+Terms = tuple[tuple[float, tuple[tuple[int, int], ...]], ...]
+"""Of each term its coefficient, and its generators with their powers."""
+
+
+def terms_of(poly: fmpq_mpoly) -> Terms:
+    """The terms of a polynomial in floating point."""
+    places = [index for index, degree in enumerate(poly.degrees()) if degree > 0]
+    return tuple(
+        (
+            int(coefficient.p) / int(coefficient.q),
+            tuple((index, int(exponents[index])) for index in places if exponents[index]),
+        )
+        for exponents, coefficient in zip(poly.monoms(), poly.coeffs(), strict=True)
+    )
+
+
 class Expr:
     """An element of a ring, in normal form.  Immutable; `==` decides equality exactly."""
 
-    __slots__ = ("poly", "ring")
+    __slots__ = ("_terms", "poly", "ring")
 
     def __init__(self, ring: Ring, poly: fmpq_mpoly) -> None:
         self.ring = ring
         self.poly = poly
+        self._terms: Terms | None = None
 
     def __add__(self, other: Expr) -> Expr:
         return Expr(self.ring, self.poly + other.poly)
@@ -159,6 +176,13 @@ class Expr:
     def used(self) -> tuple[int, ...]:
         """The places of the generators that occur."""
         return tuple(i for i, degree in enumerate(self.poly.degrees()) if degree > 0)
+
+    @property
+    def terms(self) -> Terms:
+        """Its terms in floating point, written once: it is evaluated at many points."""
+        if self._terms is None:
+            self._terms = terms_of(self.poly)
+        return self._terms
 
     def quotient(self, divisor: Expr) -> Expr | None:
         """This over a divisor, None where that does not divide it."""

@@ -19,12 +19,11 @@ from fractions import Fraction
 from math import comb, cos, pi, radians, sin, sqrt
 from typing import Any, ClassVar, NamedTuple
 
-from flint import fmpq_mpoly
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, Atom, angle_from_tree, names_of
-from dynsolve.algebra.expr import Expr, Generator, dotted
+from dynsolve.algebra.expr import Expr, Generator, Terms, dotted, terms_of
 from dynsolve.algebra.fraction import RationalExpr, simplified
 from dynsolve.algebra.rationals import rational, rational_value
 from dynsolve.algebra.ring import NoRoom, Ring
@@ -361,7 +360,7 @@ def evaluate(expr: Expr, values: Mapping[str, float]) -> float:
 
 def evaluate_with(expr: Expr, values: Mapping[str, Any], functions: Functions) -> Any:
     """The same in another kind of number, which `functions` work on: a sine, a cosine, a square root."""
-    return _Evaluation(expr.ring, values, functions).of(expr.poly)
+    return _Evaluation(expr.ring, values, functions).of(expr.terms)
 
 
 def _require(g: Generator, values: Mapping[str, Any]) -> None:
@@ -379,21 +378,18 @@ class _Evaluation(Struct, frozen=True):
     functions: Functions
     known: dict[int, Any] = field(default_factory=dict)
 
-    def of(self, poly: fmpq_mpoly) -> Any:
+    def of(self, terms: Terms) -> Any:
         """The value of a polynomial."""
-        places = [index for index, degree in enumerate(poly.degrees()) if degree > 0]
         known = self.known
-        for index in places:
-            if index not in known:
-                g = self.ring.generators[index]
-                _require(g, self.values)
-                known[index] = self._generator(g)
         total: Any = 0.0
-        for exponents, coefficient in zip(poly.monoms(), poly.coeffs(), strict=True):
-            term: Any = int(coefficient.p) / int(coefficient.q)
-            for index in places:
-                if exponents[index]:
-                    term *= known[index] ** int(exponents[index])
+        for coefficient, powers in terms:
+            term: Any = coefficient
+            for index, power in powers:
+                if index not in known:
+                    g = self.ring.generators[index]
+                    _require(g, self.values)
+                    known[index] = self._generator(g)
+                term *= known[index] ** power
             total += term
         return total
 
@@ -403,9 +399,9 @@ class _Evaluation(Struct, frozen=True):
             case "symbol":
                 return pi if g.name == "pi" else self.values[dotted(g.name, g.dots)]
             case "root":
-                return self.functions["sqrt"](self.of(self.ring.radicands[g.index]))
+                return self.functions["sqrt"](self.of(terms_of(self.ring.radicands[g.index])))
             case "inverse":
-                return 1 / self.of(self.ring.inverses[g.index])
+                return 1 / self.of(terms_of(self.ring.inverses[g.index]))
             case "function" if g.node is not None:
                 return value_of_tree(g.node, self.values)
         turn = sum(float(rate) * self._atom(atom) for atom, rate in g.angle.terms)

@@ -15,6 +15,7 @@ are among the equations of the search, and two equations for one angle leave one
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 from itertools import chain, islice, product
 
 from msgspec import Struct
@@ -38,14 +39,14 @@ class Definition(Struct, frozen=True):
     value: Expr
 
 
-class Relation(Struct, frozen=True):
+class Relation(Struct, frozen=True, dict=True):
     """left = right between values of the task and known coordinates; an angle is meant modulo 2π."""
 
     left: Expr
     right: Expr
     is_angle: bool = False
 
-    @property
+    @cached_property
     def expr(self) -> Expr:
         """right - left, which is 0."""
         return self.right - self.left
