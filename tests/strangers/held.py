@@ -63,7 +63,7 @@ class Refused(Exception):
 
 
 def faults(text: str, which: int | None = None) -> list[Fault]:
-    """The faults of a problem file; `which` chooses the form that is read as a page, None all of them as text.
+    """The faults of a problem file; `which` chooses the form that is read as a page, None reads all as text.
 
     Raises Refused.
     """

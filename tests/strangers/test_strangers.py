@@ -28,10 +28,12 @@ from tests.strangers.generator import stranger, written
 from tests.strangers.held import Refused, faults
 from tests.strangers.oracle import CONDITIONAL, Untrue, random_point, relations, untrue
 
-SLOW = {10, 30, 40, 48}
-"""They took a quarter of the time of all: long arms and arms of oblique angles, as `cases` has them too."""
+SEEDS = (
+    0, 1, 2, 3, 5, 6, 7, 8, 11, 12, 13, 15, 16, 18, 20, 21, 24, 25, 27, 31, 37, 44, 45, 47, 49, 50,
+    51, 53, 55, 57, 58, 59, 60, 61, 62, 65, 70, 72, 76, 79, 80, 81, 86, 89, 92, 94, 97, 99, 101, 103,
+)  # fmt: skip
+"""Of the first hundred, those that together reach every function that one of them reaches."""
 
-SEEDS = [seed for seed in range(104) if seed not in SLOW]
 CASES = sorted((Path(__file__).parent / "cases").glob("*.yaml"))
 
 
