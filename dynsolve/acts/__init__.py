@@ -10,15 +10,16 @@ A kind is a key of the problem file and a folder of that name, with these files:
     __init__    `KEY`, the key of the problem file: data alone, loaded with every file
     act         the record, a class of `robot.actions` by the term of the equations that it is a part of: what
                 its values are and in which units, its energy or force, exact and, by another formula, in
-                numbers, and what goes wrong with it; `TERM`, that class; `read(decoder, fields)`, what the
-                file gives of each one, and `build(values, given)`, the record of it, with the helpers of
-                `problem.acting`; imported where a file has the key
+                numbers, and what goes wrong with it; `TERM`, that class; `build(values, given)`, the record
+                of what the file gives of one, by the helpers of `problem.acting`; where that is not the list
+                under its key, or is held to more than its keys say, `read(decoder, fields)`; imported where
+                a file has the key
     explain     `given(forms, act)`, the sentence among what is given, and its part of the step of its term:
                 of the energy P_s `why(acts)` and `term(context, act)`, None of an energy that is given, of
                 friction `dissipation(context, act)`, None where there is none; imported for a solution.
-                Where there is more to say: `hint(acts)` and `pitfall(acts)` of an energy,
-                `beside(context, acts)` of friction that no dissipation function has, with its term of the
-                formula, and `LETTERS`, rows of `explain.textbook_letters` for letters in it
+                Where there is more to say: `HINT` and `PITFALL` of an energy, `beside(context, acts)` of
+                friction that no dissipation function has, with its term of the formula, and `LETTERS`, rows
+                of `explain.textbook_letters` for letters in it
 
 `robot.actions.KINDS` is the list of them, and `robot.actions.part` imports a file by its path: no other room
 names a kind.  A new one is a name there and such a folder.

@@ -43,7 +43,7 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
         for body in robot.bodies:
             yield from _body(robot, body)
         if robot.actions:
-            yield from _acting_energies(robot)
+            yield from _acting(robot)
         yield from _energies(robot)
         yield from _euler_lagrange(robot)
         yield from _vectorized(robot)
@@ -58,11 +58,11 @@ def _asked(robot: Robot) -> Iterator[Rule]:
             yield from question.rules(robot)
 
 
-def _acting_energies(robot: Robot) -> Iterator[Rule]:
-    """The energies of what is stored and of rotors; imported where something acts beside gravity."""
-    from dynsolve.derivation.actions import energy_rules
+def _acting(robot: Robot) -> Iterator[Rule]:
+    """What acts beside gravity; imported where something does."""
+    from dynsolve.derivation.actions import acting_rules
 
-    yield from energy_rules(robot)
+    yield from acting_rules(robot)
 
 
 def _rotors(robot: Robot) -> Iterator[Rule]:
@@ -160,11 +160,7 @@ def _energies(robot: Robot) -> Iterator[Rule]:
 
 
 def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
-    resisted = _friction(robot)
-    if resisted:
-        from dynsolve.derivation.actions import friction_rule
-
-        yield friction_rule(robot)
+    resisted = robot.actions.resistance
     for q in robot.coordinates:
         k = q.index
         yield Rule(f"dLdqd{k}", ("L",), partial(euler_lagrange.momentum, k=k - 1))
@@ -176,15 +172,11 @@ def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
     yield Rule("tau", forces, lambda *parts: euler_lagrange.force_vector(robot, parts))
 
 
-def _friction(robot: Robot) -> tuple[str, ...]:
-    """The rule of friction, where there is any."""
-    return ("friction",) if robot.actions.resisting else ()
-
-
 def _vectorized(robot: Robot) -> Iterator[Rule]:
     yield Rule("D", ("tau",), partial(euler_lagrange.inertia_from_torque, robot))
     yield Rule("christoffel", ("D",), partial(euler_lagrange.christoffel_symbols, robot))
     yield Rule("C", ("christoffel",), partial(euler_lagrange.coriolis_matrix, robot))
     yield Rule("g", ("tau",), partial(euler_lagrange.gravity_from_torque, robot))
-    yield Rule("Cqd", ("tau", "g", *_friction(robot)), partial(euler_lagrange.coriolis_from_torque, robot))
+    left = ("tau", "g", *robot.actions.resistance)
+    yield Rule("Cqd", left, partial(euler_lagrange.coriolis_from_torque, robot))
     yield Rule("g_direct", ("P",), partial(euler_lagrange.gravity_vector, robot))

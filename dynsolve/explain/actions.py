@@ -46,7 +46,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.robot.actions import Act, Resisting, Rotor, Stored, part
-from dynsolve.robot.model import Body, Coordinate
+from dynsolve.robot.model import Body, Coordinate, Robot
 from dynsolve.robot.shapes import AXES
 
 
@@ -61,6 +61,12 @@ def _kinds(context: Context, term: type[Act]) -> list[tuple[Any, list[Any]]]:
     return [(part(kind, "explain"), acts) for kind, acts in by_kind.items() if isinstance(acts[0], term)]
 
 
+def said_of_laws(robot: Robot, what: str) -> str:
+    """A sentence of each kind of which one acts along a form, not by an energy that is given."""
+    kinds = dict.fromkeys(act.kind for act in robot.actions.stored if act.along)
+    return " ".join(filter(None, (getattr(part(kind, "explain"), what, "") for kind in kinds)))
+
+
 # -- what stores energy ----------------------------------------------------------------------------
 
 
@@ -72,7 +78,7 @@ def stored_steps(context: Context) -> Iterator[Step]:
     terms = [told.term(context, act) for told, acts in kinds for act in acts]
     has_law = any(term is not None for term in terms)
     shown = [term or context.show(act.energy) for term, act in zip(terms, stored, strict=True)]
-    hints = [hint for told, acts in kinds if hasattr(told, "hint") and (hint := told.hint(acts))]
+    hint = said_of_laws(context.robot, "HINT")
     yield Step(
         id="Ps",
         title=f"Potential energy of the spring{'s' if len(stored) > 1 else ''}",
@@ -80,7 +86,7 @@ def stored_steps(context: Context) -> Iterator[Step]:
         formula=equation(letters.PS, sum_of(shown)) if has_law else None,
         source=siciliano("7.1.2"),
         result=(equation(letters.PS, context.form("Ps")),),
-        hint=(" ".join(hints),) if hints else (),
+        hint=(hint,) if hint else (),
     )
 
 

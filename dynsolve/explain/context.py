@@ -67,7 +67,7 @@ class Context(Struct, frozen=True):
 
     def has_friction(self, k: int) -> bool:
         """Whether a coordinate (from 0) has friction."""
-        return "friction" in self.values.rules and not self.values["friction"][k, 0].is_zero
+        return bool(self.robot.actions.resisting) and not self.values["friction"][k, 0].is_zero
 
     def form(self, name: str) -> Node:
         """The tree of a quantity."""

@@ -163,7 +163,7 @@ def in_names_of_entries(robot: Robot, values: Derivation) -> EntryFormulas:
         return ZERO if values["g"][k, 0].is_zero else letters.entry("g", k + 1)
 
     def friction(k: int) -> Node:
-        rubs = "friction" in values.rules and not values["friction"][k, 0].is_zero
+        rubs = robot.actions.resisting and not values["friction"][k, 0].is_zero
         return letters.friction(k + 1) if rubs else ZERO
 
     return EntryFormulas(robot.ring.names, d, c, g, friction, _with_number_in_front)

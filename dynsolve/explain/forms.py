@@ -215,7 +215,7 @@ class Forms:
     @cached_property
     def _formulas(self) -> EntryFormulas:
         """The formulas in the entries of D and g and the Christoffel symbols, written by their forms."""
-        rubs = "friction" in self.values.rules
+        rubs = self.robot.actions.resisting
         return EntryFormulas(
             self.robot.ring.names,
             lambda i, j: self.matrix("D").rows[i][j],

@@ -16,6 +16,7 @@ from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Pro
 from dynsolve.document.sentences import Value, say
 from dynsolve.errors import UsageError
 from dynsolve.explain import explain
+from dynsolve.explain.actions import said_of_laws
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import and_joined, by_itself, is_small, listed
@@ -24,7 +25,6 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.actions import part
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
 
 
@@ -297,18 +297,12 @@ def _of_masses(robot: Robot) -> dict[str, Value]:
         "weightless": robot.gravity.is_zero,
         "weighs": not robot.gravity.is_zero,
         "ground": "world" if in_world else "base, against gravity",
-        "of_stored": _of_stored(robot),
+        "of_stored": said_of_laws(robot, "PITFALL"),
         "geared": any(rotor.ratio != robot.ring.one for rotor in actions.rotors),
         "carried": any(rotor.carrier for rotor in actions.rotors),
         "friction": bool(actions.resisting),
         "passive": bool(actions.passive),
     }
-
-
-def _of_stored(robot: Robot) -> str:
-    """What goes wrong with the energies of each kind that stores some."""
-    kinds = [(part(kind, "explain"), acts) for kind, acts in robot.actions.by_kind.items()]
-    return " ".join(filter(None, (told.pitfall(acts) for told, acts in kinds if hasattr(told, "pitfall"))))
 
 
 def _called(bodies: Iterable[Body]) -> str:

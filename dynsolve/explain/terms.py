@@ -103,7 +103,7 @@ def _all_terms(context: Context, k: int) -> Iterator[Term]:
         kind, count = (Kind.CENTRIFUGAL, 1) if i == j else (Kind.CORIOLIS, 2)
         letter = letters.entry("c", i + 1, j + 1, k + 1)
         yield Term(kind, count, letter, values["christoffel"][i, j, k], ((i, 1), (j, 1)))
-    if "friction" in values.rules:
+    if context.robot.actions.resisting:
         yield Term(Kind.FRICTION, 1, letters.friction(k + 1), values["friction"][k, 0])
     yield Term(_held_by(context, k), 1, letters.entry("g", k + 1), values["g"][k, 0])
 
@@ -226,7 +226,7 @@ _HELD = formula("𝐀_cᵀ 𝛌")
 def closing_step(context: Context) -> Step:
     """D q̈ + C q̇ + g = τ, with friction on the left, Q and A_cᵀ λ on the right where there are any."""
     robot = context.robot
-    names = ("D", "C", *(["friction"] * has_friction(context)), "g")
+    names = ("D", "C", *robot.actions.resistance, "g")
     qd, qdd = (column(*(Symbol(q.name, dots) for q in robot.coordinates)) for dots in (1, 2))
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
@@ -253,7 +253,7 @@ MOST_TERMS = 30
 
 def _shortest_row(context: Context) -> tuple[Line, ...]:
     """The row of τ of the fewest terms, of equally short ones the last."""
-    if has_friction(context):
+    if context.robot.actions.resisting:
         return ()
     rows = [(q, context.result(f"tau{q.index}")) for q in reversed(context.robot.coordinates)]
     q, row = min(rows, key=lambda each: len(summands(each[1])))
@@ -269,7 +269,7 @@ def _rows_in_names(context: Context) -> tuple[Line, ...]:
     if names is None or names.single is None:
         return ()
     D, g, symbol = names.D, names.g, names.symbol
-    friction = context.matrix("friction") if has_friction(context) else None
+    friction = context.matrix("friction") if context.robot.actions.resisting else None
 
     def row(k: int) -> Node:
         entries = zip(D.rows[k], coordinates, strict=True)
@@ -284,11 +284,6 @@ def _rows_in_names(context: Context) -> tuple[Line, ...]:
     passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
     lead: Prose = ("Row by row", *((", with ", equation(*passive, ZERO)) if passive else ()))
     return (Line((*lead, forces, ":"), tuple(rows)),)
-
-
-def has_friction(context: Context) -> bool:
-    """Whether friction is a term of its own."""
-    return "friction" in context.values.rules
 
 
 def _beside_motors(context: Context, constrained: bool = True) -> list[Node]:
@@ -313,7 +308,7 @@ def driving_row(robot: Robot, q: Coordinate) -> Node:
 
 def moving_side(context: Context) -> Sum:
     """D q̈ + C q̇ + g, and friction."""
-    side = formula("𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝛕_f + 𝐠" if has_friction(context) else "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠")
+    side = formula("𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝛕_f + 𝐠" if context.robot.actions.resisting else "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠")
     assert isinstance(side, Sum)
     return side
 
@@ -341,7 +336,7 @@ def _meanings(context: Context) -> Prose:
     return say(
         "$𝐃 𝐪̈$ are the inertial terms, $𝐂 𝐪̇$ the Coriolis and centrifugal ones, {friction}$𝐠$ those of "
         "gravity{springs}.{outside}{held}{passive}",
-        friction=say("$𝛕_f$ those of friction, ") if has_friction(context) else "",
+        friction=say("$𝛕_f$ those of friction, ") if context.robot.actions.resisting else "",
         springs=" and springs" if robot.actions.stored else "",
         outside=say(" $𝐐$ are the forces from outside.") if robot.questions.loads else "",
         held=say(" $𝐀_cᵀ 𝛌$ are the forces of the constraints.") if robot.questions.constraints else "",

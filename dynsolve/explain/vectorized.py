@@ -117,7 +117,7 @@ def _forces(context: Context) -> tuple[str, ...]:
 def rest(context: Context) -> Step:
     """The forces without the terms of accelerations: C q̇ + g."""
     values, of_energies = context.values, from_energies(context)
-    has_friction = "friction" in values.rules
+    has_friction = bool(context.robot.actions.resisting)
     acting = driving_side(context)
     left = [*(acting.terms if isinstance(acting, Sum) else (acting,)), formula("-𝐃 𝐪̈")]
     what_is_left = (

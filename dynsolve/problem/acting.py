@@ -6,7 +6,7 @@ key `passive`.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from msgspec import Struct
@@ -20,7 +20,7 @@ from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.table import known_coordinate
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.yaml_nodes import Faults
-from dynsolve.robot.actions import KINDS, TERMS, Actions, part
+from dynsolve.robot.actions import KINDS, Actions, part
 
 
 class Acting(Struct, frozen=True):
@@ -37,18 +37,30 @@ class Acting(Struct, frozen=True):
     @property
     def terms(self) -> frozenset[str]:
         """The results that there are by them, as `Actions.terms`."""
-        there = [part(kind, "act").TERM for kind, given in self.given.items() if given]
-        return frozenset(name for name, term in TERMS.items() if term in there)
+        return frozenset(_term(kind) for kind, given in self.given.items() if given)
+
+
+def _term(kind: str) -> str:
+    name: str = part(kind, "act").TERM.term
+    return name
 
 
 def read_actions(decoder: Decoder, fields: Fields) -> Acting:
     """The keys of a file that say what acts; what is wrong with one is reported."""
-    given = {kind: tuple(part(kind, "act").read(decoder, fields)) for kind in KINDS if kind in fields}
+    given = {kind: tuple(_read(kind, decoder, fields)) for kind in KINDS if kind in fields}
     help = PROBLEM["passive"].help
     listed = items(decoder.faults, fields.get("passive"), "passive", help)
     names = [known_coordinate(decoder.faults, item, decoder.coordinates, help) for item in listed]
     passive = tuple(name for name in names if name)
     return Acting(tuple(decoder.stated), given, passive, tuple(decoder.functions))
+
+
+def _read(kind: str, decoder: Decoder, fields: Fields) -> Iterable[Any]:
+    """What the file gives of each one of a kind: as its folder reads it, or the records of its list."""
+    act = part(kind, "act")
+    found: Iterable[Any]
+    found = act.read(decoder, fields) if hasattr(act, "read") else decoder.entries(fields, part(kind).KEY)
+    return found
 
 
 _TAKEN = {"Ps": ("s", "P_s", "the springs"), "Km": ("m", "K_m", "the rotors")}
@@ -63,11 +75,11 @@ def check_bodies(
         key = next(key for key in (*KINDS, "passive") if key in fields)
         message = f"`{key}` stands in the equations of motion, and nothing has mass"
         faults.error(fields.key_span(key), message, "give the bodies under `masses`")
-    for kind, given in acting.given.items():
-        for term, (name, letter, of) in _TAKEN.items():
-            if given and part(kind, "act").TERM is TERMS[term] and name in bodies:
-                message = f"{letter} is the energy of {of}, and a body is called {name}, too"
-                faults.error(fields.key_span(kind), message, "give the body another name")
+    for kind in (kind for kind, given in acting.given.items() if given):
+        name, letter, of = _TAKEN.get(_term(kind), ("", "", ""))
+        if name in bodies:
+            message = f"{letter} is the energy of {of}, and a body is called {name}, too"
+            faults.error(fields.key_span(kind), message, "give the body another name")
 
 
 # -- with exact values -----------------------------------------------------------------------------

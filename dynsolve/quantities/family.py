@@ -125,7 +125,7 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
 
     `needs` is what a file must give for there to be any: `velocity`, `linearize`, ... (`owners.Owners.of`);
     `holds_forces` says that a result holds the generalized forces by their names.
-    `brought_by` is what must act beside gravity for there to be any, of `robot.actions.TERMS`.
+    `brought_by` is what must act beside gravity for there to be any, a `term` of `robot.actions`.
     `part_of` is the whole it is added up to, or an entry of.  `needs_rotation` marks what a point
     mass has in name only; `is_symmetric_entry` an entry that equals the one across the diagonal.
     """

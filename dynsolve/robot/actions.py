@@ -79,8 +79,13 @@ class Act(Struct, frozen=True):
     It is one of three terms of the equations of motion, by its class: `Stored`, `Rotor`, `Resisting`.
     """
 
-    kind: ClassVar[str]
-    """The name of its kind."""
+    term: ClassVar[str]
+    """The result of which it is a part; `Family.brought_by` has its name."""
+
+    @property
+    def kind(self) -> str:
+        """The name of its kind, which is that of its folder."""
+        return type(self).__module__.split(".")[-2]
 
     def parameters(self, robot: Robot) -> Iterator[Parameter]:
         """What its values are."""
@@ -113,6 +118,8 @@ class Act(Struct, frozen=True):
 class Stored(Act, frozen=True):
     """What stores energy, a part of P_s."""
 
+    term: ClassVar[str] = "Ps"
+
     @property
     def energy(self) -> Expr:
         """The potential energy, a function of the coordinates."""
@@ -125,6 +132,8 @@ class Stored(Act, frozen=True):
 
 class Resisting(Act, frozen=True):
     """What has no potential and stands beside g, a part of the friction."""
+
+    term: ClassVar[str] = "friction"
 
     def force(self, robot: Robot) -> Matrix:
         """The generalized force, n×1."""
@@ -147,10 +156,7 @@ class Rotor(Act, frozen=True):
     ratio: Expr
     carrier: int = 0
     axis: int = 2
-
-
-TERMS: dict[str, type[Act]] = {"Ps": Stored, "Km": Rotor, "friction": Resisting}
-"""The results that what acts is told by; `Family.brought_by` has their names."""
+    term: ClassVar[str] = "Km"
 
 
 class Actions(Struct, frozen=True):
@@ -175,11 +181,14 @@ class Actions(Struct, frozen=True):
         return tuple(act for act in self.acts if isinstance(act, Resisting))
 
     @property
+    def resistance(self) -> tuple[str, ...]:
+        """The name of what resists, where anything does: it stands in the equations beside D, C q̇ and g."""
+        return ("friction",) if self.resisting else ()
+
+    @property
     def terms(self) -> frozenset[str]:
-        """The results that there are by them, of `TERMS`."""
-        return frozenset(
-            name for name, term in TERMS.items() if any(isinstance(act, term) for act in self.acts)
-        )
+        """The results of which there are parts."""
+        return frozenset(act.term for act in self.acts)
 
     @property
     def by_kind(self) -> dict[str, list[Act]]:

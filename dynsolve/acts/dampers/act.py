@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import ClassVar
+from collections.abc import Iterator
 
-from dynsolve.acts.dampers import KEY
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.problem.acting import constant, linear
-from dynsolve.problem.decoder import Decoder, Record
-from dynsolve.problem.kinds import Fields
+from dynsolve.problem.decoder import Record
 from dynsolve.problem.values import CellValues
 from dynsolve.robot.actions import Parameter, Resisting, Values
 from dynsolve.robot.dimensions import measured_along
@@ -24,7 +21,6 @@ TERM = Resisting
 class Damper(Resisting, frozen=True):
     """A damper between what a linear form x of the coordinates says: the force b ẋ along x."""
 
-    kind: ClassVar[str] = "dampers"
     damping: Expr
     of: Expr
 
@@ -58,11 +54,6 @@ class Damper(Resisting, frozen=True):
     def mistaken(self, robot: Robot) -> Iterator[tuple[str, Matrix]]:
         """Left out."""
         yield "dampers_missing", Matrix.zero(robot.ring, robot.n, 1)
-
-
-def read(decoder: Decoder, fields: Fields) -> Iterable[Record]:
-    """The dampers of a file."""
-    return decoder.entries(fields, KEY)
 
 
 def build(values: CellValues, damper: Record) -> Damper | None:

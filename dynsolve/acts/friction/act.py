@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar
 
 from msgspec.structs import replace
 
@@ -33,7 +32,6 @@ TERM = Resisting
 class JointFriction(Resisting, frozen=True):
     """Friction of coordinate k, counted from 0: f_v q̇_k + f_c sgn(q̇_k)."""
 
-    kind: ClassVar[str] = "friction"
     coordinate: int
     viscous: Expr
     coulomb: Expr

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar
 
 from dynsolve.acts.motors import KEY
 from dynsolve.problem.acting import constant
@@ -20,8 +19,6 @@ TERM = Rotor
 
 class Motor(Rotor, frozen=True):
     """The rotor of a motor that turns a coordinate through a gear."""
-
-    kind: ClassVar[str] = "motors"
 
     def parameters(self, robot: Robot) -> Iterator[Parameter]:
         """A moment of inertia, and the ratio of a gear; without one the rotor has the coordinate's own."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import ClassVar
 
 from dynsolve.acts.springs import KEY
 from dynsolve.algebra.expr import Expr
@@ -27,7 +26,6 @@ HIGHEST_DEGREE = 8
 class Spring(Stored, frozen=True):
     """A linear spring: ½ k (x - rest)², x a linear form of the coordinates."""
 
-    kind: ClassVar[str] = "springs"
     stiffness: Expr
     of: Expr
     rest: Expr
@@ -67,7 +65,6 @@ class Spring(Stored, frozen=True):
 class GivenEnergy(Stored, frozen=True):
     """A spring by its energy, a function of the coordinates."""
 
-    kind: ClassVar[str] = "springs"
     given: Expr
 
     @property

@@ -14,6 +14,9 @@ from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import Node, Power, Sum, equation, walk
 from dynsolve.robot.actions import Stored
 
+HINT = "Half the stiffness times the square of the deflection of each spring from its rest."
+PITFALL = "The energy of a spring has a ½, and the stretch is squared as a whole, with its rest."
+
 
 def given(forms: Forms, spring: Stored) -> Prose:
     """A spring of stiffness k is at rest at q₁ = δ."""
@@ -30,18 +33,6 @@ def why(springs: Sequence[Stored]) -> str:
         return "The energies are given." if len(springs) > 1 else "The energy of the spring is given."
     told = "A linear spring stores half its stiffness times the square of its deflection from rest."
     return told + (" The other energies are given." if len(laws) < len(springs) else "")
-
-
-def hint(springs: Sequence[Stored]) -> str:
-    """The same of what is to be done."""
-    told = "Half the stiffness times the square of the deflection of each spring from its rest."
-    return told if any(isinstance(spring, Spring) for spring in springs) else ""
-
-
-def pitfall(springs: Sequence[Stored]) -> str:
-    """What goes wrong with the energy."""
-    told = "The energy of a spring has a ½, and the stretch is squared as a whole, with its rest."
-    return told if any(isinstance(spring, Spring) for spring in springs) else ""
 
 
 def term(context: Context, spring: Stored) -> Node | None:

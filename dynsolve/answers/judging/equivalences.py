@@ -168,7 +168,7 @@ def _is_multiple(case: Case) -> bool:
 def _holds_friction(case: Case) -> bool:
     """Whether a vector is C q̇ and friction together."""
     key = case.graph.key
-    return "friction" in case.graph.answer_ring.rules and case.is_entry_by_entry(
+    return bool(case.robot.actions.resisting) and case.is_entry_by_entry(
         (key("Cqd") + key("friction")).entries
     )
 

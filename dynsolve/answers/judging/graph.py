@@ -283,7 +283,7 @@ class AnswerGraph:
             lagrange = (*lagrange, *self._further[node])
         if assembled and quantity.family is families.FORCE:
             together = partial(euler_lagrange.torque, self.robot, k=quantity.index[0] - 1)
-            return (*lagrange, Route((*MODEL, *self._friction), together))
+            return (*lagrange, Route((*MODEL, *self.robot.actions.resistance), together))
         return lagrange
 
     @cached_property
@@ -302,11 +302,6 @@ class AnswerGraph:
                     found[quantity.rule] = ways
         return found
 
-    @cached_property
-    def _friction(self) -> tuple[str, ...]:
-        """The node of friction, where there is any: it stands in the equation beside D, C and g."""
-        return ("friction",) if "friction" in self.answer_ring.rules else ()
-
     def _routes_of_model(self, node: str) -> tuple[Route, ...]:
         if node == "D":
             return (Route(("tau",), self._inertia), Route(("K",), self._inertia_from_energy))
@@ -314,7 +309,7 @@ class AnswerGraph:
             of_energy = partial(euler_lagrange.gravity_vector, self.robot)
             return (Route(("tau",), self._gravity), Route(("P",), of_energy))
         return (
-            Route(("tau", *self._friction), self._coriolis),
+            Route(("tau", *self.robot.actions.resistance), self._coriolis),
             Route(("D",), lambda D: self._coriolis_matrix(D) @ velocities(self.robot)),
             Route(("D",), self._coriolis_entry_by_entry),
         )

@@ -233,7 +233,7 @@ def _potential(context: Context) -> Step:
 
 def _forces(context: Context) -> Step:
     """τ_k from ∂L/∂q̇_k, d/dt of it and ∂L/∂q_k, the products of rates collected; and friction."""
-    n, friction = context.robot.n, " + τ_fk" if "friction" in context.values.rules else ""
+    n, friction = context.robot.n, " + τ_fk" if context.robot.actions.resisting else ""
     accelerated = "Σ_(j=1)^{n} d_kj q̈_j"
     squares = "Σ_(i=1)^{n} Σ_(j=1)^{n} {factor} q̇_i q̇_j"
     slopes = formula(squares, n=n, factor=formula("∂d_ij/∂q_k"))

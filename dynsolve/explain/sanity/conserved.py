@@ -8,7 +8,7 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.terms import driving_row, driving_side, has_friction
+from dynsolve.explain.terms import driving_row, driving_side
 from dynsolve.explain.writing import listed, spong, sum_of, turns
 from dynsolve.notation.build import cost
 from dynsolve.notation.template import formula
@@ -73,7 +73,7 @@ def _of_energy(context: Context) -> Line | None:
         return None
     driving = driving_side(context, constrained=False)
     terms = driving.terms if isinstance(driving, Sum) else (driving,)
-    acting = sum_of([*terms, *([Negative(letters.FRICTION)] if has_friction(context) else [])])
+    acting = sum_of([*terms, *([Negative(letters.FRICTION)] if context.robot.actions.resisting else [])])
     by = say(
         "The rate of the energy follows from $𝒦 = ½ {square}$ ($𝐃$ is symmetric) and $𝐠 = ∂𝒫/∂𝐪$, with "
         "$𝐃̇ = 2 𝐂 + 𝐍$, $𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = {acting}${held} and $𝐪̇ᵀ 𝐍 𝐪̇ = 0${skew}:",
@@ -96,11 +96,11 @@ def _of_power(context: Context) -> Prose:
     if (
         driving == letters.TAU
         and len(context.robot.actions.passive) == context.robot.n
-        and not has_friction(context)
+        and not context.robot.actions.resisting
     ):
         return ("No motor drives: the energy is conserved. ",)
     rest = " alone: as long as ${driving} = 𝟎$ it is conserved. "
-    if has_friction(context):
+    if context.robot.actions.resisting:
         rest = " and of friction, which takes energy away. "
     return say(f"The energy changes by the power of {{driving}}{rest}", driving=driving)
 
@@ -118,7 +118,7 @@ def _cyclic(context: Context) -> list[Coordinate]:
         if values[f"dLdq{q.index}"].is_zero
         and not (held and any(not row[q.index - 1].is_zero for row in values["Ac"].rows))
         and not values[f"dLdqd{q.index}"].is_zero
-        and ("friction" not in values.rules or values["friction"][q.index - 1, 0].is_zero)
+        and not context.has_friction(q.index - 1)
     ]
 
 

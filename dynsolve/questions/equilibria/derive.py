@@ -24,7 +24,6 @@ def rules(robot: Robot) -> Iterator[Rule]:
     else:
         yield Rule("equilibria", ("g",), partial(equilibria, robot))
     if robot.questions.model.linearize:
-        friction = ("friction",) if robot.actions.resisting else ()
-        acting = (*outside_names(robot), *friction)
+        acting = (*outside_names(robot), *robot.actions.resistance)
         yield Rule("linear_A", ("D", "g", *acting), partial(linearization.state_matrix, robot))
         yield Rule("linear_B", ("D",), partial(linearization.input_matrix, robot))

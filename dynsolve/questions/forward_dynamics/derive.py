@@ -62,8 +62,7 @@ def outside_names(robot: Robot) -> tuple[str, ...]:
 
 def acting_names(robot: Robot) -> tuple[str, ...]:
     """The rules of the forces that act beside τ."""
-    friction = ("friction",) if robot.actions.resisting else ()
-    return ("Cqd", "g", *friction, *outside_names(robot))
+    return ("Cqd", "g", *robot.actions.resistance, *outside_names(robot))
 
 
 def acting_forces(robot: Robot, *forces: Matrix) -> Matrix:
