@@ -30,7 +30,7 @@ from dynsolve.quantities.index import quantities
 from dynsolve.questions import rates, statics
 from dynsolve.questions import task as of_task
 from dynsolve.questions.statics.derive import jacobians, total, wrench
-from dynsolve.robot.actions import Actions
+from dynsolve.robot.actions import Act, Actions
 from dynsolve.robot.model import AxesKind, Body, Convention, Coordinate, Joint, Robot
 from dynsolve.robot.questions import NamedPoint
 
@@ -388,13 +388,18 @@ def _coriolis(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
 # -- springs, rotors, friction ---------------------------------------------------------------------
 
 
-def _springs(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
-    stored = robot.actions.stored
-    mistaken = [dict(act.mistaken(robot)) for act in stored]
-    yield -value("Ps"), slip("spring_sign")
+def _mistaken(robot: Robot, acts: Sequence[Act], right: Sequence[Any]) -> Iterator[Variant]:
+    """The sum of energies or forces in which some acts are got wrong in the same way; `right` are theirs."""
+    mistaken = [dict(act.mistaken(robot)) for act in acts]
     for code in dict.fromkeys(chain(*mistaken)):
-        wrong = (found.get(code, act.energy) for found, act in zip(mistaken, stored, strict=True))
-        yield _sum(robot.ring.zero, wrong), slip(code)
+        first, *others = (wrong.get(code, own) for wrong, own in zip(mistaken, right, strict=True))
+        yield sum(others, start=first), slip(code)
+
+
+def _springs(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
+    yield -value("Ps"), slip("spring_sign")
+    stored = robot.actions.stored
+    yield from _mistaken(robot, stored, [act.energy for act in stored])
 
 
 def _rotors(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
@@ -421,12 +426,9 @@ def _rotors(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
 
 
 def _friction(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
-    resisting = robot.actions.resisting
-    mistaken = [dict(act.mistaken(robot)) for act in resisting]
     yield -value("friction"), slip("friction_sign")
-    for code in dict.fromkeys(chain(*mistaken)):
-        wrong = [found.get(code, act.force(robot)) for found, act in zip(mistaken, resisting, strict=True)]
-        yield sum(wrong[1:], start=wrong[0]), slip(code)
+    resisting = robot.actions.resisting
+    yield from _mistaken(robot, resisting, [act.force(robot) for act in resisting])
 
 
 _OTHERWISE: dict[Family, Variants] = {
