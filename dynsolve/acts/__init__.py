@@ -14,12 +14,12 @@ A kind is a key of the problem file and a folder of that name, with these files:
                 of what the file gives of one, by the helpers of `problem.acting`; where that is not the list
                 under its key, or is held to more than its keys say, `read(decoder, fields)`; imported where
                 a file has the key
-    explain     `given(forms, act)`, the sentence among what is given, and its part of the step of its term:
-                of the energy P_s `why(acts)` and `term(context, act)`, None of an energy that is given, of
-                friction `dissipation(context, act)`, None where there is none; imported for a solution.
-                Where there is more to say: `HINT` and `PITFALL` of an energy, `beside(context, acts)` of
-                friction that no dissipation function has, with its term of the formula, and `LETTERS`, rows
-                of `explain.textbook_letters` for letters in it
+    explain     `given(forms, act)`, the sentence among what is given, and its part of the step of its term;
+                imported for a solution. Of the energy P_s `why(acts)`, `term(context, act)`, None of an
+                energy that is given, and if there is more to say `HINT` and `PITFALL`. Of friction
+                `dissipation(context, act)`, its term of Rayleigh's function, None where there is none, and
+                `beside(context, acts)`, what is said of what that does not have, with its term of the
+                formula. `LETTERS` are rows of `explain.textbook_letters` for letters in these
 
 `robot.actions.KINDS` is the list of them, and `robot.actions.part` imports a file by its path: no other room
 names a kind.  A new one is a name there and such a folder.

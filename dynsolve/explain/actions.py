@@ -181,7 +181,8 @@ def friction_steps(context: Context) -> Iterator[Step]:
     kinds = _kinds(context, Resisting)
     if not kinds:
         return
-    squares = [term for told, acts in kinds for act in acts if (term := told.dissipation(context, act))]
+    smooth = [(told, act) for told, acts in kinds if hasattr(told, "dissipation") for act in acts]
+    squares = [term for told, act in smooth if (term := told.dissipation(context, act))]
     parts: list[Node] = [formula("∂{R}/∂q̇_k", R=letters.DISSIPATION)] if squares else []
     viscosity: Prose = ()
     if squares:

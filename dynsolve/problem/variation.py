@@ -27,7 +27,7 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import Finding, ProblemError, ReadError
 from dynsolve.notation.characters import normalize
 from dynsolve.problem.cells import read_cell
-from dynsolve.problem.kinds import describe, did_you_mean, items
+from dynsolve.problem.kinds import MapOf, OneOf, ValueKind, describe, did_you_mean, items
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.yaml_nodes import (
     Faults,
@@ -175,9 +175,14 @@ def _names(root: MappingNode, text: str) -> Iterator[Span]:
             yield from scalars(value, key.decoded in _BY_SYMBOL)
 
 
-_BY_SYMBOL = frozenset({
-    "values", "units", "coordinates", "friction", "state", "limits", "weights", "linearize", "steady",
-})  # fmt: skip
+def _is_by_symbol(kind: ValueKind) -> bool:
+    """Whether a value is a mapping by symbol, or by coordinate."""
+    if isinstance(kind, OneOf):
+        return any(map(_is_by_symbol, kind.kinds))
+    return isinstance(kind, MapOf) and kind.called.endswith(("by symbol", "by coordinate"))
+
+
+_BY_SYMBOL = frozenset({"coordinates", *(key.name for key in PROBLEM.keys if _is_by_symbol(key.kind))})
 """The keys whose own keys are names of symbols."""
 
 
