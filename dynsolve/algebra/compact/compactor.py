@@ -267,13 +267,15 @@ class Compactor:
         return self._merged(split, layout.leading, lambda part: self._beside_mass(inner, part))
 
     def _beside_mass(self, layout: TermLayout, terms: Terms) -> Node:
-        """The factor of a mass: with the square of a distance completed, where that is no longer."""
-        plain = self._by_angles(layout, terms)
+        """The factor of a mass: with a square where that is no longer, completed where it is shorter."""
+        cost, best = self.collector.cost, self._by_angles(layout, terms)
         squared = self._with_square(layout, terms)
-        cost = self.collector.cost
-        return plain if squared is None or cost(squared) > cost(plain) else squared
+        if squared is not None and cost(squared) <= cost(best):
+            best = squared
+        completed = self._with_square(layout, terms, completed=True)
+        return best if completed is None or cost(completed) >= cost(best) else completed
 
-    def _with_square(self, layout: TermLayout, terms: Terms) -> Node | None:
+    def _with_square(self, layout: TermLayout, terms: Terms, *, completed: bool = False) -> Node | None:
         """(Σ root)² + the rest, where sines and cosines of one angle group make a square."""
         while layout.groups and not any(any(e[: layout.groups[0][1]]) for e in terms):
             terms = {e[layout.groups[0][1] :]: f for e, f in terms.items()}
@@ -284,7 +286,7 @@ class Compactor:
         inner = sum(more for _, more in layout.groups[1:])
         if any(any(e[width : width + inner]) for e in terms):
             return None
-        found = square_in(terms, width + inner)
+        found = square_in(terms, width + inner, completed=completed)
         if found is None:
             return None
         root: Polynomial = {}

@@ -273,6 +273,8 @@ def join(poly: Polynomial, x: int, y: int, whole: int) -> Polynomial:
 
 # Squares of sums of sines and cosines
 
+SQUARED = 2
+
 
 class Root(NamedTuple):
     """factor · monomial, with one sine or cosine in it or none."""
@@ -288,10 +290,11 @@ class Square(NamedTuple):
     rest: Terms
 
 
-def square_in(terms: Terms, width: int) -> Square | None:
+def square_in(terms: Terms, width: int, *, completed: bool = False) -> Square | None:
     """The square with most roots in a polynomial, and what is left without it; None where there is none.
 
-    The first `width` exponents are those of sines and cosines in turn.
+    The first `width` exponents are those of sines and cosines in turn.  `completed`: of three roots or more
+    one may be told by its products alone; of (a + l c/2)² + l² c²/12 a book writes a² + a l c + l² c²/3.
 
     >>> c2, c23 = (0, 1, 0, 0), (0, 0, 0, 1)
     >>> found = square_in({(0, 2, 0, 0, 2, 0): 1, (0, 1, 0, 1, 1, 1): 2, (0, 0, 0, 2, 0, 2): 1}, 4)
@@ -300,9 +303,10 @@ def square_in(terms: Terms, width: int) -> Square | None:
     """
     best: tuple[Root, ...] = ()
     roots = list(_roots(terms, width))
+    others, most = (list(_others(terms, width)), 2) if completed else ([], 1)
     for first in roots:
-        found = _together(first, roots, terms)
-        if len(found) > max(len(best), 1) and any(any(root.exponents[:width]) for root in found):
+        found = _together(first, roots, others, terms, width)
+        if len(found) > max(len(best), most) and any(any(root.exponents[:width]) for root in found):
             best = found
     return Square(best, _without(terms, best, width)) if best else None
 
@@ -310,15 +314,32 @@ def square_in(terms: Terms, width: int) -> Square | None:
 def _roots(terms: Terms, width: int) -> Iterator[Root]:
     """The roots of the terms that are squares: cosines of those with a plus, sines of those with a minus."""
     for exponents, factor in terms.items():
-        trig, others = exponents[:width], exponents[width:]
-        root = _rational_root(-factor if factor < 0 and any(trig) else factor)
-        if root is None or any(e % 2 for e in others):
-            continue
-        if not any(trig):
-            yield Root(root, (*trig, *(e // 2 for e in others)))
-        elif sum(trig) == 2 and 2 in trig[1::2]:
-            place = trig.index(2) - (factor < 0)
-            yield Root(root, (*(int(i == place) for i in range(width)), *(e // 2 for e in others)))
+        root = _rational_root(-factor if factor < 0 and any(exponents[:width]) else factor)
+        half = _half(exponents, width, sine=factor < 0)
+        if root is not None and half is not None:
+            yield Root(root, half)
+
+
+def _others(terms: Terms, width: int) -> Iterator[Exponents]:
+    """What is squared in a term of which the number is no square."""
+    for exponents, factor in terms.items():
+        half = _half(exponents, width, sine=factor < 0)
+        if half is not None and _rational_root(abs(factor)) is None:
+            yield half
+
+
+def _half(exponents: Exponents, width: int, *, sine: bool) -> Exponents | None:
+    """The exponents of the root of a square, with one sine or cosine in it or none."""
+    trig, others = exponents[:width], exponents[width:]
+    if any(e % 2 for e in others):
+        return None
+    root = [e // 2 for e in others]
+    if not any(trig):
+        return (*trig, *root)
+    if sum(trig) != SQUARED or SQUARED not in trig[1::2]:
+        return None
+    place = trig.index(SQUARED) - sine
+    return (*(int(i == place) for i in range(width)), *root)
 
 
 def _rational_root(value: Rational) -> Rational | None:
@@ -329,31 +350,44 @@ def _rational_root(value: Rational) -> Rational | None:
     return isqrt(p) if q == 1 else Fraction(isqrt(p), isqrt(q))
 
 
-def _together(first: Root, roots: list[Root], terms: Terms) -> tuple[Root, ...]:
+def _together(
+    first: Root, roots: list[Root], others: list[Exponents], terms: Terms, width: int
+) -> tuple[Root, ...]:
     """The roots, with their signs, of which twice the product with each other stands among the terms."""
     found = [first]
     for root in roots:
-        products = [(one, terms.get(_product(one, root), 0)) for one in found]
-        signs = {product / (2 * one.factor * root.factor) for one, product in products}
-        if root != first and signs in ({1}, {-1}):
-            found.append(Root(root.factor * int(signs.pop()), root.exponents))
+        ratios = {_ratio(one, root, terms, width) for one in found}
+        if root != first and ratios in ({1}, {-1}):
+            found.append(Root(root.factor * int(ratios.pop()), root.exponents))
+    for exponents in others:
+        ratios = {_ratio(one, Root(1, exponents), terms, width) for one in found}
+        if len(ratios) == 1 and ratios != {0}:
+            found.append(Root(ratios.pop(), exponents))
     return tuple(found)
 
 
-def _product(a: Root, b: Root) -> Exponents:
-    return tuple(x + y for x, y in zip(a.exponents, b.exponents, strict=True))
+def _ratio(a: Root, b: Root, terms: Terms, width: int) -> Rational:
+    """How many times twice the product of two roots stands among the terms."""
+    (place, factor), *_ = _product(a, b, width)
+    return exact(terms.get(place, 0), 2 * factor)
+
+
+def _product(a: Root, b: Root, width: int) -> tuple[tuple[Exponents, Rational], ...]:
+    """The product of two roots in normal form: of one sine twice, s² = 1 - c², the term with c² is first."""
+    factor = a.factor * b.factor
+    product = tuple(x + y for x, y in zip(a.exponents, b.exponents, strict=True))
+    sine = next((place for place in range(0, width, 2) if product[place] == SQUARED), None)
+    if sine is None:
+        return ((product, factor),)
+    before, after = product[:sine], product[sine + 2 :]
+    return ((*before, 0, SQUARED, *after), -factor), ((*before, 0, 0, *after), factor)
 
 
 def _without(terms: Terms, roots: tuple[Root, ...], width: int) -> Terms:
     """The terms less the square of the sum of the roots."""
     rest = dict(terms)
     for i, a in enumerate(roots):
-        for b in roots[i + 1 :]:
-            add_term(rest, _product(a, b), -2 * a.factor * b.factor)
-        square, factor = list(_product(a, a)), -a.factor * a.factor
-        sine = next((place for place in range(0, width, 2) if square[place]), None)
-        if sine is not None:  # s² = 1 - c²
-            square[sine] = 0
-            add_term(rest, (*square[: sine + 1], 2, *square[sine + 2 :]), -factor)
-        add_term(rest, tuple(square), factor)
+        for j, b in enumerate(roots[i:]):
+            for place, factor in _product(a, b, width):
+                add_term(rest, place, -factor if j == 0 else -2 * factor)
     return rest
