@@ -322,20 +322,26 @@ class Collector:
         return best if completed is None or self.cost(completed) - 2 > least else completed
 
     def _completed(self, poly: Polynomial) -> Node | None:
-        """a x² + b x y + c y², x being a coordinate, as a (x + b y / 2a)² + (c - b² / 4a) y²."""
+        """a x² + b x y + c y² + ..., x being a coordinate, as a (x + b y / 2a)² + (c - b² / 4a) y² + ..."""
+        ranks = self.atoms.ranks
         squares = {mono[0][0]: f for mono, f in poly.items() if len(mono) == 1 and mono[0][1] == 2}
-        if len(poly) != 3 or len(squares) != 2:
-            return None
-        x, y = sorted(squares, key=lambda atom: self.atoms.ranks[atom][0] is not Rank.COORDINATE)
-        b = poly.get(tuple(sorted(((x, 1), (y, 1)))))
-        if b is None or self.atoms.ranks[x][0] is not Rank.COORDINATE:
-            return None
-        half = exact(b, 2 * squares[x])
-        whole = self.atoms.number(self._sum_node(x, y, half))
-        rest = squares[y] - squares[x] * half * half
-        if not rest:
-            return None
-        return total([self.product(squares[x], ((whole, 2),), ()), self.product(rest, ((y, 2),), ())])
+        for x in squares:
+            if ranks[x][0] is not Rank.COORDINATE:
+                continue
+            with_x = [mono for mono in poly if any(atom == x for atom, _ in mono)]
+            mixed = [mono for mono in with_x if dict(mono)[x] == 1]
+            if len(with_x) != 2 or len(mixed) != 1 or len(mixed[0]) != 2:
+                continue
+            ((y, exponent),) = divide(mixed[0], ((x, 1),))
+            half = exact(poly[mixed[0]], 2 * squares[x])
+            square = squares.get(y, 0) - squares[x] * half * half
+            if exponent != 1 or y not in squares or not square:
+                continue
+            rest = {mono: f for mono, f in poly.items() if mono not in with_x}
+            rest[((y, 2),)] = square
+            whole = self.atoms.number(self._sum_node(x, y, half))
+            return self.form({((whole, 2),): squares[x], **rest})
+        return None
 
     def _worth_splitting(self, poly: Polynomial) -> list[int]:
         """The atoms that most terms share, leading ones first."""
@@ -346,12 +352,12 @@ class Collector:
         return shared if len(poly) <= SEARCHED else shared[:1]
 
     def _is_own_square(self, poly: Polynomial, atom: int) -> bool:
-        """Whether a length, sine or velocity is squared in one term and not in another.
+        """Whether a length, coordinate, sine or velocity is squared in one term and not in another.
 
         No book draws that out: I_xx s² + 2I_xy s c and not s (I_xx s + 2I_xy c).
         """
         rank = self.atoms.ranks[atom][0]
-        if rank not in (Rank.PARAMETER, Rank.SUM, Rank.TRIG, Rank.RATE) or (
+        if rank not in (Rank.PARAMETER, Rank.COORDINATE, Rank.SUM, Rank.TRIG, Rank.RATE) or (
             rank is not Rank.RATE and len(poly) > SEARCHED
         ):
             return False
