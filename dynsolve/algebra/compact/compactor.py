@@ -30,6 +30,7 @@ from dynsolve.algebra.compact.terms import (
     split_middle,
     split_tail,
     square_in,
+    whole_content,
 )
 from dynsolve.algebra.compact.trig_forms import TrigMonomial, TrigPolynomial, angle_groups
 from dynsolve.algebra.expr import Expr
@@ -227,19 +228,29 @@ class Compactor:
     def _usual(self, layout: TermLayout, terms: Terms) -> tuple[Rational, Terms]:
         """(size, terms / size): a polynomial and twice it are spelled alike.
 
-        The size is the largest factor of a square of lengths; where there is none, that of most terms.
-        Of squares alone none is taken, m (h² + 3r²) c/12: it would make fractions of whole numbers.
+        The size is the largest factor of a square of lengths, where that is the same beside each mass; where
+        there is no square, that of most terms.  None is taken that would make finer fractions, nor of squares
+        alone, m (h² + 3r²) c/12.
         """
         if self.collector.decimal or len(terms) > LARGE:
             return 1, terms
-        lengths = sum(width for _, width in layout.groups) + len(layout.leading)
+        angles = sum(width for _, width in layout.groups)
+        lengths = angles + len(layout.leading)
         sizes: dict[Exponents, Rational] = {e: f if f > 0 else -f for e, f in terms.items()}
-        squares = [f for e, f in sizes.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])]
+        squares = {e: f for e, f in sizes.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])}
         if len(squares) == len(terms):
             return 1, terms
+        of_masses: dict[Exponents, Rational] = {}
+        for e, f in squares.items():
+            mass = e[angles:lengths]
+            of_masses[mass] = max(f, of_masses.get(mass, f))
+        if len(set(of_masses.values())) > 1:
+            return 1, terms
         counts = Counter(sizes.values())
-        size = max(squares) if squares else max(counts, key=lambda f: (counts[f], f))
-        return size, terms if size == 1 else {e: exact(f, size) for e, f in terms.items()}
+        size = max(squares.values()) if squares else max(counts, key=lambda f: (counts[f], f))
+        rest = {e: exact(f, size) for e, f in terms.items()}
+        finer = whole_content(rest.values()).denominator > whole_content(terms.values()).denominator
+        return (1, terms) if finer else (size, rest)
 
     def _without_common(self, layout: TermLayout, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
         """(the parameters and numbers that all terms share, the rest): l² + l a c keeps its l."""
@@ -268,12 +279,15 @@ class Compactor:
 
     def _beside_mass(self, layout: TermLayout, terms: Terms) -> Node:
         """The factor of a mass: with a square where that is no longer, completed where it is shorter."""
+        size, terms = self._usual(layout, terms)
         cost, best = self.collector.cost, self._by_angles(layout, terms)
         squared = self._with_square(layout, terms)
         if squared is not None and cost(squared) <= cost(best):
             best = squared
         completed = self._with_square(layout, terms, completed=True)
-        return best if completed is None or cost(completed) >= cost(best) else completed
+        if completed is not None and cost(completed) < cost(best):
+            best = completed
+        return best if size == 1 else self.collector.product(size, (), (best,))
 
     def _with_square(self, layout: TermLayout, terms: Terms, *, completed: bool = False) -> Node | None:
         """(Σ root)² + the rest, where sines and cosines of one angle group make a square."""
