@@ -229,8 +229,8 @@ class Compactor:
         """(size, terms / size): a polynomial and twice it are spelled alike.
 
         The size is the largest factor of a square of lengths, where that is the same beside each mass; where
-        there is no square, that of most terms.  None is taken that would make finer fractions, nor of squares
-        alone, m (h² + 3r²) c/12.
+        there is no square, that of most terms.  None is taken that would make finer fractions than halves of
+        what they are, nor of squares alone, m (h² + 3r²) c/12.
         """
         if self.collector.decimal or len(terms) > LARGE:
             return 1, terms
@@ -240,16 +240,15 @@ class Compactor:
         squares = {e: f for e, f in sizes.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])}
         if len(squares) == len(terms):
             return 1, terms
-        of_masses: dict[Exponents, Rational] = {}
+        of_masses: dict[Exponents, Rational] = {e[angles:lengths]: 0 for e in terms}
         for e, f in squares.items():
-            mass = e[angles:lengths]
-            of_masses[mass] = max(f, of_masses.get(mass, f))
+            of_masses[e[angles:lengths]] = max(f, of_masses[e[angles:lengths]])
         if len(set(of_masses.values())) > 1:
             return 1, terms
         counts = Counter(sizes.values())
         size = max(squares.values()) if squares else max(counts, key=lambda f: (counts[f], f))
         rest = {e: exact(f, size) for e, f in terms.items()}
-        finer = whole_content(rest.values()).denominator > whole_content(terms.values()).denominator
+        finer = whole_content(rest.values()).denominator > 2 * whole_content(terms.values()).denominator
         return (1, terms) if finer else (size, rest)
 
     def _without_common(self, layout: TermLayout, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
