@@ -88,6 +88,11 @@ def test_it_reads_as_a_textbook_prints_it(written: str, printed: str) -> None:
         ),
         ("m1*(d - l/2) + m2*d", "m1*(d - l/2) + m2*d"),
         ("m1*(2*d - l) + 2*m2*d", "2*(m1*(d - l/2) + m2*d)"),
+        (
+            "m1*a^2*(3/2 + cos(q1)) + m2*(a^2 + b^2/3 + a*b*cos(q2))",
+            "m1*a**2*(3/2 + cos(q1)) + m2*(a**2 + b**2/3 + a*b*cos(q2))",
+        ),
+        ("4*m1*a^2/9 + I1*(3*b^5/5 + 5*b^3/2)", "4*m1*a**2/9 + I1*(3*b**5/5 + 5*b**3/2)"),
     ],
 )
 def test_a_polynomial_and_a_multiple_of_it_are_spelled_alike(written: str, printed: str) -> None:
@@ -219,6 +224,19 @@ FORMS = [
     # a rod that slides past its joint: the distance of its middle, and its moment about that
     (M * (D3**2 - D3 * L + L**2 / 3), "m ((d₃ - l/2)² + l²/12)"),
     (M * (D3**2 + D3 * L + L**2 / 3), "m ((l/2 + d₃)² + l²/12)"),
+    (M * (D3**2 - D3 * L + L**2 / 3 + A**2), "m ((d₃ - l/2)² + a² + l²/12)"),
+    # a distance that is a sum stands beside one sine or cosine
+    (M * (A * C1 - (B + L) * S12) ** 2, "m (a cos(q₁) - (b + l) sin(q₁ + q₂))²"),
+    (M * (A + (D3 - L / 2) * S1 + B * C1) ** 2, "m (a + (d₃ - l/2) sin(q₁) + b cos(q₁))²"),
+    # a moment of inertia beside the square of three roots, and beside that of two
+    (
+        M * ((A + (D3 - L / 2) * S1 + B * C1) ** 2 + L**2 * S1**2 / 12),
+        "m ((a + (d₃ - l/2) sin(q₁) + b cos(q₁))² + l² sin²(q₁)/12)",
+    ),
+    (
+        M * ((A * C1 + B * C12 / 2) ** 2 + B**2 * C12**2 / 12),
+        "m (a² cos²(q₁) + a b cos(q₁) cos(q₁ + q₂) + b² cos²(q₁ + q₂)/3)",
+    ),
 ]
 
 
