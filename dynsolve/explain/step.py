@@ -75,7 +75,7 @@ class Line(Struct, frozen=True):
     `uses` names the earlier steps whose results go in here, and not before.  Formulas that are referred
     to later have a `label`, and so one number; many short ones stand `in_columns`.  A matrix that is
     `is_kept` is told entry by entry where it does not fit, any other is left out there.  `detail` is the
-    depth from which the line is shown.
+    depth from which the line is shown; `joined` are the words of both where the line before is not.
     """
 
     by: Prose
@@ -85,6 +85,7 @@ class Line(Struct, frozen=True):
     in_columns: bool = False
     is_kept: bool = False
     detail: Detail = Detail.NORMAL
+    joined: Prose = ()
 
 
 def outlined(lines: Sequence[Line]) -> tuple[Line, ...]:

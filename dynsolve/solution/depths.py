@@ -209,7 +209,14 @@ def normal(step: Step, group: Group | None) -> Step:
     if group and group.formula is not None:
         parts &= ~Part.FORMULA
     least = Detail.FULL if Part.LINES in parts else Detail.RESULTS
-    lines = (line for line in step.lines if line.detail < least or line.label.startswith(DEFINITIONS))
+    lines: list[Line] = []
+    is_left_out = False
+    for line in step.lines:
+        if line.detail < least or line.label.startswith(DEFINITIONS):
+            lines.append(replace(line, by=line.joined) if is_left_out and line.joined else line)
+            is_left_out = False
+        else:
+            is_left_out = True
     hidden: dict[str, Any] = {str(part.name).lower(): () for part in Part if part not in parts}
     if "formula" in hidden:
         hidden["formula"] = None

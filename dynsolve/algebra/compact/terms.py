@@ -324,7 +324,7 @@ def _others(terms: Terms, width: int) -> Iterator[Exponents]:
     """What is squared in a term of which the number is no square."""
     for exponents, factor in terms.items():
         half = _half(exponents, width, sine=factor < 0)
-        if half is not None and _rational_root(abs(factor)) is None:
+        if half is not None and _rational_root(factor if factor > 0 else -factor) is None:
             yield half
 
 

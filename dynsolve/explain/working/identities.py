@@ -59,7 +59,14 @@ class Identity(Struct, frozen=True):
 
 def said(used: Sequence[Identity]) -> Prose:
     """s₁² + c₁² = 1 and the cosine of a difference, c₁ c₁₂ + s₁ s₁₂ = c₂"""
-    return listed([(f"{each.name}, ", each.relation) if each.name else each.relation for each in used])
+    named: dict[str, list[Node]] = {}
+    for each in used:
+        named.setdefault(each.name, []).append(each.relation)
+    found: list[Node | Prose] = [*named.pop("", [])]
+    for name, relations in named.items():
+        text = "{name}, {relation}" if len(relations) == 1 else "{name} ({relation})"
+        found.append(say(text, name=name, relation=listed(relations)))
+    return listed(found)
 
 
 def by(operation: str | Prose, used: Iterable[Identity], cancelled: Prose = ()) -> Prose:
@@ -300,7 +307,15 @@ def _cosine_and_sine(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
 # is `proved` to have the value it claims; what repeats an earlier one is left out.  `chain` makes the lines
 # to a scalar of them; entries of matrices that stand in one line are proved one by one.
 
-Tactic = tuple[str | Prose, Node]
+
+class Words(Struct, frozen=True):
+    """What is done to a line, and what is `joined`: to the line before it, and to this one."""
+
+    by: Prose
+    joined: Prose
+
+
+Tactic = tuple[str | Prose | Words, Node]
 """What is done, in words, and the form of the value that it gives."""
 
 
@@ -327,12 +342,12 @@ def equals(tree: Node, value: Expr) -> bool:
         return False
 
 
-def proved(value: Expr, tactics: Iterable[Tactic]) -> dict[Node, str | Prose] | None:
+def proved(value: Expr, tactics: Iterable[Tactic]) -> dict[Node, str | Prose | Words] | None:
     """The forms that the tactics come to, each once with its words, if all have the value; else None.
 
     One that only puts the form before it into another order stands in its place.
     """
-    found: dict[Node, str | Prose] = {}
+    found: dict[Node, str | Prose | Words] = {}
     for words, form in tactics:
         if not equals(form, value):
             return None
@@ -380,7 +395,7 @@ def collected(before: Node, after: Node) -> str:
 
 
 def chain(
-    context: Context, result: str, name: Node, tactics: Iterable[Tactic], concluding: str | Prose = ()
+    context: Context, result: str, name: Node, tactics: Iterable[Tactic], concluding: str | Prose | Words = ()
 ) -> Way:
     """The lines that the tactics come to, if each of them is proved to be the result; else nothing.
 
@@ -392,5 +407,12 @@ def chain(
     last = next(reversed(forms), None)
     if last is not None and (are_alike(last, result_form) or to_unicode(last) == to_unicode(result_form)):
         _, concluding = forms.popitem()
-    lines = [Line(say("{by}", by=words), (equation(name, form),)) for form, words in forms.items()]
-    return Way(tuple(lines), say("{by}", by=concluding))
+    lines = [
+        Line(_prose(words), (equation(name, form),), joined=words.joined if isinstance(words, Words) else ())
+        for form, words in forms.items()
+    ]
+    return Way(tuple(lines), _prose(concluding))
+
+
+def _prose(words: str | Prose | Words) -> Prose:
+    return words.by if isinstance(words, Words) else say("{by}", by=words)

@@ -36,6 +36,7 @@ from dynsolve.explain.working.identities import (
     SILENT,
     Tactic,
     Way,
+    Words,
     are_alike,
     chain,
     collected,
@@ -46,6 +47,7 @@ from dynsolve.explain.working.identities import (
 from dynsolve.explain.writing import block_of, listed, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,
     ZERO,
@@ -132,8 +134,10 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     frame, they are multiplied out where that makes the fewest terms.
     """
     velocity = context.values[f"v{body.name}"]
-    if not context.is_short or velocity.is_zero or body.mass.is_zero:
+    if velocity.is_zero or body.mass.is_zero:
         return SILENT
+    if not context.is_short:
+        return Way(concluding=_collected_at_once(context, body)) if squares_shown else SILENT
     factor, rest = _with_factor(context, body)
     if squares_shown and (way := _from_components(context, body, rest, factor)):
         return way
@@ -144,6 +148,18 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
             return _begun_along(context, body, i, way)
     i, along = min(each, key=lambda pair: sum(len(x) * (len(x) + 1) for x in pair[1].entries))
     return _begun_along(context, body, i, _squared(context, body, along))
+
+
+def _collected_at_once(context: Context, body: Body) -> Prose:
+    """How the squares of v become K_v in one step; nothing where they are the same."""
+    before, after = squared(context, body), context.form(f"Kv{body.name}")
+    used = identities(context.robot.ring, before, after)
+    if used is None or are_alike(before, after):
+        return ()
+    by_name = sorted(used, key=lambda identity: bool(identity.name))
+    return say(
+        "Multiplied out{used}, and collected:", used=say(", with {used}", used=said(by_name)) if used else ""
+    )
 
 
 def _begun_along(context: Context, body: Body, i: int | None, way: Way) -> Way:
@@ -179,8 +195,7 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
         return _chain(context, body, tactics, collected(sorted_out, context.form(f"Kv{body.name}")))
     each = dict.fromkeys(identity for some in used for identity in some)
     by_name = sorted(each, key=lambda identity: bool(identity.name))
-    kept = _squares_of_sums(context.form(f"Kv{body.name}"))
-    opened = any(not any(are_alike(one, other) for other in kept) for one in _squares_of_sums(sorted_out))
+    opened = _opened(sorted_out, context.form(f"Kv{body.name}"))
     text = "Multiplied out, with {used}, and collected:" if opened else "With {used}, and collected:"
     return _chain(context, body, tactics, say(text, used=said(by_name)))
 
@@ -232,8 +247,9 @@ def _from_components(
             return None
         tactics += multiplied
         before = tactics[-1][1] if tactics else _sum_of_squares(context, components)
-        return _chain(context, body, tactics, collected(before, form), factor)
-    concluding: str | Prose = ()
+        last_words = collected(before, form) if multiplied else _multiplied_out(before, form)
+        return _chain(context, body, tactics, last_words, factor)
+    concluding: str | Prose | Words = ()
     if tactics:
         words, last = tactics[-1]
         if len(brackets(form)) > len(brackets(_energy(context, body, last, factor))):  # d₃² of two squares
@@ -248,12 +264,13 @@ def _chain(
     context: Context,
     body: Body,
     tactics: Sequence[Tactic],
-    concluding: str | Prose,
+    concluding: str | Prose | Words,
     factor: Shared | None = None,
 ) -> Way:
     """The lines, each of them squares, as energies."""
     if concluding and body.mass.is_number:
-        *words, last = say("{words}", words=concluding)
+        said_before = concluding.by if isinstance(concluding, Words) else say("{words}", words=concluding)
+        *words, last = said_before
         concluding = (*words, f"{str(last).removesuffix(':')}; the numbers multiplied:")
     lines = [(words, _energy(context, body, added, factor)) for words, added in tactics]
     return chain(context, f"Kv{body.name}", letters.energy_part("v", body), lines, concluding)
@@ -316,27 +333,60 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
         return None
     first = [_sum_of_squares(context, alone)] if alone else []
     multiplied, reduced = (sum_of([*first, *forms]) for forms in zip(*found, strict=True))
+    used = identities(ring, multiplied, reduced)
+    if not used:
+        return []
     which: Prose = ("The squares",)
     if alone == list(components[: len(alone)]) and alone:  # of one alone, none would be
         which = say("The last{count} squares", count={2: " two", 3: " three"}.get(len(together), ""))
     elif alone:
         which = say("All but {kept}", kept=listed([_square(context.show(x)) for x in alone]))
+    cancelled = list(_cancelled(context, together, poly))
+    with_these = say("the terms with {found} cancel", found=listed(cancelled)) if cancelled else ()
     by = say(
         "{which} multiplied out, and sorted{cancelled}:",
         which=which,
-        cancelled=_cancelled(context, together, poly),
+        cancelled=say("; {these}", these=with_these) if cancelled else "",
     )
-    used = identities(ring, multiplied, reduced)
-    named = [(say("By {used}:", used=said(used)), reduced)] if used else []
-    return [(by, multiplied), *named]
+    identity = Words(
+        say("By {used}:", used=said(used)),
+        say(
+            "Multiplied out{cancelled}, with {used}:",
+            cancelled=say(" ({these})", these=with_these) if cancelled else "",
+            used=said(used),
+        ),
+    )
+    return [(by, multiplied), (identity, reduced)]
 
 
-def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) -> Prose:
-    """Which products of two rates stand in single squares, and no longer in their sum."""
+def _multiplied_out(before: Node, after: Node) -> str:
+    """What leads from squares to the result where no identity is used."""
+    opened = _opened(before, after)
+    which = "The square of the sum" if len(opened) == 1 else "The squares of the sums"
+    return f"{which} multiplied out, and collected:" if opened else collected(before, after)
+
+
+def _opened(before: Node, after: Node) -> list[Node]:
+    """The squares of sums in a tree that are not in the other."""
+    kept = _squares_of_sums(after)
+    return [one for one in _squares_of_sums(before) if not any(are_alike(one, other) for other in kept)]
+
+
+def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) -> Iterator[Node]:
+    """The products of two rates, or else of a sine and its cosine, that the sum of the squares loses."""
     ring = context.robot.ring
-    gone = {one for x in components for one in products_of_rates(ring, x.poly * x.poly)}
-    found = rates_named(ring, gone - products_of_rates(ring, total))
-    return say("; the terms with {found} cancel", found=listed(found)) if found else ()
+    squares = [x.poly * x.poly for x in components]
+    gone = {one for square in squares for one in products_of_rates(ring, square)}
+    yield from (found := rates_named(ring, gone - products_of_rates(ring, total)))
+    if found:
+        return
+    left = {tuple(map(int, e)) for e in total.to_dict()}
+    lost = {tuple(map(int, e)) for square in squares for e in square.to_dict()} - left
+    for pair in ring.pairs:
+        if any(e[pair.sine] and e[pair.cosine] for e in lost) and not any(
+            e[pair.sine] and e[pair.cosine] for e in left
+        ):
+            yield formula("sin {A} cos {A}", A=angle_node(pair.angle, ring.names))
 
 
 # -- the components of a velocity ------------------------------------------------------------------
