@@ -11,7 +11,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import ending
-from dynsolve.explain.step import STATED, Detail, Group, Step
+from dynsolve.explain.step import STATED, Detail, Group, Part, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.working.derivatives import cancelling, coordinate_derivative, momentum_rate
 from dynsolve.explain.working.identities import Way
@@ -45,7 +45,7 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     if i - 1 in context.robot.actions.passive:
         why = say("{why}{gap}{driven}", why=why, gap=" " if why else "", driven=driven)
     group = Group(f"tau{i}", f"Coordinate {i}", why)
-    step = partial(Step, source=spong("7.1"), group=group, normal=STATED)
+    step = partial(Step, source=spong("7.1"), group=group)
     by_rate = formula("∂ℒ/∂{rate}", rate=letters.velocity(q))
     by_coordinate = formula("∂ℒ/∂{q}", q=Symbol(q.name))
     end = ending(context, f"dLdqd{i}", {f"dLdqd{i}": (by_rate,)})
@@ -54,14 +54,18 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         title=f"Coordinate {i}: generalized momentum",
         why=_partial(context, letters.velocity(q), "coordinate", "rate"),
         **asdict(end),
+        normal=STATED,
     )
     rate = letters.time_derivative(by_rate)
+    is_force = not context.is_in_letters and context.values[f"ddt{i}"] == context.values[f"tau{i}"]
+    is_force &= {"ddt", f"ddt{i}"}.isdisjoint(context.find)
     end = ending(context, f"ddt{i}", {f"ddt{i}": (rate,)}, momentum_rate(context, q))
     yield step(
         id=f"ddt{i}",
         title=f"Coordinate {i}: time derivative of the momentum",
         why=(*_rate_why(context, q), *_change_of_inertia(context, q)),
         **asdict(end),
+        normal=STATED & ~Part.RESULT if is_force else STATED,  # the force has the same line
         hint=(
             "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, "
             "and each coordinate in it brings its own rate (product and chain rule).",
@@ -73,6 +77,7 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         title=f"Coordinate {i}: partial derivative of ℒ",
         why=_slope_why(context, q),
         **asdict(end),
+        normal=STATED,
         hint=(
             "Differentiate ℒ with respect to the coordinate alone: the rates are held fixed, and a term "
             "in which the coordinate does not occur drops out.",
@@ -87,6 +92,7 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         formula=equation(force, sum_of([rate, Negative(by_coordinate), *resisted])),
         **asdict(end),
         detail=Detail.BRIEF,
+        normal=STATED,
     )
 
 
@@ -179,4 +185,5 @@ def lagrangian_steps(context: Context) -> Iterator[Step]:
         source=spong("7.1"),
         **asdict(end),
         detail=Detail.BRIEF,
+        normal=STATED,
     )
