@@ -250,7 +250,7 @@ def _forces(robot: Robot, by_id: Mapping[str, Step]) -> list[Step]:
 
 def _rows(robot: Robot, forces: Sequence[Step]) -> Iterator[Block]:
     """The generalized forces, row by row, and which of them are 0."""
-    lead: Prose = ("Row by row" if len(forces) > 1 else "Multiplied out",)
+    lead: Prose = ("Row by row" if len(forces) > 1 else "The equation of motion",)
     passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
     lead += (", with ", equation(*passive, ZERO)) if passive else ()
     yield Text((*lead, Reference(tuple(step.id for step in forces), ", "), ":"))
@@ -312,7 +312,12 @@ def _long_model(
         yield Text((*listed([D, g]), *say("{place}; $𝐂$ follows from $𝐃$ as it is told there.", place=place)))
         return
     symbols = say("the Christoffel symbols{which}, which make $𝐂$,", which=Reference(("christoffel",)))
-    yield Text((*listed([D, symbols, g]), f"{place}."))
+    yield Text((*listed([D, symbols, g]), place, "."))
+    if "tau1" in by_id and Stage.TORQUE in sections:
+        yield Text(say("The rows of $𝛕$ are those of section {n}.", n=str(sections[Stage.TORQUE])))
+    if (row := by_id.get("forces")) is not None:
+        yield Text(("Row ", Symbol("k"), " of it", Reference(("forces",), ", "), ":"))
+        yield from (Formula(result) for result in row.result)
     yield from _lines(model)
 
 
