@@ -289,3 +289,51 @@ def test_only_a_motor_with_a_gear_is_behind_one() -> None:
     motors = "motors: [{turns: q1, inertia: I1, ratio: n}, {turns: th*, inertia: I2}]\n"
     text = in_one_line(ARM + motors + "find: [Km]\n")
     assert "t_h: angle of a motor: generalized coordinate" in text
+
+
+FLOATING = """
+dh:
+  - {theta: q1*, d: h}
+  - {d: q2*, alpha: -90deg}
+masses:
+  - {mass: m2, link: 2, center: [x2, y2, z2]}
+"""
+WRIST = """
+dh:
+  - {theta: q1*, d: l1, alpha: 90deg}
+  - {theta: q2*, a: l2}
+  - {theta: q3*, alpha: -90deg}
+  - {theta: q4*, d: l4, alpha: 90deg}
+masses:
+  - {mass: m2, link: 2, center: [-lc2, 0, 0]}
+  - {mass: m4, link: 4, center: [0, lc4, 0], inertia: {xx: Ix, yy: Iy, zz: Iz}}
+"""
+
+
+def test_where_a_line_is_left_out_the_next_says_what_it_did() -> None:
+    shown = in_one_line(FLOATING)
+    assert "Multiplied out (the terms with s₁ c₁ cancel), with s₁² + c₁² = 1: K_v1" in shown
+    assert "sorted" not in shown
+    full = " ".join(page(FLOATING, Detail.FULL).split())
+    assert "the terms with s₁ c₁ cancel: " in full and "By s₁² + c₁² = 1: K_v1" in full
+
+
+def test_squares_of_a_longer_arm_name_the_identities_that_collect_them() -> None:
+    shown = in_one_line(WRIST)
+    assert "Multiplied out, with s₁² + c₁² = 1 and s₂² + c₂² = 1, and collected: K_v1" in shown
+
+
+def test_a_rate_of_a_momentum_that_is_the_force_has_one_line() -> None:
+    rate = "d/dt (∂ℒ/∂q̇₁) = m₂"
+    assert rate not in in_one_line(FLOATING)
+    assert rate in " ".join(page(FLOATING, Detail.FULL).split())
+    assert rate in in_one_line(FLOATING + "find: [ddt, tau]\n")
+    falls = "gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES
+    assert "d/dt (∂ℒ/∂q̇₂) =" in in_one_line(falls), "gravity is taken off"
+
+
+def test_the_summary_says_where_the_forces_are() -> None:
+    assert "The rows of 𝛕 are those of section 6." in in_one_line(WRIST)
+    assert "The equation of motion:" in in_one_line(
+        "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\nfind: [tau]\n"
+    )

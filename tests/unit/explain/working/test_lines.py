@@ -145,9 +145,29 @@ masses:
 """
 
 
-def test_squares_that_do_not_stand_first_are_kept_by_name() -> None:
+def test_squares_that_need_no_identity_become_the_result_in_one_line() -> None:
     found = lines(CRANE, "Kv2")
-    assert "All but ((s₃ s₂ + b c₂) q̇₁)² multiplied out, and sorted:" in found
+    assert found[-1] == "The square of the sum multiplied out, and collected:"
+    assert not any("sorted" in words for words in found)
+
+
+FLOATING = """
+dh:
+  - {theta: q1*, d: h}
+  - {d: q2*, alpha: -90deg}
+masses:
+  - {mass: m2, link: 2, center: [x2, y2, z2]}
+"""
+
+
+def test_squares_that_do_not_stand_first_are_kept_by_name_and_what_cancels_is_told() -> None:
+    found = lines(FLOATING, "Kv1")
+    assert found[0] == "All but q̇₂² multiplied out, and sorted; the terms with s₁ c₁ cancel:"
+    assert found[2] == "By s₁² + c₁² = 1:"
+    _, identity = step(FLOATING, "Kv1").lines
+    assert said(identity.joined, FLOATING) == (
+        "Multiplied out (the terms with s₁ c₁ cancel), with s₁² + c₁² = 1:"
+    )
 
 
 def test_a_sign_that_a_square_loses_is_no_step() -> None:
