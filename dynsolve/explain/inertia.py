@@ -6,6 +6,7 @@ The first step of a body, its mass centre, is in `mass_centers`, how R I Rᵀ co
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations_with_replacement
 
 from msgspec.structs import replace
 
@@ -35,11 +36,15 @@ from dynsolve.explain.writing import (
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,
+    Entry,
     Letter,
     Node,
+    Number,
     Parenthesized,
+    Power,
     Product,
     Row,
+    Sum,
     Symbol,
     Transpose,
     equation,
@@ -126,9 +131,22 @@ def _tensor(context: Context, body: Body) -> Step:
         formula=moments,
         source=spong("7.2.1") if moments is None or body.shape is None else _SOURCES[body.shape.kind],
         working=working,
-        result=(equation(tensor, factored(context, context.show(body.inertia))),),
+        result=_entries(context, body, tensor)
+        or (equation(tensor, factored(context, context.show(body.inertia))),),
         said=said,
         uses=(),
+    )
+
+
+def _entries(context: Context, body: Body, tensor: Node) -> tuple[Node, ...]:
+    """The entries of a tensor that is given in part; none of others."""
+    assert body.inertia is not None
+    axes = _entering(context, body)
+    places = [("xyz".index(a), "xyz".index(b)) for a, b in combinations_with_replacement(axes, 2)]
+    return tuple(
+        equation(Entry(tensor, Symbol("xyz"[i] + "xyz"[j])), context.show(body.inertia[i, j]))
+        for i, j in places
+        if not body.inertia[i, j].is_zero
     )
 
 
@@ -140,7 +158,7 @@ def _given(context: Context, body: Body, about: str) -> _Told:
     """A tensor that is given by its entries."""
     assert body.inertia is not None
     if entering := _entering(context, body):
-        return None, (), _left_out(context, body, entering), f"tensor {entering}"
+        return None, (), _left_out(context, body, entering, about), f"tensor {entering, about}"
     zero = tuple(entry.is_zero for entry in body.inertia.entries)
     why = say(
         "The tensor of {name} is given, about {about}, along {axes}.{principal}",
@@ -154,7 +172,9 @@ def _given(context: Context, body: Body, about: str) -> _Told:
 
 def _entering(context: Context, body: Body) -> list[str]:
     """The body's axes about which it turns, where its tensor is 0 for all others; none else."""
-    if not context.is_short or is_moved(body) or body.inertia is None:
+    if body.inertia is None or body.shape is not None or body.density is not None:
+        return []
+    if all(any(row) for row in _filled(body.inertia)):
         return []
     turning = context.values[f"R{body.name}"].T @ context.values[f"Jw{body.name}"]
     still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]
@@ -162,10 +182,16 @@ def _entering(context: Context, body: Body) -> list[str]:
         return []
     if any(body.inertia[i, i].is_zero for i in range(3) if i not in still):  # a moment that is not given
         return []
-    return [name for i, name in enumerate("xyz") if i not in still]
+    found = [name for i, name in enumerate("xyz") if i not in still]
+    return [] if is_moved(body) and len(found) > 1 else found  # its products would have to be brought there
 
 
-def _left_out(context: Context, body: Body, entering: list[str]) -> Prose:
+def _filled(tensor: algebra.Matrix) -> list[list[bool]]:
+    """Which entries are not 0."""
+    return [[not entry.is_zero for entry in row] for row in tensor.rows]
+
+
+def _left_out(context: Context, body: Body, entering: list[str], about: str) -> Prose:
     """What is given of a tensor that is 0 where Rᵀ J_ω has a row of zeros: the body never turns so."""
     shown = [_axis(context, body, name, f"its axis {name}") for name in entering]
     entries, along, otherwise = "what belongs to ", "has components along these axes alone", ""
@@ -175,9 +201,10 @@ def _left_out(context: Context, body: Body, entering: list[str]) -> Prose:
             entries += "the axis parallel to "
             otherwise = "" if _in_frame(context, body) else f", the body's {entering[0]}-axis,"
     return say(
-        "Of the tensor of {name} about its mass centre {entries}{axes}{otherwise} is given. The angular "
-        "velocity {along}, so nothing else enters, and the other entries are taken as 0.",
+        "Of the tensor of {name} about {about} {entries}{axes}{otherwise} is given. The angular velocity "
+        "{along}, so nothing else enters, and the other entries are taken as 0.",
         name=name_of(body),
+        about="its mass centre" if about == "the mass centre" else about,
         entries=entries,
         axes=listed(shown),
         otherwise=otherwise,
@@ -258,6 +285,8 @@ def _parallel_axis(context: Context, body: Body) -> Step:
     relative = link_frame.axes_in_link(context.robot, body, context.values[f"H{body.link}"])
     assert body.about_point is not None
     offset = relative.T @ (body.center - body.about_point)
+    if axes := _entering(context, body):
+        return _parallel_to(context, body, axes[0], offset)
     return Step(
         id=f"I_body{b}",
         title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
@@ -273,6 +302,33 @@ def _parallel_axis(context: Context, body: Body) -> Step:
             equation(shift, factored(context, context.show(link_frame.steiner(body.mass, offset)))),
         ),
         result=(equation(tensor, factored(context, context.form(f"I_body{b}"))),),
+        uses=(),
+    )
+
+
+def _parallel_to(context: Context, body: Body, axis: str, offset: algebra.Matrix) -> Step:
+    """The moment about one axis alone, brought to the mass centre."""
+    across = [name for name in "xyz" if name != axis]
+    place = "xyz".index(axis)
+    moment = Entry(letters.tensor(context.robot, body), Symbol(axis * 2))
+    form = context.matrix(f"I_body{body.name}").rows[place][place]
+    return Step(
+        id=f"I_body{body.name}",
+        title=f"Parallel axis: the moment of {name_of(body)} about an axis through its mass centre",
+        why=say(
+            "The kinetic energy needs the moment about the parallel axis through the mass centre. $𝐝$ goes "
+            "from the given point to the mass centre, in the body's axes.",
+        ),
+        formula=formula(
+            "{moment} = {given} - {m} ({distance})",
+            moment=moment,
+            given=Entry(formula("𝐈_({i},'given')", i=letters.index_of(body.name)), Symbol(axis * 2)),
+            m=context.mass(body),
+            distance=Sum(tuple(Power(Letter("d", Symbol(name)), Number(2)) for name in across)),
+        ),
+        source="parallel-axis theorem; Craig 6.3",
+        working=(formula("𝐝 = {d}", d=factored(context, context.show(offset))),),
+        result=(equation(moment, form),),
         uses=(),
     )
 
