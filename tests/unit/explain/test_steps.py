@@ -164,13 +164,16 @@ def test_a_turned_base_fixed_rows_and_a_tensor_about_the_joint() -> None:
     text = everything_said(MOVED)
     assert "above the origin of the world" in text and "above the origin of the base" not in text
     assert "Row 1 has no star: a fixed frame" in text
-    assert "given, about the near end of its link" in text
-    assert "Parallel axis: the tensor of body 1 about its mass centre" in text
+    assert "Of the tensor of body 1 about the near end of its link the moment" in text
+    assert "Parallel axis: the moment of body 1 about an axis through its mass centre" in text
     assert to_unicode(step(MOVED, "H2").result[0]).startswith("H₂^w = ")
 
 
 def test_what_the_parallel_axis_theorem_takes_away() -> None:
-    assert shown_working(MOVED, "I_body1")[1].endswith("= [[0, 0, 0], [0, m₁ l_c², 0], [0, 0, m₁ l_c²]]")
+    assert formula(MOVED, "I_body1").endswith("(𝐈_{1,given})_zz - m₁ (d_x² + d_y²)")
+    assert shown(MOVED, "I_body1") == ["(𝐈₁)_zz = I₁ - m₁ l_c²"], "what is not given takes nothing away"
+    tensor = MOVED.replace("inertia: {zz: I1}", "inertia: {xx: Ix, yy: Iy, zz: I1}")
+    assert shown_working(tensor, "I_body1")[1].endswith("= [[0, 0, 0], [0, m₁ l_c², 0], [0, 0, m₁ l_c²]]")
 
 
 def test_no_parallel_axis_where_the_point_is_the_centre() -> None:
@@ -181,8 +184,8 @@ def test_no_parallel_axis_where_the_point_is_the_centre() -> None:
 
 
 def test_a_tensor_is_not_called_like_its_entry() -> None:
-    assert shown("planar-2r", "I_body1")[0].startswith("𝐈₁^b = ")
-    assert shown("in3140-rp", "I_body1")[0].startswith("𝐈₁ = ")
+    assert shown("planar-2r", "I_body1") == ["(𝐈₁^b)_zz = I₁"]
+    assert shown("elbow-3r", "I_body2")[0].startswith("𝐈₂ = ")
 
 
 def test_a_shape_with_its_formula_and_its_letters() -> None:
