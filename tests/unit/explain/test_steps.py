@@ -171,7 +171,7 @@ def test_a_turned_base_fixed_rows_and_a_tensor_about_the_joint() -> None:
 
 def test_what_the_parallel_axis_theorem_takes_away() -> None:
     assert formula(MOVED, "I_body1").endswith("(𝐈_{1,given})_zz - m₁ (d_x² + d_y²)")
-    assert shown(MOVED, "I_body1") == ["(𝐈₁)_zz = I₁ - m₁ l_c²"], "what is not given takes nothing away"
+    assert shown(MOVED, "I_body1") == ["(𝐈₁^b)_zz = I₁ - m₁ l_c²"], "what is not given takes nothing away"
     tensor = MOVED.replace("inertia: {zz: I1}", "inertia: {xx: Ix, yy: Iy, zz: I1}")
     assert shown_working(tensor, "I_body1")[1].endswith("= [[0, 0, 0], [0, m₁ l_c², 0], [0, 0, m₁ l_c²]]")
 
