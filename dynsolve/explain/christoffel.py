@@ -53,7 +53,8 @@ def christoffel_step(context: Context) -> Step:
     swapped = "The first two indices may be swapped: $c_ijk = c_jik$. " if context.robot.n > 1 else ""
     why = say(
         f"They are made of the derivatives of $𝐃$ with respect to the coordinates. {swapped}"
-        "Partial derivatives that are zero are left out."
+        "Partial derivatives that are zero are left out.{cancelling}",
+        cancelling=_cancelling(context, zero),
     )
     results = [_symbol(context, *indices) for indices in nonzero]
     single = None if context.names is None else context.names.single
@@ -161,29 +162,31 @@ def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
     return formula("½ ({terms})", terms=Sum(tuple(terms)))
 
 
+def _cancelling(context: Context, zero: Sequence[tuple[int, int, int]]) -> Prose:
+    """The symbols in which derivatives that are not zero cancel."""
+    weights = {ijk: found for ijk in zero if (found := _weights(context, *ijk))}
+    if not weights or len(zero) > MOST_ZEROS:
+        return ()
+    by_symmetry = not any(weight for found in weights.values() for weight in found.values())
+    return say(
+        " In {names} the others cancel{why}.",
+        names=_names(list(weights)),
+        why=say(", $𝐃$ being symmetric") if by_symmetry else "",
+    )
+
+
 def _zero_note(context: Context, zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
-    if not zero:
-        return
     if len(zero) > MOST_ZEROS:
         yield ("All the others are zero.",)
         return
-    cancelled = [ijk for ijk in zero if _weights(context, *ijk)]
-    vanishing, cancelling = (
-        listed([letters.entry("c", *(place + 1 for place in ijk)) for ijk in symbols])
-        for symbols in ([ijk for ijk in zero if ijk not in cancelled], cancelled)
-    )
-    note: Prose = ()
+    vanishing = [ijk for ijk in zero if not _weights(context, *ijk)]
     if vanishing:
-        note = say("{names} are zero." if len(vanishing) > 1 else "{names} is zero.", names=vanishing)
-    if cancelled:
-        by_symmetry = not any(weight for ijk in cancelled for weight in _weights(context, *ijk).values())
-        note = say(
-            "{note}In {names} the derivatives cancel{why}.",
-            note=(*note, " ") if note else "",
-            names=cancelling,
-            why=say(", $𝐃$ being symmetric") if by_symmetry else "",
-        )
-    yield note
+        text = "{names} are zero." if len(vanishing) > 1 else "{names} is zero."
+        yield say(text, names=_names(vanishing))
+
+
+def _names(symbols: Sequence[tuple[int, int, int]]) -> Prose:
+    return listed([letters.entry("c", *(place + 1 for place in ijk)) for ijk in symbols])
 
 
 # -- steps of the checks: both ways to D, C q̇ and g agree, and Ḋ - 2C is skew-symmetric -----------

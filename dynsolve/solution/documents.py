@@ -60,6 +60,7 @@ from dynsolve.notation.printing import Style
 from dynsolve.notation.rounding import marked, marked_among_words
 from dynsolve.notation.tree import (
     ZERO,
+    Entry,
     Matrix,
     Node,
     Number,
@@ -147,7 +148,8 @@ def _measured(node: Node, known: Mapping[Node, str], otherwise: str, style: Styl
         return replace(node, parts=tuple(_measured(part, known, otherwise, style) for part in node.parts))
     if not isinstance(node, Relation):
         return node
-    unit, (*before, value) = known.get(node.parts[0], otherwise), node.parts
+    left, *_ = (*before, value) = node.parts
+    unit = known.get(left.of if isinstance(left, Entry) else left, otherwise)
     if not unit:
         return node
     matrix = value.argument if isinstance(value, Transpose) else value

@@ -188,7 +188,12 @@ def test_what_is_asked_of_a_whole_is_answered_alone_and_zeros_too() -> None:
     assert "d₁₂ = m₂ (l₂² + l₁ l₂ c₂)" in told and "g₂ = m₂ g l₂ c₁₂" in told
     assert "c₁₂₁ = -m₂ l₁ l₂ s₂ " in told  # not how it is derived
     assert "C₂₂, c₁₁₁ and c₁₂₂ are 0." in told
-    assert "Note: c₁₁₁ and c₂₂₂ are zero. In c₁₂₂ the derivatives cancel" in in_one_line(problem)
+    assert "Note: c₁₁₁ and c₂₂₂ are zero." in in_one_line(problem)
+
+
+def test_symbols_in_which_derivatives_cancel_are_told_in_a_worked_example() -> None:
+    assert "left out. In c₁₂₂ the others cancel, 𝐃 being symmetric." in in_one_line(ARM)
+    assert "the others cancel" not in in_one_line(FLOATING), "none does"
 
 
 def test_asked_symbols_stand_in_the_json_as_the_derivatives_of_the_inertia_matrix_give_them() -> None:
@@ -337,3 +342,15 @@ def test_the_summary_says_where_the_forces_are() -> None:
     assert "The equation of motion:" in in_one_line(
         "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\nfind: [tau]\n"
     )
+
+
+def test_an_arm_of_numbers_and_letters_has_decimals_and_units_everywhere() -> None:
+    shown = page(
+        "gravity: [0, 0, -9.81]\n"
+        "dh: [{theta: q1*, d: 0.4, alpha: 90deg}, {theta: q2*, a: 0.5}]\n"
+        "masses:\n"
+        "  - {mass: 3, link: 1, center: [0, -0.2, 0], inertia: {yy: 1/50}}\n"
+        "  - {mass: m2, link: 2}\n"
+    )
+    assert "1   q₁⋆   0.4   0     90°" in shown and "2   q₂⋆   0     0.5   0" in shown
+    assert "(𝐈₁)_yy = 0.02 kg m²" in shown and "Numbers are exact, in SI units" in shown
