@@ -546,7 +546,7 @@ class _Page(TypesetPage):
     def picture(self, picture: Picture) -> Iterator[str]:
         if picture.latex:
             caption = self.words(picture.caption)
-            yield f"\\begin{{center}}\n{picture.latex}\n\n\\small {caption}\n\\end{{center}}"
+            yield f"\\begin{{center}}\n{picture.latex}\n\n\\nopagebreak\\small {caption}\n\\end{{center}}"
 
     def escaped(self, text: str) -> str:
         return latex_text(text)
