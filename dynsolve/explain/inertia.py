@@ -39,14 +39,12 @@ from dynsolve.notation.tree import (
     Entry,
     Letter,
     Node,
-    Number,
     Parenthesized,
-    Power,
     Product,
     Row,
-    Sum,
     Symbol,
     Transpose,
+    Words,
     equation,
     mapped,
 )
@@ -144,7 +142,7 @@ def _entries(context: Context, body: Body, tensor: Node) -> tuple[Node, ...]:
     axes = _entering(context, body)
     places = [("xyz".index(a), "xyz".index(b)) for a, b in combinations_with_replacement(axes, 2)]
     return tuple(
-        equation(Entry(tensor, Symbol("xyz"[i] + "xyz"[j])), context.show(body.inertia[i, j]))
+        equation(Entry(tensor, Words("xyz"[i] + "xyz"[j])), context.show(body.inertia[i, j]))
         for i, j in places
         if not body.inertia[i, j].is_zero
     )
@@ -308,23 +306,22 @@ def _parallel_axis(context: Context, body: Body) -> Step:
 
 def _parallel_to(context: Context, body: Body, axis: str, offset: algebra.Matrix) -> Step:
     """The moment about one axis alone, brought to the mass centre."""
-    across = [name for name in "xyz" if name != axis]
     place = "xyz".index(axis)
-    moment = Entry(letters.tensor(context.robot, body), Symbol(axis * 2))
+    moment = Entry(letters.tensor(context.robot, body), Words(axis * 2))
     form = context.matrix(f"I_body{body.name}").rows[place][place]
     return Step(
         id=f"I_body{body.name}",
         title=f"Parallel axis: the moment of {name_of(body)} about an axis through its mass centre",
         why=say(
             "The kinetic energy needs the moment about the parallel axis through the mass centre. $𝐝$ goes "
-            "from the given point to the mass centre, in the body's axes.",
+            "from the given point to the mass centre, in the body's axes; $𝐄$ is the identity.",
         ),
         formula=formula(
-            "{moment} = {given} - {m} ({distance})",
+            "{moment} = {given} - {m} {shift}",
             moment=moment,
-            given=Entry(formula("𝐈_({i},'given')", i=letters.index_of(body.name)), Symbol(axis * 2)),
+            given=Entry(formula("𝐈_({i},'given')", i=letters.index_of(body.name)), Words(axis * 2)),
             m=context.mass(body),
-            distance=Sum(tuple(Power(Letter("d", Symbol(name)), Number(2)) for name in across)),
+            shift=Entry(formula("𝐝ᵀ 𝐝 𝐄 - 𝐝 𝐝ᵀ"), Words(axis * 2)),
         ),
         source="parallel-axis theorem; Craig 6.3",
         working=(formula("𝐝 = {d}", d=factored(context, context.show(offset))),),

@@ -78,7 +78,8 @@ def test_every_christoffel_symbol_is_shown_or_named_as_zero() -> None:
     for problem in ("in3140-rp", "planar-2r", "puma560-first3"):
         each = step(problem, "christoffel")
         n = solved(problem).robot.n
-        text = "\n".join(shown(problem, "christoffel")) + "".join(said(note, problem) for note in each.notes)
+        prose = (each.why, *each.notes)
+        text = "\n".join(shown(problem, "christoffel")) + "".join(said(part, problem) for part in prose)
         lowered = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
         for i in range(1, n + 1):
             for j in range(i, n + 1):
@@ -170,7 +171,7 @@ def test_a_turned_base_fixed_rows_and_a_tensor_about_the_joint() -> None:
 
 
 def test_what_the_parallel_axis_theorem_takes_away() -> None:
-    assert formula(MOVED, "I_body1").endswith("(𝐈_{1,given})_zz - m₁ (d_x² + d_y²)")
+    assert formula(MOVED, "I_body1").endswith("(𝐈_{1,given})_zz - m₁ (𝐝ᵀ 𝐝 𝐄 - 𝐝 𝐝ᵀ)_zz")
     assert shown(MOVED, "I_body1") == ["(𝐈₁^b)_zz = I₁ - m₁ l_c²"], "what is not given takes nothing away"
     tensor = MOVED.replace("inertia: {zz: I1}", "inertia: {xx: Ix, yy: Iy, zz: I1}")
     assert shown_working(tensor, "I_body1")[1].endswith("= [[0, 0, 0], [0, m₁ l_c², 0], [0, 0, m₁ l_c²]]")

@@ -49,7 +49,7 @@ def shown(node: Node) -> str:
     ("step", "printed"),
     [
         ("I_body1", "𝐈₁ ≈ [[0, 0, 0], [0, 0.0520833, 0], [0, 0, 0.0520833]] kg m²"),  # 2.5·0.5²/12
-        ("I_body2", "𝐈₂ = [[0, 0, 0], [0, 0, 0], [0, 0, 0.02]] kg m²"),
+        ("I_body2", "(𝐈₂)_zz = 0.02 kg m²"),
         ("P1", "P₁ = 6.13125 s₁"),  # ends within the six digits
         ("K1", "K₁ ≈ ½·0.208333 q̇₁²"),  # half the inertia about the joint, as in D
         ("D", "𝐃 ≈ [[0.862833 + 0.48 c₂, 0.167 + 0.24 c₂], [0.167 + 0.24 c₂, 0.167]] kg m²"),
