@@ -80,7 +80,7 @@ def steps(context: Context) -> Iterator[Step]:
         yield replace(_velocities(context, body), group=group, normal=STATED)
         yield replace(linear, group=group, normal=WORKED if linear.working or linear.lines else STATED)
         yield replace(_rotational(context, body), group=group)
-        yield replace(_kinetic(context, body), group=group, normal=STATED)
+        yield replace(_kinetic(context, body), group=group)
     yield from rotors
     yield _total(context, "K", "kinetic", letters.K, [letters.KM] * len(rotors))
 
@@ -282,15 +282,21 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
 def _kinetic(context: Context, body: Body) -> Step:
     K, b = letters.of_body("K", body), body.name
     way = summed(context, (f"Kv{b}", f"Kw{b}"), f"K{b}", K, stand_above=True)
+    parts = [letters.energy_part(kind, body) for kind in ("v", "omega")]
+    left = [part for part, kind in zip(parts, "vw", strict=True) if not context.values[f"K{kind}{b}"].is_zero]
+    is_one = len(left) == 1 and f"K{b}" not in context.find
+    whole = equation(K, sum_of(parts))
     return Step(
         id=f"K{b}",
         title=f"Kinetic energy of {name_of(body)}",
         why=("The sum of the translational and the rotational part.",),
-        formula=formula("K_{i} = K_v_{i} + K_ω_{i}", i=letters.index_of(b)),
+        formula=equation(*whole.parts, *left * is_one),
+        task=whole,
         source=spong("7.2"),
         lines=way.lines,
         concluding=way.concluding,
         result=(equation(K, context.form(f"K{b}")),),
+        normal=Part.FORMULA if is_one else STATED,  # the one that is not 0 has the same line
     )
 
 

@@ -354,3 +354,9 @@ def test_an_arm_of_numbers_and_letters_has_decimals_and_units_everywhere() -> No
     )
     assert "1   q₁⋆   0.4   0     90°" in shown and "2   q₂⋆   0     0.5   0" in shown
     assert "(𝐈₁)_yy = 0.02 kg m²" in shown and "Numbers are exact, in SI units" in shown
+
+
+def test_the_energy_of_a_body_with_one_part_is_that_part() -> None:
+    shown = in_one_line(ARM)
+    assert "K₂ = K_v2 + K_ω2 = K_v2 " in shown and "K₂ = ½" not in shown
+    assert "K₂ = K_v2 + K_ω2 = ½ m₂" in in_one_line(ARM + "find: [K2]\n")
