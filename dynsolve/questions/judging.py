@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from fractions import Fraction
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 from msgspec import Struct
 
@@ -115,56 +115,56 @@ def nodes_of(given: Iterable[Sequence[Part]]) -> list[Node]:
     return [part.node for one in given for part in one]
 
 
-class Case(Protocol):
-    """An answer that is not the key's, in the ring of the answers."""
+class Case(Struct, frozen=True):
+    """An answer that is not the key's, in the ring of the answers.
 
+    `node` is what it is an answer to, `quantity` the same as a record; `entries` are the first of each row
+    that was written, and `value` all of them of the kind of another value, None where they are none.
+    `agrees` says whether the entry of a row stands for a value.  `result` gives the key's values,
+    `chosen` are columns as the student chose them, `in_numbers` puts the problem's
+    numbers in.  `is_equation` says that it was written as one side of `... = 0`.
+    """
+
+    robot: Robot
     node: str
-    """What it is an answer to."""
-
-    @property
-    def quantity(self) -> Quantity | None:
-        """The same as a record."""
+    quantity: Quantity | None
+    entries: Sequence[RationalExpr]
+    value: Callable[[Any], Any]
+    agrees: Callable[[Expr, int], bool]
+    result: Callable[[str], Any]
+    chosen: Mapping[str, Matrix]
+    in_numbers: Callable[[RationalExpr], RationalExpr]
+    is_equation: bool = False
 
     @property
     def index(self) -> int:
         """Of which body, coordinate or link it is, from 1."""
-
-    @property
-    def robot(self) -> Robot:
-        """The robot."""
+        return self.quantity.index[0] if self.quantity is not None else 1
 
     @property
     def key(self) -> Any:
         """The key's value."""
+        return self.result(self.node)
 
-    @property
-    def entries(self) -> Sequence[RationalExpr]:
-        """The first entry of each row that was written."""
+    def difference(self) -> Expr | None:
+        """A scalar less the key; None of a fraction."""
+        written = self.entries[0]
+        return None if written.divisor is not None else written.numerator - self.key
 
-    def result(self, name: str) -> Any:
-        """The key's value of something else."""
-
-    def chosen(self, name: str) -> Matrix | None:
-        """A column that is the student's to choose, as it was chosen."""
-
-    def value(self, like: Any) -> Any:
-        """What was written, of the kind of another value; None where it is none."""
-
-    def in_numbers(self, value: RationalExpr) -> RationalExpr:
-        """A value with the numbers of the problem."""
-
-    def is_entry_by_entry(self, wanted: Iterable[Expr]) -> bool:
+    def is_entry_by_entry(self, wanted: Sequence[Expr]) -> bool:
         """Whether a column has these entries, as an answer may have them."""
+        assert len(wanted) == len(self.entries)
+        return all(self.agrees(entry, row) for row, entry in enumerate(wanted))
 
 
 class Equivalence(Struct, frozen=True):
     """What is right though it is not the key: of which families or nodes, by which test, and its words."""
 
     words: str
-    holds: Callable[[Any], bool]
+    holds: Callable[[Case], bool]
     of: frozenset[Family | str]
 
 
-def right_as(words: str, holds: Callable[[Any], bool], *of: Family | str) -> Equivalence:
+def right_as(words: str, holds: Callable[[Case], bool], *of: Family | str) -> Equivalence:
     """A row of a table of equivalences."""
     return Equivalence(words, holds, frozenset(of))

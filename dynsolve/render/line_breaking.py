@@ -23,6 +23,7 @@ from dynsolve.notation.tree import (
     ONE,
     Cross,
     Function,
+    Matrix,
     Negative,
     Node,
     Number,
@@ -34,6 +35,7 @@ from dynsolve.notation.tree import (
     Row,
     Sum,
     Words,
+    walk,
 )
 from dynsolve.render.terminal_boxes import holds_matrix
 
@@ -134,6 +136,7 @@ class FormulaSplitter:
         self.fine = fine
         self.fraction = fraction
         self._memory: dict[tuple[int, str], tuple[Node, list[Piece]]] = {}
+        self._has_matrix = True
 
     def pieces(self, node: Node, sign: str = "") -> list[Piece]:
         """The pieces of a formula, with a sign of a relation before it."""
@@ -144,6 +147,7 @@ class FormulaSplitter:
 
     def _pieces(self, node: Node, sign: str) -> Iterator[Piece]:
         builder = _Builder(self.notation.joined)
+        self._has_matrix = any(type(part) is Matrix for part in walk(node))
         if sign:
             builder.add(self.notation.relation(sign), RELATION)
         self._put(builder, node, 0)
@@ -151,7 +155,7 @@ class FormulaSplitter:
 
     def _put(self, builder: _Builder, node: Node, level: int) -> None:
         match node:
-            case Relation(parts, signs) if self._is_wide(node) or holds_matrix(node):
+            case Relation(parts, signs) if self._is_wide(node) or self._holds(node):
                 self._put(builder, parts[0], level)
                 for sign, part in zip(signs, parts[1:], strict=True):
                     builder.gap(level, RELATION_BREAK)
@@ -171,7 +175,7 @@ class FormulaSplitter:
                     self._put(builder, part, inside)
                     if _is_comma(part):
                         builder.gap(level, RELATION_BREAK)
-            case _ if not (self._is_wide(node) or holds_matrix(node)):
+            case _ if not (self._is_wide(node) or self._holds(node)):
                 builder.add(self.notation.text(node), self.ruler.width(node))
             case Product(factors) if factors:
                 self._product(builder, factors, level)
@@ -229,7 +233,7 @@ class FormulaSplitter:
         for i, factor in enumerate(factors):
             if narrow and isinstance(factor, Function):  # never broken, and it keeps its distance
                 narrow.append(factor)
-            elif self._is_wide(factor) or holds_matrix(factor):
+            elif self._is_wide(factor) or self._holds(factor):
                 self._together(builder, narrow, after=i > len(narrow))
                 if i and (not narrow or holds_matrix(factor)):
                     builder.gap(level, FACTOR_BREAK, self.notation.times)
@@ -269,6 +273,10 @@ class FormulaSplitter:
 
     def _is_long_fraction(self, node: Node) -> bool:
         return isinstance(node, Quotient) and self.ruler.width(node.denominator) > self.fraction
+
+    def _holds(self, node: Node) -> bool:
+        """Whether a matrix stands in a part; of most formulas none does in the whole."""
+        return self._has_matrix and holds_matrix(node)
 
     def _is_wide(self, node: Node) -> bool:
         return self.ruler.width(node) > self.fine

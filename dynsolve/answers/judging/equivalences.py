@@ -7,27 +7,21 @@ of the springs is free, as the zero of height is.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, as_value
-from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, placed, put_numbers
-from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS
 from dynsolve.quantities import action_families, families
-from dynsolve.quantities.index import Quantity
 from dynsolve.quantities.stages import Stage
 from dynsolve.questions.constraints.judge import OwnConstraint
-from dynsolve.questions.judging import Equivalence, right_as
+from dynsolve.questions.judging import Case, Equivalence, right_as
 from dynsolve.questions.parameters import REGRESSORS
-from dynsolve.robot.model import Robot
 
 if TYPE_CHECKING:
     from dynsolve.answers.judging.key_comparison import KeyComparison
@@ -37,70 +31,6 @@ UP_TO_CONSTANT = "right; the letter that is added is the potential energy at the
 SPRINGS_FROM_ELSEWHERE = "right; the energy of the springs is counted from elsewhere than in the key"
 UP_TO_FACTOR = "right: where no motor drives, the equation may be multiplied by a factor"
 WITH_FRICTION = "right with the friction in it, which is a term of its own in the key"
-
-
-class Case(Struct, frozen=True):
-    """An answer that is not the key's, by its entries; `compare` compares these.
-
-    `is_equation` says that it was written as one side of `... = 0`.
-    """
-
-    graph: AnswerGraph
-    node: str
-    rows: Sequence[Sequence[WrittenEntry]]
-    compare: EntryComparer
-    is_equation: bool = False
-
-    @property
-    def quantity(self) -> Quantity | None:
-        """What the answer is."""
-        return self.graph.quantities.of_rule(self.node)
-
-    @property
-    def index(self) -> int:
-        """Of which body, coordinate or link it is, from 1."""
-        return self.quantity.index[0] if self.quantity is not None else 1
-
-    @property
-    def robot(self) -> Robot:
-        """The robot, in the ring of the answers."""
-        return self.graph.robot
-
-    @property
-    def key(self) -> Any:
-        """The key's value."""
-        return self.graph.key(self.node)
-
-    @property
-    def entries(self) -> list[RationalExpr]:
-        """The first entry of each row that was written."""
-        return [row[0].value for row in self.rows]
-
-    def result(self, name: str) -> Any:
-        """The key's value of something else."""
-        return self.graph.key(name)
-
-    def chosen(self, name: str) -> Matrix | None:
-        """A column that is the student's to choose, as it was chosen."""
-        return self.graph.parameters.get(name)
-
-    def in_numbers(self, value: RationalExpr) -> RationalExpr:
-        """A value with the numbers of the problem."""
-        return put_numbers(value, placed(self.compare.values, self.robot.ring))
-
-    def value(self, like: Any) -> Any:
-        """What was written, of the kind of another value; None where it is none."""
-        return as_value(tuple(tuple(entry.value for entry in row) for row in self.rows), like)
-
-    def difference(self) -> Expr | None:
-        """A scalar less the key; None of a fraction."""
-        written = self.rows[0][0].value
-        return None if written.divisor is not None else written.numerator - self.key
-
-    def is_entry_by_entry(self, wanted: Iterable[Expr]) -> bool:
-        """Whether a column has these entries, as an answer may have them."""
-        pairs = zip(wanted, self.rows, strict=True)
-        return all(self.compare(entry, row[0]) is not None for entry, row in pairs)
 
 
 def _differs_by_level(case: Case) -> bool:
@@ -155,10 +85,10 @@ def _is_multiple(case: Case) -> bool:
     robot, key = case.robot, case.key
     first = 0 if isinstance(key, Matrix) else case.index - 1
     wanted = key.entries if isinstance(key, Matrix) else (key,)
-    for k, (right, (written,)) in enumerate(zip(wanted, case.rows, strict=True), first):
-        if case.compare(right, written) is not None:
+    for row, (right, written) in enumerate(zip(wanted, case.entries, strict=True)):
+        if case.agrees(right, row):
             continue
-        acceleration, given = robot.coordinates[k].name, written.value.numerator
+        acceleration, given = robot.coordinates[first + row].name, written.numerator
         own, its = (robot.ring.coefficient(one, acceleration, 2) for one in (given, right))
         if own.is_zero or given * its != right * own:
             return False
@@ -167,9 +97,8 @@ def _is_multiple(case: Case) -> bool:
 
 def _holds_friction(case: Case) -> bool:
     """Whether a vector is C q̇ and friction together."""
-    key = case.graph.key
     return bool(case.robot.actions.resisting) and case.is_entry_by_entry(
-        (key("Cqd") + key("friction")).entries
+        (case.result("Cqd") + case.result("friction")).entries
     )
 
 
@@ -187,11 +116,13 @@ def _of_question(stage: Stage) -> tuple[Equivalence, ...]:
     return getattr(stage.part("judge"), "EQUIVALENCES", ())
 
 
-def other_solution(case: Case) -> str:
-    """How an answer that is not the key's is right all the same, by the first row that holds; else empty."""
+def other_solution(case: Case, stages: Iterable[Stage]) -> str:
+    """How an answer that is not the key's is right all the same, by the first row that holds; else empty.
+
+    `stages` are those of the robot.
+    """
     of = {case.node} if case.quantity is None else {case.node, case.quantity.family}
-    stages = dict.fromkeys(one.family.stage for one in case.graph.quantities.values())
-    rows = (*(row for stage in stages for row in _of_question(stage)), *_OF_THE_COURSE)
+    rows = (*(row for stage in dict.fromkeys(stages) for row in _of_question(stage)), *_OF_THE_COURSE)
     return next((row.words for row in rows if row.of & of and row.holds(case)), "")
 
 

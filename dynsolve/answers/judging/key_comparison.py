@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 from msgspec import Struct
@@ -11,10 +12,17 @@ from msgspec.structs import replace
 from dynsolve.algebra.fraction import RationalExpr, as_expr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.answer_values import AnswerValue, fitted, unfolded
-from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, difference, readings, spans
+from dynsolve.answers.judging.answer_values import AnswerValue, as_value, fitted, unfolded
+from dynsolve.answers.judging.entry_comparison import (
+    EntryComparer,
+    WrittenEntry,
+    difference,
+    placed,
+    put_numbers,
+    readings,
+    spans,
+)
 from dynsolve.answers.judging.equivalences import (
-    Case,
     as_matrix,
     other_solution,
 )
@@ -23,6 +31,8 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
+from dynsolve.quantities.index import Quantity
+from dynsolve.questions.judging import Case
 from dynsolve.questions.parameters import REGRESSORS
 from dynsolve.questions.parameters.judge import forces_of, is_free, wrong_parameters
 
@@ -128,11 +138,27 @@ class KeyComparer:
         )
         compared = KeyComparison(value, target, rows, right, obstacles)
         is_equation = value.answer.is_equation
-        case = Case(self.graph, target.node, rows, self.compare, is_equation)
-        other = "" if compared.correct else other_solution(case)
+        case = self._case(target.node, quantity, rows, is_equation)
+        stages = (one.family.stage for one in self.graph.quantities.values())
+        other = "" if compared.correct else other_solution(case, stages)
         if not other:
             return compared
         return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)
+
+    def _case(self, node: str, quantity: Quantity | None, rows: Rows, is_equation: bool) -> Case:
+        ring, values = self.answer_ring.ring, tuple(tuple(entry.value for entry in row) for row in rows)
+        return Case(
+            self.robot,
+            node,
+            quantity,
+            [row[0] for row in values],
+            partial(as_value, values),
+            lambda wanted, row: self.compare(wanted, rows[row][0]) is not None,
+            self.graph.key,
+            self.graph.parameters,
+            lambda value: put_numbers(value, placed(self.compare.values, ring)),
+            is_equation,
+        )
 
     def _parameters(self, value: AnswerValue, target: Target, key: Matrix) -> KeyComparison:
         """Parameters of τ = Y a with which there is no Y, unless they are the key's, but for rounding."""

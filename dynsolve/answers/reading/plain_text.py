@@ -367,8 +367,6 @@ _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
 _ROW_END = re.compile(r"(?<=[^\s=+\-*/,;(\[{&\\.])[ \t]*\n[ \t]*(?=[^\s=+\-*/),;\]])")
 """The end of a line where no sign says that it goes on: within brackets, as in MATLAB, that of a row."""
 
-"""What stands for each character of a formula that is read as such."""
-
 _BLANK_LINE = re.compile(r"\n[ \t]*(?=\n|\Z)")
 _ENTRY = re.compile(r"[ \t]*[^\s=\[#%:][^=\n:]*")
 """A line that is one entry of a column, or one row of a matrix, as MATLAB prints it."""

@@ -100,7 +100,7 @@ def _chosen(robot: Robot, forces: Matrix, Y: Matrix | None, a: Matrix | None) ->
 
 def _multiplies(case: Case) -> bool:
     """Whether Y a is right for the student's own a."""
-    parameters = case.chosen(PARAMETERS[case.node])
+    parameters = case.chosen.get(PARAMETERS[case.node])
     forces = forces_of(case.robot, case.node, case.result)
     Y = case.value(forces)
     return parameters is not None and isinstance(Y, Matrix) and multiplies_to(Y, parameters, forces)
