@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import half_unit
 from dynsolve.algebra.sampling import WIDEST
 from dynsolve.derivation.configurations import on_branch, reaches, solution_of, states_of
@@ -39,23 +38,63 @@ from dynsolve.notation.tree import (
     walk,
     with_atan2_exchanged,
 )
-from dynsolve.notation.tree_values import compile_trees
+from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.questions.equation_sets import turning_in
 from dynsolve.questions.inverse.forms import InverseForms
 from dynsolve.questions.judging import Alternatives, Fault, Judged, SetKey, SetVerdict, by_code
-from dynsolve.robot.model import Robot
 
 if TYPE_CHECKING:
     from dynsolve.questions.inverse.target import Configuration, TargetForms
-
-# Branches whose values of the task are names
 
 INCOMPLETE = "incomplete"
 """The note of an answer that has some of the branches, all right."""
 
 Formulas = Mapping[str, Node]
 """A branch: the formula of each coordinate."""
+
+
+class InverseKey(SetKey):
+    """What is right of one problem; `shown` are the formulas of its branches."""
+
+    faults = by_code(
+        Fault("atan2_order", "the order of atan2", "The arguments of atan2 are exchanged: it takes y first.",
+              "atan2(y, x) is the angle of the point (x, y)."),
+        Fault("quadrant_lost", "a quadrant",
+              "Branch {number} gives the values of the task in some quadrants only.",
+              "arctan(y/x), arcsin and arccos go half way round; atan2(y, x) looks at both signs."),
+        Fault("branch_misses", "a branch", "Branch {number} does not give the values of the task.",
+              "Put the branch into r(q), at values for which you know a configuration."),
+        Fault("branch_sometimes_misses", "a branch",
+              "Branch {number} gives the values of the task at some configurations only.",
+              "Put the branch into r(q), at values for which you know a configuration."),
+        Fault("branch_never_exists", "a branch",
+              "Branch {number} gives no configuration at values that the arm reaches.",
+              "Look at the arguments of roots, arccos and arcsin, and at what each formula needs."),
+        Fault("branch_not_real", "a branch", "Branch {number} gives no real configuration for these numbers.",
+              "Look at the arguments of roots, arccos and arcsin."),
+        Fault("target_missed", "a branch", "Branch {number} does not reach the target.",
+              "Put it into r(q), and compare with the numbers that were given."),
+        Fault("out_of_reach", "a branch",
+              "No configuration reaches these numbers, and branch {number} does not.",
+              "Compare the distance of the target with the longest and the shortest that the arm can make."),
+        Fault("is_reachable", "a branch", "There are configurations that reach these values.",
+              "Compare the distance of the target with the longest and the shortest that the arm can make."),
+        Fault("branch_lacks_coordinate", "a branch", "Branch {number} gives no {where}.",
+              "A branch is a formula for each coordinate."),
+        Fault("branches_missing", "a branch",
+              "Your branches are right, and some are missing: "
+              "up to {where} configurations give the same values.",
+              "A root, an arccos and an arcsin leave two values each."),
+    )  # fmt: skip
+
+    def __init__(self, judged: Judged, name: str, shown: InverseForms) -> None:
+        super().__init__(judged, name)
+        self.names = set(self.robot.questions.reached)
+        self.shown = shown
+
+
+# Branches whose values of the task are names
 
 
 class _Place(Struct, frozen=True):
@@ -70,28 +109,33 @@ class _Place(Struct, frozen=True):
     others: Sequence[Mapping[str, float]]
 
 
-class BranchKey:
-    """The branches of one problem; `r` is its task and `task` the formula of that.
+class BranchKey(InverseKey):
+    """The branches of one problem."""
 
-    `states` are configurations with values for the parameters.
-    """
+    is_skipped = False
 
-    def __init__(
-        self,
-        robot: Robot,
-        r: Matrix,
-        task: Node,
-        shown: InverseForms,
-        states: Sequence[Mapping[str, float]],
-    ) -> None:
-        self.robot, self.shown, self.states = robot, shown, states
-        self._task, self._angles = compile_trees([task]), angle_rows(r)
+    @cached_property
+    def _task(self) -> Program:
+        return compile_trees([self.forms(self.shown.task)])
 
-    def verdict(self, alternatives: Alternatives) -> SetVerdict:
+    @cached_property
+    def _angles(self) -> Sequence[bool]:
+        return angle_rows(self.judged.values[self.shown.task])
+
+    def _limited(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The configuration, moved into the limits of the joints in proportion."""
+        limited = dict(values)
+        for one in self.robot.questions.limits:
+            low, high = compile_trees([one.low, one.high]).run(values)
+            widest = pi if one.coordinate in turning_in(self.robot) else WIDEST
+            limited[one.coordinate] = low + (high - low) * (values[one.coordinate] + widest) / (2 * widest)
+        return limited
+
+    def verdict(self, given: Alternatives) -> SetVerdict:
         """Whether branches are right."""
-        given = branches_of(alternatives)
-        found = self._compared(given)
-        if found.is_right or not self._compared(turned_round(given)).is_right:
+        branches = branches_of(given)
+        found = self._compared(branches)
+        if found.is_right or not self._compared(turned_round(branches)).is_right:
             return found
         return SetVerdict(False, "atan2_order")
 
@@ -105,7 +149,8 @@ class BranchKey:
         """What is to be reached at each state, and what the key has there."""
         solutions = [solution_of(branch) for branch in self.shown.inverse]
         found = []
-        for values in self.states:
+        for found_at in states_of(self.robot, self._task):
+            values = self._limited({**found_at, **self.judged.numbers})
             reached = reaches(self._task, values)
             at = {name: value for name, value in values.items() if name not in self._names}
             at |= dict(zip(self.robot.questions.reached, reached, strict=True))
@@ -206,22 +251,29 @@ class _Given(Struct, frozen=True):
         return any(self.slack.values())
 
 
-class TargetKey(Struct, frozen=True, dict=True):
-    """What reaches the target of one problem; `exact` are the decimals that stand in its file."""
+class TargetKey(InverseKey):
+    """What reaches the target of one problem."""
 
-    target: TargetForms
-    exact: frozenset[Fraction]
-    all_branches: bool
+    @property
+    def is_skipped(self) -> bool:
+        """Whether nothing is known that reaches it."""
+        return self.shown.target is None
 
-    def verdict(self, alternatives: Alternatives) -> SetVerdict:
+    @cached_property
+    def target(self) -> TargetForms:
+        """The configurations that reach it."""
+        assert self.shown.target is not None
+        return self.shown.target
+
+    def verdict(self, given: Alternatives) -> SetVerdict:
         """Whether configurations are right."""
-        given = branches_of(alternatives)
-        found = self._compared(given)
+        branches = branches_of(given)
+        found = self._compared(branches)
         if found.is_right:
             return found
-        if self._compared(turned_round(given)).is_right:
+        if self._compared(turned_round(branches)).is_right:
             return SetVerdict(False, "atan2_order")
-        in_degrees = self._compared([self._in_degrees(branch) for branch in given])
+        in_degrees = self._compared([self._in_degrees(branch) for branch in branches])
         if in_degrees.is_right:
             return SetVerdict(True, notes=(IN_DEGREES, *in_degrees.notes))
         return found
@@ -247,14 +299,14 @@ class TargetKey(Struct, frozen=True, dict=True):
             is_rounded = is_rounded or one.is_rounded
             met |= set() if place is None else {place}
         is_incomplete = len(met) < len(keys)
-        if is_incomplete and self.all_branches:
+        if is_incomplete and self.robot.questions.all_branches:
             return SetVerdict(False, "branches_missing", where=f"{len(keys)}")
         notes = ((INCOMPLETE, is_incomplete), ("rounded", is_rounded))
         return SetVerdict(True, notes=tuple(note for note, is_so in notes if is_so))
 
     @property
     def _coordinates(self) -> tuple[tuple[str, str], ...]:
-        return self.target.robot.ring.coordinates
+        return self.robot.ring.coordinates
 
     def _given(self, branch: Formulas) -> _Given | None:
         """The values of a branch, None where it has none."""
@@ -265,7 +317,7 @@ class TargetKey(Struct, frozen=True, dict=True):
             return None
         slack, task = dict.fromkeys(values, 0.0), self.target.task_at(values)
         task_slack = [0.0] * len(task)
-        for moved in _moved(branch, self.exact):
+        for moved in _moved(branch, self.judged.exact):
             there = on_branch(in_order(moved), at)
             if there is None:
                 continue
@@ -326,72 +378,10 @@ def _putting(old: Number | Degrees, value: Fraction) -> Callable[[Node], Node]:
     return lambda part: new if part == old else part
 
 
-class InverseKey(SetKey):
-    """The branches of one problem, or the configurations that reach its numbers."""
-
-    faults = by_code(
-        Fault("atan2_order", "the order of atan2", "The arguments of atan2 are exchanged: it takes y first.",
-              "atan2(y, x) is the angle of the point (x, y)."),
-        Fault("quadrant_lost", "a quadrant",
-              "Branch {number} gives the values of the task in some quadrants only.",
-              "arctan(y/x), arcsin and arccos go half way round; atan2(y, x) looks at both signs."),
-        Fault("branch_misses", "a branch", "Branch {number} does not give the values of the task.",
-              "Put the branch into r(q), at values for which you know a configuration."),
-        Fault("branch_sometimes_misses", "a branch",
-              "Branch {number} gives the values of the task at some configurations only.",
-              "Put the branch into r(q), at values for which you know a configuration."),
-        Fault("branch_never_exists", "a branch",
-              "Branch {number} gives no configuration at values that the arm reaches.",
-              "Look at the arguments of roots, arccos and arcsin, and at what each formula needs."),
-        Fault("branch_not_real", "a branch", "Branch {number} gives no real configuration for these numbers.",
-              "Look at the arguments of roots, arccos and arcsin."),
-        Fault("target_missed", "a branch", "Branch {number} does not reach the target.",
-              "Put it into r(q), and compare with the numbers that were given."),
-        Fault("out_of_reach", "a branch",
-              "No configuration reaches these numbers, and branch {number} does not.",
-              "Compare the distance of the target with the longest and the shortest that the arm can make."),
-        Fault("is_reachable", "a branch", "There are configurations that reach these values.",
-              "Compare the distance of the target with the longest and the shortest that the arm can make."),
-        Fault("branch_lacks_coordinate", "a branch", "Branch {number} gives no {where}.",
-              "A branch is a formula for each coordinate."),
-        Fault("branches_missing", "a branch",
-              "Your branches are right, and some are missing: "
-              "up to {where} configurations give the same values.",
-              "A root, an arccos and an arcsin leave two values each."),
-    )  # fmt: skip
-
-    def __init__(self, judged: Judged, name: str) -> None:
-        super().__init__(judged, name)
-        self.names = set(self.robot.questions.reached)
-        self._shown = InverseForms(self.robot, judged.values)
-
-    @property
-    def is_skipped(self) -> bool:
-        """Whether nothing is known that reaches the numbers."""
-        return self.robot.questions.target is not None and self._shown.target is None
-
-    @cached_property
-    def _key(self) -> BranchKey | TargetKey:
-        if self._shown.target is not None:
-            return TargetKey(self._shown.target, self.judged.exact, self.robot.questions.all_branches)
-        task = self._shown.task
-        form = self.forms(task)
-        states = states_of(self.robot, compile_trees([form]))
-        limited = [self._limited({**values, **self.judged.numbers}) for values in states]
-        return BranchKey(self.robot, self.judged.values[task], form, self._shown, limited)
-
-    def _limited(self, values: Mapping[str, float]) -> dict[str, float]:
-        """The configuration, moved into the limits of the joints in proportion."""
-        limited = dict(values)
-        for one in self.robot.questions.limits:
-            low, high = compile_trees([one.low, one.high]).run(values)
-            widest = pi if one.coordinate in turning_in(self.robot) else WIDEST
-            limited[one.coordinate] = low + (high - low) * (values[one.coordinate] + widest) / (2 * widest)
-        return limited
-
-    def verdict(self, given: Alternatives) -> SetVerdict:
-        """Whether branches are right."""
-        return self._key.verdict(given)
+def _key(judged: Judged, name: str) -> InverseKey:
+    """Numbers are reached where the problem gives them."""
+    kind = BranchKey if judged.robot.questions.target is None else TargetKey
+    return kind(judged, name, InverseForms(judged.robot, judged.values))
 
 
-KEYS = {"inverse": InverseKey}
+KEYS = {"inverse": _key}
