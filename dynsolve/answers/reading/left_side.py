@@ -337,7 +337,29 @@ def read_right_side(
     if found is None:
         if len(vocabulary.remembered) > _MOST_REMEMBERED:
             vocabulary.remembered.clear()
-        found = vocabulary.remembered[written] = _read_anew(vocabulary, member, owners)
+        read = _read_shared if vocabulary.is_untouched else _read_anew
+        found = vocabulary.remembered[written] = read(vocabulary, member, owners)
+    return found
+
+
+def _read_shared(
+    vocabulary: Vocabulary, member: list[Token], owners: tuple[str, ...]
+) -> RightSide | ReadError:
+    """The same where other hand-ins may have it: with what was looked for in vain, it is read once."""
+    known, written = vocabulary.shared, (owners, *member)
+    found: RightSide | ReadError | None
+    found, missed, entries = known.get(written, (None, set(), set()))
+    if found is None:
+        before = vocabulary.missed, vocabulary.missed_entries
+        vocabulary.missed, vocabulary.missed_entries = missed, entries
+        found = _read_anew(vocabulary, member, owners)
+        vocabulary.missed, vocabulary.missed_entries = before
+        if len(known) > _MOST_REMEMBERED:
+            known.clear()
+        if isinstance(found, RightSide):
+            known[written] = found, missed, entries
+    vocabulary.missed |= missed
+    vocabulary.missed_entries |= entries
     return found
 
 

@@ -275,11 +275,11 @@ def prepared(text: str, macros: Mapping[str, Macro] = MappingProxyType({})) -> l
     return list(_short(text))
 
 
-_SHORT = 100
-"""Characters of what is read time and again: names, the sides of small equations."""
+_SHORT = 1_000
+"""Characters of what is read time and again: names, and equations that many hand in."""
 
 
-@lru_cache(maxsize=2_048)
+@lru_cache(maxsize=1_024)
 def _short(text: str) -> tuple[Token, ...]:
     return tuple(simplified(tokenize(text)))
 

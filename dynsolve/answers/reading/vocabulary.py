@@ -148,7 +148,8 @@ class Vocabulary(Struct):
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
     `candidates` are the matrices that are to be judged; `asked` is what has to be answered, with its parts;
-    `defined` is what the student defined, `remembered` what was read since; `from_zero` are the names whose
+    `defined` is what the student defined, `remembered` what was read since, `shared` what was read by all
+    hand-ins before they said anything of their own; `from_zero` are the names whose
     indices count from 0; `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that
     have an index.
     """
@@ -177,6 +178,7 @@ class Vocabulary(Struct):
     orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
     from_zero: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
+    shared: dict[Any, Any] = field(default_factory=dict)
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
@@ -184,8 +186,14 @@ class Vocabulary(Struct):
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
             self.asked, subscripts=self.subscripts, base_is_world=self.base_is_world,
-            from_zero=self.from_zero, letters=self.letters,
+            from_zero=self.from_zero, letters=self.letters, shared=self.shared,
         )  # fmt: skip
+
+    @property
+    def is_untouched(self) -> bool:
+        """Whether the names are those of the problem alone, as in every other hand-in."""
+        own = self.defined, self.derived, self.broken, self.angles, self.own_entries, self.from_zero
+        return not any(own) and self.orders == USUAL
 
     def define(self, name: str, meaning: Meaning) -> None:
         """Keep what the student says a name is, from here on."""
