@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.unit.answers.reading.submissions import hand_in, last, shown_last
+from dynsolve.answers.reading.files import FileReader
+from tests.unit.answers.reading.submissions import hand_in, last, problem, shown, shown_last
 
 
 def test_abbreviations_and_own_symbols() -> None:
@@ -38,3 +39,18 @@ def test_a_definition_that_cannot_be_read_is_a_fault_of_its_own() -> None:
     assert last(found, "K").node is None
     assert "definition" in last(found, "K").expected
     assert shown_last(found, "P") == "m₁"
+
+
+LATE = "$$P_1 = m_1 g l_{c1} s_1$$\n\nwhere $s_1 = \\sin(q_1 + q_2)$\n"
+
+
+def test_what_one_hand_in_reads_is_no_other_ones() -> None:
+    """A value is kept for all hand-ins to a problem, and what they define is their own, before and after."""
+    read = FileReader(problem("planar-2r"))
+    plain = LATE.partition("where")[0]
+    first, late, again = (read(text, "report.md") for text in (plain, LATE, plain))
+    assert (shown(first.answers[0]), shown(late.answers[0])) == (
+        "m₁ g l_c1 sin(q₁)",
+        "m₁ g l_c1 sin(q₁ + q₂)",
+    )
+    assert again == first
