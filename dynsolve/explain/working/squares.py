@@ -42,6 +42,7 @@ from dynsolve.explain.working.identities import (
     collected,
     identities,
     product_line,
+    pythagoras,
     said,
 )
 from dynsolve.explain.writing import block_of, listed, sum_of
@@ -139,6 +140,8 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     if not context.is_short:
         return Way(concluding=_collected_at_once(context, body)) if squares_shown else SILENT
     factor, rest = _with_factor(context, body)
+    if squares_shown and (identity := _as_shown(context, body)):
+        return _chain(context, body, [], say("By {identity}:", identity=identity), factor)
     if squares_shown and (way := _from_components(context, body, rest, factor)):
         return way
     each = list(along_axes(context, body))
@@ -148,6 +151,16 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
             return _begun_along(context, body, i, way)
     i, along = min(each, key=lambda pair: sum(len(x) * (len(x) + 1) for x in pair[1].entries))
     return _begun_along(context, body, i, _squared(context, body, along))
+
+
+def _as_shown(context: Context, body: Body) -> Node | None:
+    """sin² + cos² = 1 of the angle that stands in squares of products, where that is no basic one: φ - β."""
+    ring, before = context.robot.ring, squared(context, body)
+    used = identities(ring, before, context.form(f"Kv{body.name}")) or ()
+    if len(used) != 1 or used[0].name or _squares_of_sums(before):
+        return None
+    basic = [pythagoras(angle_node(pair.angle, ring.names)) for pair in ring.pairs]
+    return None if used[0] in basic else used[0].relation
 
 
 def _collected_at_once(context: Context, body: Body) -> Prose:

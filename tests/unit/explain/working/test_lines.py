@@ -532,3 +532,12 @@ def test_a_cross_product_before_its_identity_has_the_roots_of_a_leaning_base() -
     for value in values:
         column = tuple(row[0] for row in evaluate(value, state))
         assert any(column == pytest.approx(other) for other in columns)
+
+
+def test_squares_of_an_angle_with_a_constant_are_added_as_they_stand() -> None:
+    problem = """
+dh: [{theta: phi*, a: l}]
+masses:
+  - {mass: m1, link: 1, center: {near: [e*cos(beta), -e*sin(beta), 0]}, inertia: {zz: J}}
+"""
+    assert lines(problem, "Kv1") == ["By sin²(φ - β) + cos²(φ - β) = 1:"]
