@@ -284,9 +284,25 @@ class Compactor:
         if squared is not None and cost(squared) <= cost(best):
             best = squared
         completed = self._with_square(layout, terms, completed=True)
-        if completed is not None and cost(completed) < cost(best):
-            best = completed
+        inside = self._squares_inside(layout, terms)
+        for other in (completed, inside):
+            if other is not None and cost(other) < cost(best):
+                best = other
         return best if size == 1 else self.collector.product(size, (), (best,))
+
+    def _squares_inside(self, layout: TermLayout, terms: Terms) -> Node | None:
+        """(e - l s₃)² + c₂² (a + l c₃)²: squares beside what stands there of the first of several groups."""
+        if len(layout.groups) <= 1 or layout.rates:
+            return None
+        (g, width), inner = layout.groups[0], layout.without_group()
+        split: dict[Exponents, Terms] = {}
+        for e, f in terms.items():
+            split.setdefault(e[:width], {})[e[width:]] = f
+        parts = []
+        for exponents, part in split.items():
+            sign, trig = self._atoms.basic_trig_monomial(exponents, g)
+            parts.append((sign, trig, self._beside_mass(inner, part)))
+        return self.collector.sum_of(parts)
 
     def _with_square(self, layout: TermLayout, terms: Terms, *, completed: bool = False) -> Node | None:
         """(Σ root)² + the rest, where sines and cosines of one angle group make a square."""
