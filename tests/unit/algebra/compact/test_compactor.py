@@ -249,9 +249,9 @@ def test_squares_of_one_angle_stand_beside_those_of_another() -> None:
     """The distance of a point of a third joint from the waist: the squares of both its components."""
     axes = [("q1", "revolute"), ("q2", "revolute")]
     two = build_ring(axes, [Symbol(name) for name in "mabl"], [Angle.of("q1"), Angle.of("q2")])
-    m, a, b, l = map(two.symbol, "mabl")
+    m, a, b, length = map(two.symbol, "mabl")
     s, c, c1 = two.sin(Angle.of("q2")), two.cos(Angle.of("q2")), two.cos(Angle.of("q1"))
-    value = m * ((b - l * s) ** 2 + c1**2 * (a + l * c) ** 2)
+    value = m * ((b - length * s) ** 2 + c1**2 * (a + length * c) ** 2)
     form = to_unicode(Compactor(two, ["m"], [["q1"], ["q2"]]).form(value))
     assert form == "m (cos²(q₁) (a + l cos(q₂))² + (b - l sin(q₂))²)"
 
