@@ -99,16 +99,19 @@ def rotor_moment(robot: Robot, rotor: Rotor, w: Matrix, dw: Matrix) -> Matrix:
 # -- as rules --------------------------------------------------------------------------------------
 
 
-def acting_rules(robot: Robot) -> Iterator[Rule]:
-    """The textbook's: the energies of what is stored and of rotors, and what resists."""
+def energy_rules(robot: Robot) -> Iterator[Rule]:
+    """The textbook's energies of what is stored and of rotors."""
     if robot.actions.stored:
         yield Rule("Ps", (), partial(stored_energy, robot))
     if rotors := robot.actions.rotors:
         last = max(rotor.carrier for rotor in rotors)
         inputs = frame_names(last) if last else ()
         yield Rule("Km", inputs, partial(rotor_energy, robot))
-    if robot.actions.resisting:
-        yield Rule("friction", (), partial(friction, robot))
+
+
+def friction_rule(robot: Robot) -> Rule:
+    """What resists, as one vector."""
+    return Rule("friction", (), partial(friction, robot))
 
 
 def rotor_rules(robot: Robot) -> Iterator[Rule]:

@@ -42,8 +42,6 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     if robot.has_dynamics:
         for body in robot.bodies:
             yield from _body(robot, body)
-        if robot.actions:
-            yield from _acting(robot)
         yield from _energies(robot)
         yield from _euler_lagrange(robot)
         yield from _vectorized(robot)
@@ -56,13 +54,6 @@ def _asked(robot: Robot) -> Iterator[Rule]:
     for stage in ASKED_FOR:
         if stage in asked and (question := stage.part("derive")) is not None:
             yield from question.rules(robot)
-
-
-def _acting(robot: Robot) -> Iterator[Rule]:
-    """What acts beside gravity; imported where something does."""
-    from dynsolve.derivation.actions import acting_rules
-
-    yield from acting_rules(robot)
 
 
 def _rotors(robot: Robot) -> Iterator[Rule]:
@@ -147,6 +138,10 @@ def _own_tensor(robot: Robot, body: Body) -> Rule:
 
 def _energies(robot: Robot) -> Iterator[Rule]:
     stored, moving = ([name] if name in robot.actions.terms else [] for name in ("Ps", "Km"))
+    if stored or moving:
+        from dynsolve.derivation.actions import energy_rules
+
+        yield from energy_rules(robot)
     if robot.given is not None:
         from dynsolve.derivation.model_rules import given_rules
 
@@ -161,6 +156,10 @@ def _energies(robot: Robot) -> Iterator[Rule]:
 
 def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
     resisted = robot.actions.resistance
+    if resisted:
+        from dynsolve.derivation.actions import friction_rule
+
+        yield friction_rule(robot)
     for q in robot.coordinates:
         k = q.index
         yield Rule(f"dLdqd{k}", ("L",), partial(euler_lagrange.momentum, k=k - 1))

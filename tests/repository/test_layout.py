@@ -18,6 +18,9 @@ FILES = sorted(TESTS.rglob("*.py"))
 ELSEWHERE = {"cli"}
 """Rooms whose tests lie in a folder of their own: commands are tested as a user runs them."""
 
+OF_A_KIND = ("questions/", "acts/")
+"""Rooms with a folder a kind: the files that these have in common are named once."""
+
 TOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
 MARKERS = [marker.partition(":")[0] for marker in TOOLS["pytest"]["ini_options"]["markers"]]
 
@@ -29,9 +32,9 @@ def folders(top: Path) -> set[str]:
 
 def test_every_room_of_the_package_has_unit_tests_and_no_folder_of_them_is_without_its_room() -> None:
     rooms, tested = folders(PACKAGE), folders(TESTS / "unit")
-    questions = {room for room in rooms if room.startswith("questions/")}
+    kinds = {room for room in rooms if room.startswith(OF_A_KIND)}
     assert tested <= rooms
-    assert rooms - questions - tested == ELSEWHERE
+    assert rooms - kinds - tested == ELSEWHERE
     assert folders(TESTS) >= ELSEWHERE
 
 
@@ -40,16 +43,13 @@ ROOMS = sorted(path for path in PACKAGE.rglob("__init__.py") if path.parent != P
 
 @pytest.mark.parametrize("init", ROOMS, ids=lambda path: path.parent.relative_to(PACKAGE).as_posix())
 def test_the_docstring_of_a_room_names_every_file_in_it(init: Path) -> None:
-    """As a whole word: `trees` does not name `tree`.  The page of the house may name its path instead.
-
-    The files that questions have in common are named once, for all of them.
-    """
-    common = ast.get_docstring(ast.parse((PACKAGE / "questions/__init__.py").read_text("utf-8"))) or ""
+    """As a whole word: `trees` does not name `tree`.  The page of the house may name its path instead."""
     words = set(re.findall(r"\w+", ast.get_docstring(ast.parse(init.read_text(encoding="utf-8"))) or ""))
     page = (PACKAGE / "README.md").read_text(encoding="utf-8")
     room = init.parent.relative_to(PACKAGE).as_posix()
     files = {path.stem for path in init.parent.glob("*.py")} - {"__init__"}
-    if room.startswith("questions/"):
+    if room.startswith(OF_A_KIND):
+        common = ast.get_docstring(ast.parse((init.parent.parent / "__init__.py").read_text("utf-8"))) or ""
         files -= set(re.findall(r"\w+", common))
     assert not {name for name in files - words if f"`{room}/{name}.py`" not in page}
 
