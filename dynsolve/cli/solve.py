@@ -122,11 +122,9 @@ def solve(
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
 
-    The stages, in order: kinematics, jacobian, task, singular, inverse, rates, inertia,
-    energy, lagrangian, torque, vectorized, parameters, constraints, equilibria, forward_dynamics,
-    task_inertia, definite, statics. A robot without masses has none of the
-    dynamics; task, singular, inverse, rates, and those from parameters on are there where a file
-    asks for something of them. With --method newton-euler one stage, newton_euler, leads from the
+    The stages, in order: kinematics, jacobian, inertia, energy, lagrangian, torque, vectorized; a
+    robot without masses has the first two. A question of the file has a stage of its own, of its
+    name, where it belongs. With --method newton-euler one stage, newton_euler, leads from the
     kinematics to the forces.
     """
     view = _View(_stages(stage, first, last), detail, star, abbreviate, fragment, hint)

@@ -97,8 +97,10 @@ class Forms:
             self._made[name] = found
         return found
 
-    def of(self, value: Expr | Matrix | FractionMatrix) -> Node:
+    def of(self, value: Expr | RationalExpr | Matrix | FractionMatrix) -> Node:
         """The compact tree of any value of this robot's ring."""
+        if isinstance(value, RationalExpr):
+            return self._products.fraction(value)
         if isinstance(value, FractionMatrix):
             return tree.Matrix(tuple(tuple(map(self._products.fraction, row)) for row in value.rows))
         return self.compactor.matrix(value) if isinstance(value, Matrix) else self.compactor.form(value)
@@ -125,7 +127,7 @@ class Forms:
         value = self.values[name]
         if isinstance(value, Skipped):
             return tree.Words(f"({value.why})")
-        if isinstance(value, FractionMatrix):
+        if isinstance(value, RationalExpr | FractionMatrix):
             return self.of(value)
         if name == "det":
             return self._products.form(value)

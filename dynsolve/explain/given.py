@@ -569,13 +569,10 @@ def _in_letters(entry: Node) -> Node:
     return mapped(entry, with_letters)
 
 
-AT_STATE = frozenset({"Q", "tau_static", "qd", "qdd", "nullspace", "rangespace", "lost"})
-"""What is computed at the state that a file gives."""
-
-
 def holds_at_state(robot: Robot, name: str) -> bool:
     """Whether a result holds at the given state alone."""
-    return bool(robot.questions.state.values) and name.rstrip("0123456789") in AT_STATE
+    quantity = quantities(robot).get(name)
+    return quantity is not None and quantity.family.at_state and bool(robot.questions.state.values)
 
 
 def at_the_state(robot: Robot) -> Text:
@@ -614,9 +611,7 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     ]
     if ranges:
         yield ("Limits: ", *listed(ranges), ".")
-    at_state = not questions.state_is_reached and any(
-        name.rstrip("0123456789") in AT_STATE for name in questions.asked
-    )
+    at_state = not questions.state_is_reached and any(holds_at_state(robot, name) for name in questions.asked)
     is_linear = not questions.asked.isdisjoint(("linear_A", "linear_B"))
     given = (
         ("The state: ", questions.state.values if at_state else ()),

@@ -224,10 +224,18 @@ def _answer(faults: Faults, node: YamlNode, names: Quantities | None) -> str | N
     if names is None:
         return node.text
     canonical = names.canonical(node.text)
-    if canonical is None:
+    if canonical is None and (key := _lacking(names, node.text)):
+        faults.error(node.span, f"`{node.text}` is found from `{key}`, which is not given", PROBLEM[key].help)
+    elif canonical is None:
         help = answer_meant(names, node.text) or f"answers are {', '.join(FIND)}, P, K, L, K1, tau1, d11, ..."
         faults.error(node.span, f"`{node.text[:40]}` is no answer of this problem", help)
     return canonical
+
+
+def _lacking(names: Quantities, text: str) -> str:
+    """The key without which a file has no answer of this name; nothing where that is not why."""
+    needed = {family.needs for family in FAMILIES if family.name == text} - names.owners.given
+    return next((key for key in PROBLEM.names if key in needed), "")
 
 
 def _entries(faults: Faults, node: YamlNode | None, key: str) -> tuple[tuple[ScalarNode, YamlNode], ...]:

@@ -137,7 +137,8 @@ class Key(Struct, frozen=True):
     others as a comment.  `default` is the value where the key is not given, or words
     about it.  `remedy` is the help of an error about the value, where it is not simply
     the example.  `called` is what an error calls the value, with {of} for the mapping, {last} for the
-    last part of "a turn of body 1".  `own` says that the file of its part reads it.
+    last part of "a turn of body 1".  `own` says that the file of its part reads it.  `serves` are the answers
+    that it is given for, where it is for nothing else.
     """
 
     name: str
@@ -151,6 +152,7 @@ class Key(Struct, frozen=True):
     remedy: str = ""
     called: str = ""
     own: bool = False
+    serves: tuple[str, ...] = ()
 
     @property
     def described(self) -> str:

@@ -15,6 +15,7 @@ from dynsolve.problem.kinds import (
     Shared,
     Word,
 )
+from dynsolve.quantities.families import FAMILIES
 
 MAX_POINTS = 20
 MAX_TASK = 12
@@ -71,6 +72,19 @@ KINEMATIC_KEYS = (
         "[tip.x, tip.y]",
         "the coordinates of the tip that move",
         remedy="write task: [tip.x, tip.y, q1 + q2], task: pose, or task: twist",
+        serves=(
+            "r",
+            "Jr",
+            "Jr_dot",
+            "det",
+            "qd",
+            "qdd",
+            "singular",
+            "inverse",
+            "nullspace",
+            "rangespace",
+            "lost",
+        ),
     ),
     Key(
         "state",
@@ -80,6 +94,7 @@ KINEMATIC_KEYS = (
         "{theta1: 90deg, theta1': 1}",
         "every q",
         remedy="write state: {q1: 90deg, q1': 1}",
+        serves=tuple(dict.fromkeys(family.stem for family in FAMILIES if family.at_state)),
     ),
 )
 """The keys, in the order of the documentation."""

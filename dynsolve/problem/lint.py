@@ -20,6 +20,7 @@ from dynsolve.problem.bodies import ParsedTensor
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record
 from dynsolve.problem.reader import Reading, read_file, read_problem, read_whole
+from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.variation import FORMULA, TEXT, faulty_alternatives, scalars
 from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.dimensions import Dimensions
@@ -383,27 +384,14 @@ def _bodies(reading: Reading) -> Iterator[tuple[Body, Record]]:
     return zip(reading.problem.robot.bodies, listed, strict=True)
 
 
-_SPACES = ("nullspace", "rangespace", "lost")
-_USED_BY = {
-    "velocity": ("qd",),
-    "acceleration": ("qdd",),
-    "weights": ("qd", "qdd"),
-    "state": ("qd", "qdd", "Q", "tau_static", *_SPACES),
-    "task": ("r", "Jr", "Jr_dot", "det", "qd", "qdd", "singular", "inverse", *_SPACES),
-    "reach": ("inverse",),
-    "limits": ("inverse",),
-}
-"""Which answers a key is given for."""
-
-
 def unasked(reading: Reading) -> Iterator[Remark]:
     """A key that no answer is asked for which it is given for."""
-    asked = reading.problem.robot.questions.asked
-    for key, answers in _USED_BY.items():
-        if key in reading.fields and asked.isdisjoint(answers):
-            message = f"{key} is given, and nothing that it is for is asked for"
-            help = f"ask for it in find: {', '.join(answers[:3])}"
-            yield reading.fields.key_span(key), message, help
+    asked = {name.rstrip("0123456789") for name in reading.problem.robot.questions.asked}
+    for key in PROBLEM.keys:
+        if key.serves and key.name in reading.fields and asked.isdisjoint(key.serves):
+            message = f"{key.name} is given, and nothing that it is for is asked for"
+            help = f"ask for it in find: {', '.join(key.serves[:3])}"
+            yield reading.fields.key_span(key.name), message, help
 
 
 def not_positive(reading: Reading) -> Iterator[Remark]:

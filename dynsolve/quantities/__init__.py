@@ -2,14 +2,10 @@
 
     stages      the stages of a solution, with their headings
     family      what a record says: owner, shape, dimension, letter, spellings, parts
-    families    the records, in the order of the derivation; by files those of the course
+    families    the records, in the order of the derivation; by files those of the course;
+                those of a question are in its folder
     action_families
-                what acts beside gravity: springs, rotors, friction; forces from outside, constraints, the
-                Newton-Euler recursions, matrices that are to be judged
-    kinematic_families
-                what exercises ask of the kinematics: points, tasks
-    model_families
-                what exercises ask of the equations of motion
+                what acts beside gravity: springs, rotors, friction
     owners      what a robot's quantities belong to, which families and which stages it has
     index       the quantities of one robot by name, and what is part of what
     letters     what they are set with, which the printers write in every notation; how students spell names

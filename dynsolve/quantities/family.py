@@ -108,7 +108,8 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     `name` is the template of the names that answers and results have, `rule` of those of
     the rules of the derivation that give them (an entry has that of its matrix).
     `kind` is what it is, `stage` where it is derived and explained; `capped_in` the stage that its marks
-    count in, where that is another.  `shape` is rows and columns, None for a scalar.
+    count in, where that is another.  `shape` is rows and columns, None for a scalar: what a rule
+    gives is a `Matrix` or an `Expr`, where it divides a `FractionMatrix` or a `RationalExpr`, or `Skipped`.
     `called` is what it is called in words, "one|several" where members differ, `{}` where the letters stand
     if not behind.  `letter` is what it is set with; `json` its key in `results`, empty for what is not
     exported.
@@ -123,7 +124,8 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     `aliases` are the further names that `find` and `marks` take; `terms` what the field calls it, which an
     error takes for a name that was meant.
 
-    `needs` is what a file must give for there to be any: `velocity`, `linearize`, ... (`owners.Owners.of`);
+    `needs` is what a file must give for there to be any: `velocity`, `linearize`, ... (`Questions.given`);
+    `at_state` says that it is for the state that a file gives, where it gives one.
     `holds_forces` says that a result holds the generalized forces by their names.
     `brought_by` is what must act beside gravity for there to be any, a `term` of `robot.actions`.
     `part_of` is the whole it is added up to, or an entry of.  `needs_rotation` marks what a point
@@ -150,6 +152,7 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     aliases: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
     needs: str = ""
+    at_state: bool = False
     holds_forces: bool = False
     brought_by: str = ""
     part_of: str = ""

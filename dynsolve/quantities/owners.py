@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Owner, Size
-from dynsolve.quantities.stages import OF_THE_MODEL, Stage
+from dynsolve.quantities.stages import OF_A_TASK, Stage
 from dynsolve.robot.model import Coordinate, Robot
 from dynsolve.robot.questions import Method, Questions, component_names
 
@@ -21,48 +21,20 @@ from dynsolve.robot.questions import Method, Questions, component_names
 _OF_LAGRANGE = frozenset({Stage.JACOBIAN, Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE})
 """The stages that lead from the mass centres to τ by the Lagrangian; the recursions need none of them."""
 
-_OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE, Stage.RATES, Stage.TASK_INERTIA}
-"""The stages that go on from the task."""
-
-
-_PARTS = {
-    "equilibria": "equilibria",
-    "balance": "balance",
-    "linear_A": "linearization",
-    "linear_B": "linearization",
-}
-"""What the stage of equilibria finds, by what is asked for."""
-
 
 def heading_of(stage: Stage, robot: Robot) -> str:
-    """The heading of a stage in the solution of a robot: of some what is asked of them."""
-
-    def asks(name: str) -> bool:
-        return any(asked.startswith(name) for asked in robot.questions.asked)
-
-    if stage is Stage.STATICS and not asks("tau_static"):
-        return "Forces from outside"
-    if stage is Stage.RATES and robot.questions.acceleration is None and not asks("qdd"):
-        return "Rates of the joints"
-    asked = [part for name, part in _PARTS.items() if name in robot.questions.asked]
-    if stage is not Stage.EQUILIBRIA or not asked:
-        return stage.heading
-    return " and ".join(dict.fromkeys(asked)).capitalize()
-
-
-def given_rates(questions: Questions) -> frozenset[str]:
-    """Which rates of the task an exercise gives."""
-    given = {"velocity": questions.velocity, "acceleration": questions.acceleration}
-    return frozenset(name for name, value in given.items() if value is not None)
+    """The heading of a stage in the solution of a robot: that of a question may say what is asked of it."""
+    own = getattr(stage.part(), "heading", None)
+    return own(robot.questions) if own else stage.heading
 
 
 def asked_stages(questions: Questions) -> frozenset[Stage]:
     """The stages of which an exercise asks something."""
     asked_for = [family for family in FAMILIES if family.stage.asked_for] if questions.asked else ()
     found = {family.stage for family in asked_for if any(map(family.names, questions.asked))}
-    if given_rates(questions):
+    if questions.given & {"velocity", "acceleration"}:
         found.add(Stage.RATES)
-    if questions.points or questions.task or found & _OF_THE_TASK:
+    if questions.points or questions.task or any(OF_A_TASK in stage.needs for stage in found):
         found.add(Stage.TASK)
     if questions.is_drawn:
         found.add(Stage.FRAMES)
@@ -142,13 +114,12 @@ class Owners(Struct, frozen=True):
             task_rows=asked.task.rows if asked.task else 0,
             task_names=component_names(asked.task) if asked.task else (),
             constraints=len(asked.constraints),
-            given=given_rates(asked)
+            given=asked.given
             | frozenset(
                 name
                 for name, there in (
                     ("function", asked.task is None or not asked.task.is_twist),
                     ("mass", robot.has_dynamics),
-                    ("linearize", asked.model.linearize),
                     ("references", robot.ring.plan.references),
                 )
                 if there
@@ -164,7 +135,7 @@ class Owners(Struct, frozen=True):
             return False
         if family.brought_by and family.brought_by not in self.actions:
             return False
-        if family.stage in OF_THE_MODEL and "mass" not in self.given:
+        if family.stage.asked_for and family.stage.needs_masses and "mass" not in self.given:
             return False
         if family.needs and family.needs not in self.given:
             return False

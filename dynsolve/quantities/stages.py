@@ -7,9 +7,12 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
+ASKED, OF_MASSES, OF_A_TABLE, OF_A_TASK = "asked", "masses", "table", "task"
+"""What a stage needs: to be asked for, bodies with mass, a table of frames and joints, the task before it."""
+
 
 class Stage(StrEnum):
-    """A part of a solution; its value is what commands and files call it.
+    """A part of a solution; its value is what commands and files call it, then its heading and what it needs.
 
     The stages of the course belong to every robot; those that are `asked_for` to a robot
     of which a file asks something of theirs.
@@ -21,36 +24,36 @@ class Stage(StrEnum):
     heading: str
     """What stands over it in a report."""
 
-    asked_for: bool
-    """Whether only a robot has it of which something of it is asked."""
+    needs: frozenset[str]
+    """What it is left out without."""
 
-    FRAMES = "frames", "Frames from the drawing", True
-    KINEMATICS = "kinematics", "Forward kinematics"
-    JACOBIAN = "jacobian", "The Jacobian"
-    TASK = "task", "Points and tasks", True
-    SINGULAR = "singular", "Singular configurations", True
-    INVERSE = "inverse", "Inverse kinematics", True
-    RATES = "rates", "Rates and accelerations of the joints", True
-    INERTIA = "inertia", "The bodies: mass centres and inertia"
-    ENERGY = "energy", "Potential and kinetic energy"
-    LAGRANGIAN = "lagrangian", "The Lagrangian"
-    TORQUE = "torque", "The Euler-Lagrange equations"
-    NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", True
-    VECTORIZED = "vectorized", "The matrix form"
-    PARAMETERS = "parameters", "Linear in the parameters", True
-    CONSTRAINTS = "constraints", "Constraints", True
-    EQUILIBRIA = "equilibria", "Equilibria and linearization", True
-    FORWARD_DYNAMICS = "forward_dynamics", "Forward dynamics", True
-    TASK_INERTIA = "task_inertia", "Inertia as the task meets it", True
-    DEFINITE = "definite", "Inertia matrices: symmetric, positive definite", True
-    STATICS = "statics", "Statics", True
+    FRAMES = "frames", "Frames from the drawing", ASKED, OF_A_TABLE
+    KINEMATICS = "kinematics", "Forward kinematics", OF_A_TABLE
+    JACOBIAN = "jacobian", "The Jacobian", OF_A_TABLE
+    TASK = "task", "Points and tasks", ASKED, OF_A_TABLE
+    SINGULAR = "singular", "Singular configurations", ASKED, OF_A_TABLE, OF_A_TASK
+    INVERSE = "inverse", "Inverse kinematics", ASKED, OF_A_TABLE, OF_A_TASK
+    RATES = "rates", "Rates and accelerations of the joints", ASKED, OF_A_TABLE, OF_A_TASK
+    INERTIA = "inertia", "The bodies: mass centres and inertia", OF_MASSES
+    ENERGY = "energy", "Potential and kinetic energy", OF_MASSES
+    LAGRANGIAN = "lagrangian", "The Lagrangian", OF_MASSES
+    TORQUE = "torque", "The Euler-Lagrange equations", OF_MASSES
+    NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", ASKED, OF_A_TABLE
+    VECTORIZED = "vectorized", "The matrix form", OF_MASSES
+    PARAMETERS = "parameters", "Linear in the parameters", ASKED, OF_MASSES
+    CONSTRAINTS = "constraints", "Constraints", ASKED
+    EQUILIBRIA = "equilibria", "Equilibria and linearization", ASKED, OF_MASSES
+    FORWARD_DYNAMICS = "forward_dynamics", "Forward dynamics", ASKED, OF_MASSES
+    TASK_INERTIA = "task_inertia", "Inertia as the task meets it", ASKED, OF_MASSES, OF_A_TABLE, OF_A_TASK
+    DEFINITE = "definite", "Inertia matrices: symmetric, positive definite", ASKED
+    STATICS = "statics", "Statics", ASKED, OF_A_TABLE
 
-    def __new__(cls, value: str, heading: str = "", asked_for: bool = False) -> Stage:
+    def __new__(cls, value: str, heading: str = "", *needs: str) -> Stage:
         """The member of that value."""
         stage = str.__new__(cls, value)
         stage._value_ = value
         stage.heading = heading
-        stage.asked_for = asked_for
+        stage.needs = frozenset(needs)
         return stage
 
     def part(self, file: str = "") -> Any:
@@ -66,9 +69,14 @@ class Stage(StrEnum):
         return import_module(name) if self.asked_for and find_spec(name) is not None else None
 
     @property
+    def asked_for(self) -> bool:
+        """Whether only a robot has it of which something of it is asked."""
+        return ASKED in self.needs
+
+    @property
     def needs_masses(self) -> bool:
         """Whether it is left out where no body has mass."""
-        return self in _OF_MASSES
+        return OF_MASSES in self.needs
 
     @property
     def needs_bodies(self) -> bool:
@@ -78,20 +86,8 @@ class Stage(StrEnum):
     @property
     def needs_table(self) -> bool:
         """Whether it speaks of frames and joints, and is left out of a model without a table."""
-        return self in _OF_A_TABLE
+        return OF_A_TABLE in self.needs
 
-
-OF_THE_MODEL = frozenset({Stage.PARAMETERS, Stage.EQUILIBRIA, Stage.FORWARD_DYNAMICS, Stage.TASK_INERTIA})
-"""The stages that go on from the equations of motion."""
-
-_OF_MASSES = OF_THE_MODEL | {
-    Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED,
-}  # fmt: skip
-
-_OF_A_TABLE = frozenset({
-    Stage.FRAMES, Stage.KINEMATICS, Stage.JACOBIAN, Stage.TASK, Stage.SINGULAR, Stage.INVERSE, Stage.RATES,
-    Stage.STATICS, Stage.NEWTON_EULER, Stage.TASK_INERTIA,
-})  # fmt: skip
 
 COURSE = tuple(stage for stage in Stage if not stage.asked_for)
 """The stages of the course's derivation, which every robot with masses has."""

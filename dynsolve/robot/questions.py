@@ -234,6 +234,16 @@ class Questions(Struct, frozen=True):
     candidates: tuple[Candidate, ...] = ()
 
     @property
+    def given(self) -> frozenset[str]:
+        """What is given that results may need (`Family.needs`), by its key."""
+        there = {
+            "velocity": self.velocity is not None,
+            "acceleration": self.acceleration is not None,
+            "linearize": bool(self.model.linearize),
+        }
+        return frozenset(name for name, given in there.items() if given)
+
+    @property
     def state_is_open(self) -> bool:
         """Whether the state that reaches the target is not known yet."""
         return self.state_is_reached and not self.state

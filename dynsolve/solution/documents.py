@@ -476,13 +476,13 @@ class _Parts(Struct, dict=True):
         derivation = (
             *self.derivation(),
             *part("the summary", self.summary),
-            *part("the numbers", self.numbers),
+            *part("the section of numbers", self.numbers),
         )
         stated = part("what is given", lambda: self.statement(derivation))
         document = Document((
             *self.opening(),
             *stated,
-            *part("the letters", lambda: self.letters(stated, derivation)),
+            *part("the list of letters", lambda: self.letters(stated, derivation)),
             *derivation,
             *self.closing(),
             *part("the notation", lambda: self.notation((*stated, *derivation))),

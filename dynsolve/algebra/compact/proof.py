@@ -76,7 +76,7 @@ class Proof:
             return True
 
     def _poly(self, poly: Any) -> int:
-        return _residue(poly(*self._point))
+        return _residue(poly(*self._point) if self._point else poly.leading_coefficient())
 
     def _tree(self, node: Node) -> int:
         found = self._known.get(node)

@@ -24,6 +24,7 @@ from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.entry_comparison import placed, spans, substituted
@@ -342,4 +343,6 @@ def _twice(value: Any) -> Expr | Matrix | None:
 def _entries(value: Any) -> tuple[Expr, ...]:
     if isinstance(value, FractionMatrix):
         return tuple(entry.numerator for entry in value.entries)
+    if isinstance(value, RationalExpr):
+        return (value.numerator,)
     return value.entries if isinstance(value, Matrix) else (value,)

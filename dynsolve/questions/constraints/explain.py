@@ -210,9 +210,6 @@ def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:
     return rows if "reduced" in context.wanted or is_small(*rows) else ()
 
 
-# -- the accelerations without constraints, and the inertia Λ that a force at the task meets -----------
-
-
 # -- hints -----------------------------------------------------------------------------------------
 
 AT_HAND = "You have the forward kinematics, and the matrices of the model:"

@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from dynsolve.derivation.graph import Skipped
+from dynsolve.explain.set_forms import SetForms
 from dynsolve.notation.tree import (
     Node,
 )
-
-if TYPE_CHECKING:
-    pass
-
-
-from dynsolve.explain.set_forms import SetForms
 
 
 class ReducedForms(SetForms):

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family, Kind, of_robot
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.questions import Questions
 
 EQUILIBRIA = Family(
     name="equilibria",
@@ -57,3 +58,18 @@ LINEAR_B = Family(
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""
+
+
+_PARTS = {
+    "equilibria": "equilibria",
+    "balance": "balance",
+    "linear_A": "linearization",
+    "linear_B": "linearization",
+}
+"""What is found, by what is asked for."""
+
+
+def heading(questions: Questions) -> str:
+    """What stands over it: what is asked of it."""
+    asked = dict.fromkeys(part for name, part in _PARTS.items() if name in questions.asked)
+    return " and ".join(asked).capitalize() or Stage.EQUILIBRIA.heading

@@ -16,6 +16,7 @@ REACH = Key(
     "[px, py]",
     "r1, r2, ...; of a pose x, y, z, r11, ..., r33",
     remedy="write reach: [px, py], a name or a number for each component of the task",
+    serves=("inverse",),
 )
 BRANCHES = Key(
     "branches",
@@ -30,6 +31,7 @@ LIMITS = Key(
     "{theta1: [-90deg, 90deg]}",
     "none",
     remedy="write limits: {theta1: [-90deg, 90deg], d2: [0, 1/2]}",
+    serves=("inverse",),
 )
 
 KEYS = (REACH, BRANCHES, LIMITS)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family, Kind, of_robot
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.questions import Questions
 
 QD = Family(
     name="qd",
+    at_state=True,
     called="the rates of the coordinates",
     stage=Stage.RATES,
     shape=("n", 1),
@@ -20,6 +22,7 @@ QD = Family(
 
 QDD = Family(
     name="qdd",
+    at_state=True,
     called="the accelerations of the coordinates",
     stage=Stage.RATES,
     shape=("n", 1),
@@ -32,6 +35,7 @@ QDD = Family(
 
 NULLSPACE = Family(
     name="nullspace",
+    at_state=True,
     called="the null space {} of the Jacobian",
     stage=Stage.RATES,
     kind=Kind.SPAN,
@@ -44,6 +48,7 @@ NULLSPACE = Family(
 
 RANGESPACE = Family(
     name="rangespace",
+    at_state=True,
     called="the range space {} of the Jacobian",
     stage=Stage.RATES,
     kind=Kind.SPAN,
@@ -56,6 +61,7 @@ RANGESPACE = Family(
 
 LOST = Family(
     name="lost",
+    at_state=True,
     called="the directions {} that are lost",
     stage=Stage.RATES,
     kind=Kind.SPAN,
@@ -65,3 +71,9 @@ LOST = Family(
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""
+
+
+def heading(questions: Questions) -> str:
+    """What stands over it: accelerations where they are given or asked for."""
+    is_of_both = "acceleration" in questions.given or "qdd" in questions.asked
+    return Stage.RATES.heading if is_of_both else "Rates of the joints"

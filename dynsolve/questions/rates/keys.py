@@ -13,6 +13,7 @@ VELOCITY = Key(
     "The velocity of the task, for which the rates qd are asked.",
     "[vx, vy]",
     remedy="write velocity: [vx, vy], an expression for each component of the task",
+    serves=("qd",),
 )
 ACCELERATION = Key(
     "acceleration",
@@ -20,6 +21,7 @@ ACCELERATION = Key(
     "The acceleration of the task, for which the accelerations qdd are asked.",
     "[0, 0]",
     remedy="write acceleration: [0, 0], an expression for each component of the task",
+    serves=("qdd",),
 )
 WEIGHTS = Key(
     "weights",
@@ -35,6 +37,7 @@ WEIGHTS = Key(
     "{theta1: 2, L2: 1}",
     "1 for each coordinate",
     remedy="write weights: {q1: 2, q2: w}, a matrix [[2, 0], [0, w]], or D",
+    serves=("qd", "qdd"),
 )
 
 KEYS = (VELOCITY, ACCELERATION, WEIGHTS)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family, Owner, of_robot
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.questions import Questions
 from dynsolve.robot.units import ENERGY
 
 LOAD = Family(
@@ -22,6 +23,7 @@ LOAD = Family(
 
 Q = Family(
     name="Q",
+    at_state=True,
     called="the generalized forces {} of what acts from outside",
     stage=Stage.STATICS,
     shape=("n", 1),
@@ -37,6 +39,7 @@ Q = Family(
 
 TAU_STATIC = Family(
     name="tau_static",
+    at_state=True,
     called="the forces and torques {} that hold the arm at rest",
     stage=Stage.STATICS,
     shape=("n", 1),
@@ -52,6 +55,7 @@ TAU_STATIC = Family(
 
 Q_ENTRY = Family(
     name="Q{i}",
+    at_state=True,
     called="the entry|entries {} of the generalized forces that act from outside",
     rule="Q",
     owner=Owner.COORDINATE,
@@ -63,6 +67,7 @@ Q_ENTRY = Family(
 
 TAU_STATIC_ENTRY = Family(
     name="tau_static{i}",
+    at_state=True,
     called="the entry|entries {} of the forces and torques that hold the arm at rest",
     rule="tau_static",
     owner=Owner.COORDINATE,
@@ -74,3 +79,9 @@ TAU_STATIC_ENTRY = Family(
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""
+
+
+def heading(questions: Questions) -> str:
+    """What stands over it: not all that act from outside are asked to be held."""
+    is_held = any(name.startswith("tau_static") for name in questions.asked)
+    return Stage.STATICS.heading if is_held else "Forces from outside"

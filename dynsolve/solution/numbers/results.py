@@ -32,7 +32,7 @@ from dynsolve.solution.numbers.substitution import (
     without_constants,
 )
 
-Exact = Expr | Matrix | FractionMatrix
+Exact = Expr | RationalExpr | Matrix | FractionMatrix
 """What a result may be."""
 
 
@@ -77,7 +77,7 @@ class _NumericResults(ABC):
             return entry_of(self.shown(own.whole, digits), own.entry)
         value = self.value(name)
         if isinstance(value, Skipped):
-            return tree.Words(value.why)
+            return tree.Words(f"({value.why})")
         return rounded(self.plain(name), digits or self.digits) if self.shows_decimals else self(name)
 
 
@@ -124,9 +124,21 @@ class State(_NumericResults):
         odd = any(all(atom == () for atom, _ in angle.terms) for angle in turned)
         return self.decimal or self.given.decimal or is_numeric(self.robot) or odd
 
+    def value(self, name: str) -> Any:
+        """A value of the derivation, skipped where a denominator is 0 at this state."""
+        value = super().value(name)
+        fractions = value.entries if isinstance(value, FractionMatrix) else (value,)
+        if any(is_zero(self._put(one.denominator)) for one in fractions if isinstance(one, RationalExpr)):
+            return Skipped("a denominator is 0 at this state")
+        return value
+
     def exact(self, name: str) -> Exact:
         """A result in the exact ring of this state."""
         value = self.value(name)
+        if isinstance(value, Skipped):
+            raise AlgebraError(f"{name}: {value.why}")
+        if isinstance(value, RationalExpr):
+            return _whole(self._fraction(value))
         if isinstance(value, FractionMatrix):
             return tidy(self._put.ring, ([self._fraction(entry) for entry in row] for row in value.rows))
         return self._put.matrix(value) if isinstance(value, Matrix) else self._put(value)
@@ -140,16 +152,15 @@ class State(_NumericResults):
         return self._form(_plain(self.exact(name)))
 
     def _fraction(self, value: RationalExpr) -> RationalExpr:
-        below = self._put(value.denominator)
-        if is_zero(below):
-            raise AlgebraError("a denominator is 0 at this state")
-        return cancelled(RationalExpr(self._put(value.numerator), below))
+        return cancelled(RationalExpr(self._put(value.numerator), self._put(value.denominator)))
 
     def _form(self, value: Exact) -> Node:
-        if isinstance(value, FractionMatrix):
+        if isinstance(value, RationalExpr | FractionMatrix):
             from dynsolve.explain.forms import ProductForms
 
             forms = ProductForms(self._compactor)
+            if isinstance(value, RationalExpr):
+                return forms.fraction(value)
             return tree.Matrix(tuple(tuple(map(forms.fraction, row)) for row in value.rows))
         return self._compactor.matrix(value) if isinstance(value, Matrix) else self._compactor.form(value)
 
@@ -161,9 +172,7 @@ class State(_NumericResults):
         """
         value = self.exact(name)
         if isinstance(value, FractionMatrix):
-            return [
-                [_float(x.numerator, name) / _float(x.denominator, name) for x in row] for row in value.rows
-            ]
+            return [[_float(entry, name) for entry in row] for row in value.rows]
         if isinstance(value, Matrix):
             return [[_float(entry, name) for entry in row] for row in value.rows]
         return _float(value, name)
@@ -175,8 +184,15 @@ class State(_NumericResults):
         return to_sympy(self(name))
 
 
+def _whole(value: RationalExpr) -> Expr | RationalExpr:
+    """A fraction, as a polynomial where nothing is below."""
+    return value.numerator if value.divisor is None else value
+
+
 def _plain(value: Exact) -> Exact:
     """A value with its roots, cosines of numbers and π as decimals."""
+    if isinstance(value, RationalExpr):
+        return _whole(cancelled(RationalExpr(*map(without_constants, (value.numerator, value.denominator)))))
     if isinstance(value, FractionMatrix):
         rows = (
             [(without_constants(x.numerator), without_constants(x.denominator)) for x in row]
@@ -186,7 +202,9 @@ def _plain(value: Exact) -> Exact:
     return value.map(without_constants) if isinstance(value, Matrix) else without_constants(value)
 
 
-def _float(expr: Expr, name: str) -> float:
+def _float(expr: Expr | RationalExpr, name: str) -> float:
+    if isinstance(expr, RationalExpr):
+        return _float(expr.numerator, name) / _float(expr.denominator, name)
     plain = without_constants(expr)
     if not plain.is_number:
         raise ValueError(f"{name} holds parameters without values: give them, with_values(...)")
