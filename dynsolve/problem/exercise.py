@@ -9,6 +9,7 @@ from fractions import Fraction
 from math import radians
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
@@ -233,9 +234,17 @@ def _answer(faults: Faults, node: YamlNode, names: Quantities | None) -> str | N
 
 
 def _lacking(names: Quantities, text: str) -> str:
-    """The key without which a file has no answer of this name; nothing where that is not why."""
-    needed = {family.needs for family in FAMILIES if family.name == text} - names.owners.given
-    return next((key for key in PROBLEM.names if key in needed), "")
+    """The key without which alone a file has no answer of this name; nothing where that is not why."""
+    return next(
+        (
+            family.needs
+            for family in FAMILIES
+            if family.name == text
+            and family.needs in PROBLEM.names
+            and replace(names.owners, given=names.owners.given | {family.needs}).has(family)
+        ),
+        "",
+    )
 
 
 def _entries(faults: Faults, node: YamlNode | None, key: str) -> tuple[tuple[ScalarNode, YamlNode], ...]:

@@ -146,3 +146,23 @@ def test_without_masses_gravity_is_not_asked_for() -> None:
     out = dynsolve("solve", "-", "--at", "q1=45deg", stdin=text).out
     assert "With numbers" in out and "√2" in out and "still a symbol" not in out and "torques" not in out
     assert "All velocities and accelerations are 0." in out
+
+
+def test_numbers_for_every_parameter_at_a_state_leave_nothing_in_the_ring() -> None:
+    values = "l1=1,l2=1,lc1=1/2,lc2=1/2,m1=1,m2=1,I1=1,I2=1,g=10"
+    ran = dynsolve("solve", "planar-2r", "--set", values, "--at", "q1=0,q2=0,q1_dot=1,q2_dot=1", "--json")
+    assert not ran.err
+    at = json.loads(ran.out)["at"]["results"]
+    assert at["K"] == "4.625"  # ½ (d₁₁ + 2d₁₂ + d₂₂) = ½ (4.5 + 3.5 + 1.25)
+
+
+def test_where_a_denominator_is_0_one_result_is_left_out_and_not_all(tmp_path: Path) -> None:
+    file = tmp_path / "arm.yaml"
+    file.write_text(
+        "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nvelocity: [v, 0]\nfind: [qd, Jr]\n", encoding="utf-8"
+    )
+    ran = dynsolve("solve", str(file), "--at", "q1=0,q2=0", "--json")
+    at = json.loads(ran.out)["at"]["results"]
+    assert at["qd"] == {"skipped": "a denominator is 0 at this state"}
+    assert at["Jr"] == [["0", "0"], ["l1 + l2", "l2"]]
+    assert "𝐪̇ = (a denominator is 0 at this state)" in dynsolve("solve", str(file), "--at", "q1=0,q2=0").out

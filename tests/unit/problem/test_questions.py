@@ -165,7 +165,11 @@ FORCES = {
     "a coordinate in a value": ("state: {theta1: «theta2»}", "contains the coordinate", "numbers and param"),
     "a velocity of another length": ("velocity: «[vx]»", "the task has 2 components", "one for each"),
     "a velocity as a number": ("velocity: «3»", "a list of expressions", "velocity: [vx, vy]"),
-    "rates without a velocity": ("find: [«qd»]", "`qd` is no answer of this problem", ""),
+    "rates without a velocity": (
+        "find: [«qd»]",
+        "`qd` is found from `velocity`, which is not given",
+        "[vx, vy]",
+    ),
     "twice": ("state: {theta1': 1, «theta1_dot»: 2}", "has a value already", "keep one"),
 }
 

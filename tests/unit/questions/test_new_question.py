@@ -17,7 +17,7 @@ import pytest
 
 import dynsolve
 
-STAGE = '    SHARES = "shares", "The parts of the bodies in the inertia matrix", True\n'
+STAGE = '    SHARES = "shares", "The parts of the bodies in the inertia matrix", ASKED, OF_MASSES\n'
 
 FILES = {
     "__init__": '''"""The parts of the bodies in the inertia matrix."""
@@ -28,6 +28,7 @@ from dynsolve.quantities.stages import Stage
 
 SHARE = Family(
     name="Dshare{b}",
+    called="the part|parts {} of the body|bodies in the inertia matrix",
     owner=Owner.BODY,
     stage=Stage.SHARES,
     shape=("n", "n"),
