@@ -30,7 +30,7 @@ from itertools import groupby, islice, product
 from dynsolve.answers.reading import yaml_values
 from dynsolve.answers.reading.displays import chain
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.grids import MAX_LENGTH
+from dynsolve.answers.reading.grids import MAX_LENGTH, symbols_in
 from dynsolve.answers.reading.left_side import RightSide, read_right_side
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.prepare import prepared
@@ -240,6 +240,16 @@ def is_set(vocabulary: Vocabulary, text: str) -> bool:
     if fault is not None or not nodes or not names_in(*nodes).isdisjoint(vocabulary.reached):
         return False
     return all(has_coordinate(vocabulary, node) for node in nodes)
+
+
+def are_motions(vocabulary: Vocabulary, text: str) -> bool:
+    """Whether every equation of a text holds an acceleration, and none a multiplier."""
+    try:
+        found, fault = _read(vocabulary, Kind.CONDITIONS, _of_texts(vocabulary, [[text]]))
+    except ReadError:
+        return False
+    nodes = [part.node for one in found for part in one]
+    return fault is None and all(any(s.dots == 2 for s in symbols_in(node)) for node in nodes)
 
 
 def _read(

@@ -16,13 +16,14 @@ line, or the items of the list below, are the alternatives.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from itertools import islice
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from dynsolve.answers.reading.configurations import (
+    are_motions,
     coordinate_named,
     function_named,
     is_set,
@@ -49,6 +50,7 @@ from dynsolve.answers.reading.set_text import (
     SAID,
     SO,
     STABLE,
+    WITHOUT_MULTIPLIERS,
     held_together,
     in_signs,
     joined,
@@ -60,6 +62,7 @@ from dynsolve.answers.verdict import Place
 from dynsolve.errors import ReadError
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
+from dynsolve.questions.constraints import REDUCED
 
 # Sets in the lines of a report that a head names, as `Equilibria
 
@@ -79,8 +82,18 @@ _ITEM = re.compile(
     r"\n(?:[ \t]*\n)?(?:[ \t]*\\begin\{(?:itemize|enumerate)\}[^\n]*\n)?"
     r"[ \t]*(?:[-*+•]|\(?[0-9a-z]{1,2}[.)]|\\item\b)[ \t]*(?P<value>[^\n]*)"
 )
+_EQUATION = re.compile(r"\n(?![ \t]*(?:\\begin|\\\[|\$\$))(?P<value>[^\n=:]+=[^\n=]+)")
+_DISPLAY = re.compile(
+    r"\$\$(?P<dollars>(?:(?!\$\$).)+)\$\$|\$(?P<inline>[^$\n]+)\$|\\\[(?P<bracket>(?:(?!\\\]).)+)\\\]"
+    r"|\\begin\{(?P<name>(?:equation|align|gather|eqnarray|multline)\*?)\}(?P<rows>.+?)\\end\{(?P=name)\}",
+    re.DOTALL,
+)
+_SENTENCE = re.compile(r"[.;!?](?=\s)|\n[ \t]*\n|\n(?=[ \t]*(?:#|\\(?:sub){0,2}section))")
+_NEXT = re.compile(r"[ \t\n.,;]*(?:(?:and|und|og)[ \t\n]*)?")
+"""What stands between displays that one sentence announces."""
+
 _HEADED_SETS_REMARK = re.compile(
-    r"(?<!\w)\((?=[^()=\\]*[^\W\d_]{4})[^()=\\]*\)(?!\s*(?:=|∈|\\in))"
+    r"(?<!\w)\((?=[^()=\\]*[^\W\d_]{4})[^()=\\*^_]*\)(?!\s*(?:=|∈|\\in))"
     rf"|,?[ \t]+(?:both |all |beide |begge )?(?:{STABLE})\b|^[ \t]*(?:{STABLE})[ \t]*:",
     re.IGNORECASE,
 )
@@ -139,20 +152,50 @@ def headed_sets(text: str, reader: EquationReader) -> list[HeadedSet]:
     for line in _LINE.finditer(text) if asked else ():
         name = next((name for name in asked if HEADS[name].fullmatch(line["head"])), "")
         if name and len(found) < _MOST and line.start() >= (found[-1].end if found else 0):
-            end, values = _values(text, line)
+            end, values = _values(text, line, has_lines=name == REDUCED.name)
             value = _value(values, coordinates, is_joined=name != "singular")
             if value and _RELATION.search(value):
                 start = line.start("shown")
                 found.append(HeadedSet(name, start, _before_closing(text, start, end), value))
+    if REDUCED.name in asked and REDUCED.name not in {one.name for one in found}:
+        found += _announced_motions(text, reader)
     return found
 
 
-def _values(text: str, line: re.Match[str]) -> tuple[int, list[str]]:
-    """Where the values of a head end, and these: those of its line, else the items of the list below."""
+def _announced_motions(text: str, reader: EquationReader) -> Iterator[HeadedSet]:
+    """The equations of motion of which the sentence before them says that they are without multipliers."""
+    start, end, values = 0, 0, list[str]()
+    is_led = False
+    for display in islice(_DISPLAY.finditer(text), _MOST):
+        goes_on = _NEXT.fullmatch(text, end, display.start()) is not None
+        if values and not goes_on:
+            yield HeadedSet(REDUCED.name, start, end, " ; ".join(values))
+            values = []
+        sentence = _SENTENCE.split(text[max(end, display.start() - _BEFORE) : display.start()].rstrip())[-1]
+        is_led = (is_led and goes_on) or WITHOUT_MULTIPLIERS.search(sentence) is not None
+        rows = _rows(next(filter(None, display.group("dollars", "inline", "bracket", "rows"))))
+        value = " ; ".join(held_together(_plain(row)) for row in rows)
+        if is_led and "=" in value and are_motions(reader.vocabulary, value):
+            start = start if values else display.start()
+            values.append(value)
+        if "=" in value:
+            end = display.end()
+    if values:
+        yield HeadedSet(REDUCED.name, start, end, " ; ".join(values))
+
+
+def _values(text: str, line: re.Match[str], has_lines: bool) -> tuple[int, list[str]]:
+    """Where the values of a head end, and these: those of its line, else the items of the list below.
+
+    Where it `has_lines`, these may be equations without the mark of a list.
+    """
     if (line["value"] or "").strip(_BLANK):
         return line.end(), [line["value"]]
     end, values = line.end(), list[str]()
     while len(values) < _MOST and (item := _ITEM.match(text, end)) is not None:
+        values.append(item["value"])
+        end = item.end()
+    while has_lines and len(values) < _MOST and (item := _EQUATION.match(text, end)) is not None:
         values.append(item["value"])
         end = item.end()
     return end, values

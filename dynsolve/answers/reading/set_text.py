@@ -53,7 +53,7 @@ HEADS = {
         rf"(?:alle )?(?:singularitet(?:er|en|ene)?|singulære? ?(?:{_PLACES[2]})?){_AT[1]}",
     )),
     "reduced": _compiled((
-        r"(?:the )?reduced equations(?: of motion)?(?: are)?",
+        r"(?:the )?reduced(?: equations(?: of motion)?)?(?: are)?",
         r"(?:die )?reduzierten? (?:bewegungs)?gleichungen",
         r"(?:de )?reduserte (?:bevegelses)?(?:ligningene|ligninger|likninger|likningene)",
     )),
@@ -79,6 +79,14 @@ ANNOUNCED = {
     )),
 }  # fmt: skip
 
+WITHOUT_MULTIPLIERS = _compiled((
+    r"\breduced (?:equations?|model|system|dynamics|form)\b",
+    r"\beliminat\w+|\bwithout (?:the )?(?:lagrange )?multipliers?\b",
+    r"\breduzierte\w*|\beliminier\w+|\bohne (?:die )?(?:lagrange-?)?multiplikatoren\b",
+    r"\breduserte\b|\belimin(?:erer|ert|ering)\w*|\buten (?:lagrange-?)?multiplikator\w*",
+))  # fmt: skip
+"""What announces equations of motion without multipliers in the sentence before a display."""
+
 DENIED = _compiled((
     r"\b(?:not|never|no|non-?singular|un(?!d\b|s\b|ser|ten\b|[dt]er\b)\w+|except|near|about|around|lineari[sz]\w*"
     r"|far from|full rank|regular)\b",
@@ -100,7 +108,7 @@ SAID = {
 }  # fmt: skip
 
 OR = "or|oder|eller|ou"
-AND = "and|und|og|et|y"
+AND = "and|und|og|et"
 _IT = r"(?:(?:which|it|this|that|was|das|dies|woraus|daraus|es|det|dette|som) )?"
 SO = (
     rf"(?:(?:{AND}) )?(?:i\.\s?e\.|that is|hence|thus|therefore|so(?: that)?"
