@@ -20,6 +20,7 @@ from msgspec.structs import replace
 from dynsolve.answers.reading.answer_list import Member, Origin
 from dynsolve.answers.reading.by_content import (
     called_force,
+    called_friction,
     force_meant,
     is_condition,
     meant,
@@ -102,7 +103,9 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
     if isinstance(side, NamedAnswers) and isinstance(value, RightSide):
         name = name_alone(vocabulary, members[0])
         called = called_force(vocabulary, name, side.candidates, [value.value])
-        side = NamedAnswers(called or side.candidates)
+        if friction := called_friction(vocabulary, name, side.candidates, [value.value]):
+            reader.define(name, value)
+        side = NamedAnswers(called or friction or side.candidates)
         origin = replace(origin, names=side.candidates)
     names = [side.candidates] if isinstance(side, NamedAnswers) else []
     before = read_right_side(vocabulary, members[-2]) if len(members) > 2 else None

@@ -57,7 +57,7 @@ _FRICTION = re.compile(r"(?:tau|[TMFQ])(?:f|fr|fric|friction|r|R|Reib|reib|fv|d|
 def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
     """The answers that a name of the student's own may be, by what its value is made of; none for others."""
     if _FRICTION.fullmatch(name) and vocabulary.is_answer("friction"):
-        return ("friction",) if _is_friction(vocabulary, value) else ()
+        return ("friction",) if isinstance(value, Grid) and _is_friction(vocabulary, value) else ()
     found = _NAME.fullmatch(name)
     if found is None or isinstance(value, Abstract):
         return ()
@@ -80,8 +80,8 @@ def meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, ...]:
 
 
 def _is_friction(vocabulary: Vocabulary, value: Value) -> bool:
-    """Whether a vector holds rates, beside no mass and no acceleration."""
-    symbols = symbols_in(value) if isinstance(value, Grid) else []
+    """Whether a value holds rates, beside no mass and no acceleration."""
+    symbols = [] if isinstance(value, Abstract) else symbols_in(value)
     has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
     return not has_mass and {symbol.dots for symbol in symbols} in ({1}, {0, 1})
 
@@ -120,6 +120,16 @@ def called_force(
     if name in candidates or not values or not may_differ:
         return ()
     return force_meant(vocabulary, name, values[-1])
+
+
+def called_friction(
+    vocabulary: Vocabulary, name: str, candidates: tuple[str, ...], values: Sequence[Value]
+) -> tuple[str, ...]:
+    """The entry of the friction that F_1 is, where it holds rates beside no mass; none of a τ_1."""
+    if name.startswith("tau") or not values or not _is_friction(vocabulary, values[-1]):
+        return ()
+    entries = (f"friction{q.index}" for q in vocabulary.coordinates if q.force in candidates)
+    return tuple(entry for entry in entries if vocabulary.is_answer(entry))
 
 
 # Equations of motion as mechanics courses write them
@@ -209,8 +219,12 @@ def acceleration_of(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> i
 
 
 def says_what_drives(vocabulary: Vocabulary, names: Sequence[str], member: list[Token]) -> bool:
-    """Whether a side of forces only calls them by letters, and passive ones 0: `F - b ẋ`, `(u, 0)` of all."""
-    if any(term.forces for term in _terms(vocabulary, member)):
+    """Whether a side of forces only calls them by letters, and passive ones 0: `F - b ẋ`, `(u, 0)` of all.
+
+    Letters that the report defines below are none of these when it is read anew.
+    """
+    if called := [term.tokens for term in _terms(vocabulary, member) if term.forces]:
+        vocabulary.missed.update(name_alone(vocabulary, tokens) for tokens in called)
         return True
     if [token.text for token in member[-2:]] in (["^", "T"], ["^", "top"]):
         member = member[:-2]

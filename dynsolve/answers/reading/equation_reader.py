@@ -22,6 +22,7 @@ from dynsolve.answers.reading.by_content import (
     acceleration_of,
     block,
     called_force,
+    called_friction,
     calls_forces,
     force_meant,
     is_condition,
@@ -232,11 +233,7 @@ class EquationReader:
         if self.defines_shorthand(members[0], _values(read)):
             self.found.left_alone.append(origin.of(members, _DEFINITION))
             return
-        values = [found.value for found in _values(read)]
-        names = [
-            called_force(self.vocabulary, name_alone(self.vocabulary, called[name]), name, values) or name
-            for name in names
-        ]
+        names = self._by_value(called, _values(read))
         if names:
             origin = replace(origin, names=tuple(name for candidates in names for name in candidates))
         if self._entry_of_vector(members[0], read, origin):
@@ -252,6 +249,21 @@ class EquationReader:
             self.found.not_recognized.append(origin.of(members, CONSTANT))
         else:
             self._with_names(names, members, read, origin)
+
+    def _by_value(
+        self, called: dict[tuple[str, ...], list[Token]], found: list[RightSide]
+    ) -> list[tuple[str, ...]]:
+        """What the sides of a chain name, by its value; of the friction and an entry of it, the entry."""
+        values = [one.value for one in found]
+        names = list[tuple[str, ...]]()
+        entries = list[tuple[str, ...]]()
+        for candidates, member in called.items():
+            name = name_alone(self.vocabulary, member)
+            if entry := called_friction(self.vocabulary, name, candidates, values):
+                self.define(name, found[-1])
+                entries.append(entry)
+            names.append(entry or called_force(self.vocabulary, name, candidates, values) or candidates)
+        return [one for one in names if one != ("friction",)] if entries else names
 
     def _read(self, tokens: list[Token], owners: tuple[str, ...], first: LeftSide) -> RightSide | ReadError:
         """The value of a member; what u is may be a potential energy, which knows the zero of its height."""
