@@ -112,7 +112,7 @@ class Owners(Struct, frozen=True):
             stages=asked_stages(asked),
             loads=len(asked.loads),
             task_rows=asked.task.rows if asked.task else 0,
-            task_names=component_names(asked.task) if asked.task else (),
+            task_names=component_names(asked),
             constraints=len(asked.constraints),
             given=asked.given
             | frozenset(

@@ -121,9 +121,13 @@ def coordinate_of(point: str, axis: int) -> Reference:
 _AXES = "xyz"
 
 
-def component_names(task: Task) -> tuple[tuple[str, ...], ...]:
-    """What else each component of r(q) is called, where it is a coordinate of a point: x, px, xtip."""
-    return () if task.is_twist else tuple(map(_names_of, task.entries))
+def component_names(questions: Questions) -> tuple[tuple[str, ...], ...]:
+    """What else each component of r(q) is called: x, px, xtip of a point, and as what is to be reached is."""
+    task = questions.task
+    if task is None or task.is_twist:
+        return ()
+    own = [(name,) for name in questions.reach] or [()] * task.rows
+    return tuple(_names_of(entry) + name for entry, name in zip(task.entries, own, strict=True))
 
 
 def _names_of(entry: Node) -> tuple[str, ...]:

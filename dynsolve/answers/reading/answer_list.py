@@ -31,7 +31,7 @@ from dynsolve.answers.reading.report_text import FREE, is_of_case
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.verdict import Answer, ConfigurationAnswer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import ZERO, Matrix, Node, names_in
+from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Symbol, mapped, names_in, walk
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.stages import Stage
@@ -163,7 +163,8 @@ class AnswerList(Struct, dict=True):
             error = misfit(self.vocabulary, candidates, found.value, start, end)
             return self.unreadable(candidates, error, origin, member.index)
         name, node, note = fits[0]
-        node = with_own_entries(self.vocabulary, name, node)
+        node = self._of_task(with_own_entries(self.vocabulary, name, node))
+        of_task = (part.quantity for part in walk(node) if isinstance(part, Reference))
         note = "" if display.plain and "row" in note else note
         return Answer(
             name=name,
@@ -174,10 +175,20 @@ class AnswerList(Struct, dict=True):
             read_as=self.printer.text(node),
             notes=(*found.notes, note) if note else found.notes,
             alternatives=tuple(other for other, _, _ in fits[1:]),
-            references=found.references,
+            references=tuple(dict.fromkeys((*found.references, *of_task))),
             free=found.free,
             occurrence=(origin.equation, member.index),
         )
+
+    def _of_task(self, node: Node) -> Node:
+        """A value in which what is to be reached is the component of r that it stands for: x in J_r."""
+        known, reached = self.vocabulary.quantities, self.vocabulary.reached
+
+        def put(part: Node) -> Node:
+            entry = reached.get(part.name, "") if isinstance(part, Symbol) and not part.dots else ""
+            return Reference(entry) if entry in known else part
+
+        return mapped(node, put) if reached else node
 
     def unread(self, candidates: tuple[str, ...], member: Member, origin: Origin) -> list[Answer]:
         """The records of a value that cannot be read: of a matrix those of its entries, where some can."""
