@@ -60,9 +60,10 @@ from dynsolve.questions.judging import Part
 
 # Formulas of sets and branches: read, and asked which coordinates and names stand in them
 
-EITHER = re.compile(r"±|\\pm\b|\+/-")
-OPPOSITE = re.compile(r"∓|\\mp\b|-/\+")
-"""One of two signs, and the other."""
+_FIRST = r"(?:(?<=[=(,{])|(?<=[=(,{] )|\A)\s*"
+EITHER = re.compile(rf"±|\\pm\b|\+/-|{_FIRST}\+-")
+OPPOSITE = re.compile(rf"∓|\\mp\b|-/\+|{_FIRST}-\+")
+"""One of two signs, and the other; `+-` is one where nothing stands before it."""
 
 
 def value(vocabulary: Vocabulary, tokens: list[Token]) -> Node:

@@ -328,19 +328,31 @@ class DisplayedSets(Struct, dict=True):
         return held_together(text) if self._spoken_of(words + text) == "equilibria" else text
 
     def _without_own(self, display: Display, row: str) -> str:
-        r"""A row without the letter that it defines beside a coordinate: `\cos q_2 = ... =: D`."""
+        r"""A row without what it defines beside a coordinate: `\cos q_2 = ... =: D`, `q_2 = ..., where D = ...`."""
+        equations = joined(_plain(row))
+        if len(equations) > 1:
+            own = [one for one in equations if self._is_own(one.partition("=")[0])]
+            left = [one for one in equations if one not in own]
+            if not own or not all(self._is_unknown(one.partition("=")[0]) for one in left):
+                return row
+            for one in own:
+                self.reader.read_display(replace(display, text=one))
+            return " and ".join(left)
         members = _plain(row).split("=")
-        if not 3 <= len(members) <= _MOST_MEMBERS or len(joined(_plain(row))) > 1:
+        if not 3 <= len(members) <= _MOST_MEMBERS:
             return row
         unknown = [member for member in members if self._is_unknown(member)]
-        known = self.reader.vocabulary.symbols
-        own = [m for m in members if _OWN.fullmatch(m) and m not in unknown]
-        own = [m for m in own if key(m.strip().lstrip("\\")) not in known]
+        own = [member for member in members if self._is_own(member)]
         if not unknown or len(own) != 1 or len(own) + len(unknown) == len(members):
             return row
         value = next(member for member in reversed(members) if member not in (*own, *unknown))
         self.reader.read_display(replace(display, text=f"{own[0]} = {value}"))
         return "=".join(member for member in members if member not in own)
+
+    def _is_own(self, text: str) -> bool:
+        """Whether a text is a name that means nothing in the problem."""
+        is_known = key(text.strip().lstrip("\\")) in self.reader.vocabulary.symbols
+        return bool(_OWN.fullmatch(text)) and not is_known and not self._is_unknown(text)
 
     def _space(self, display: Display) -> Display | None:
         r"""`\mathcal{N}(J) = span{...}` as the vectors of an answer; None for any other display."""
