@@ -111,7 +111,8 @@ OR = "or|oder|eller|ou"
 AND = "and|und|og|et"
 _IT = r"(?:(?:which|it|this|that|was|das|dies|woraus|daraus|es|det|dette|som) )?"
 SO = (
-    rf"(?:(?:{AND}) )?(?:i\.\s?e\.|that is|hence|thus|therefore|so(?: that)?"
+    rf"(?:(?:{AND}) )?(?:i\.\s?e\.|that is|hence|thus|therefore"
+    r"|so(?: that)?(?: (?:it|the \w+) is)?(?: singular (?:when|if|iff|for|at|where))?"
     rf"|{_IT}(?:gives?|yields?|implies|means|(?:follows?|results?)(?! from)(?: that)?)"
     r"|d\.\s?h\.|das heißt|also|somit|folglich|damit|woraus|daraus"
     rf"|{_IT}(?:(?:folgt|ergibt)(?! aus)(?: sich)?(?:,? dass)?|liefert|bedeutet)"
@@ -140,6 +141,12 @@ FOLLOWS = re.compile(
     rf"\\(?:implies|iff|(?:Long|long)?(?:[lL]eft)?[rR]ightarrow)\b|<?=>|[⇒⇔⟹⟺]|(?:,\s{{0,9}}|\s)(?:{SO})(?=[\s,])"
 )
 """What leads from one form of a set to the next, which says the same."""
+
+_RESTATED = re.compile(
+    r"\\?(?:sin|cos|tan)\s*[({]?\s*(?P<of>\\?\w+(?:_\{\w+\})?)\s*[)}]?\s*=\s*[-+]?[01]\s*,\s*"
+    rf"(?=(?P=of)\s*=[^=]*(?:,|\s(?:{OR}|{AND})\s)[^=]*\Z)"
+)
+"""`sin(q2) = 0, q2 = 0 or pi`: the angles say again what the sine says."""
 
 _REASON = re.compile(rf"(?:,\s{{0,9}}|\s)(?:{SINCE})\s")
 _VERB = re.compile(r"\s(?:folgt|følger|gilt|gjelder)\s{0,9}\Z")
@@ -225,6 +232,7 @@ def _spelled_out(text: str, is_value: Callable[[str], bool]) -> str:
     """The text with words for signs, behind its last arrow, and without what is said of whole numbers."""
     text = in_signs(text)
     text = _DETERMINANT.sub("", FOLLOWS.split(_REASON.split(text)[0])[-1], count=1)
+    text = _RESTATED.sub("", text)
     text = _COUNTED.sub("", _INTEGERS.sub("", _VERB.sub("", text))).strip()
     text = _BUILDER.sub(r"\1", text)
     if (modulo := _MODULO.search(text)) is not None:
