@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from msgspec import Struct
 
-from dynsolve.answers.reading.displays import OPENS
+from dynsolve.answers.reading.displays import OPENS, pieces
 from dynsolve.answers.reading.grammar.brackets import MIRRORED, SYMMETRIC_NOTE
 from dynsolve.answers.reading.grammar.derivatives import UnknownVariable
 from dynsolve.answers.reading.grammar.formula import FormulaReader
@@ -291,11 +291,11 @@ def _force(vocabulary: Vocabulary, value: Value) -> str:
 EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
 """What is said where a formula was expected and no better remedy is known."""
 
-_WAYS = ("", "inertia", "spaces", "decimals", "vectors", "driving")
+_WAYS = ("", "inertia", "spaces", "factors", "decimals", "vectors", "driving")
 """How a value may be read.
 
-As it stands; a bare I_1 as the moment of inertia; blanks between entries; 0,5 as a decimal; c and h as the
-vector C q̇; τ as the force of the only motor.
+As it stands; a bare I_1 as the moment of inertia; blanks between entries, or also between factors, by the
+number of columns; 0,5 as a decimal; c and h as the vector C q̇; τ as the force of the only motor.
 """
 
 
@@ -373,6 +373,13 @@ def _read_anew(vocabulary: Vocabulary, member: list[Token], owners: tuple[str, .
         if way and not _may_help(way, tokens):
             continue
         piece = _with_decimals(tokens) if way == "decimals" else tokens
+        if way == "factors":
+            shape = vocabulary.shape(owners[0]) if owners else None
+            piece = _with_commas(tokens, shape[1]) if shape else tokens
+            if piece == tokens:
+                continue
+            if not piece:
+                return ReadError(_BLANKS, tokens[0].start, 1, "write commas between the entries")
         found = _read(vocabulary, piece, owners, frozenset({way} - {""}))
         if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners[:1]):
             return found
@@ -517,6 +524,54 @@ def _is_worked_out(reader: FormulaReader, vocabulary: Vocabulary, owners: tuple[
     return bool(set(reader.symbols) - vocabulary.masses)
 
 
+_BLANKS = "blanks stand between entries here, and between factors"
+
+
+def _with_commas(tokens: list[Token], columns: int) -> list[Token]:
+    """The tokens of `[1 0 -R cos(q1); ...]` with commas between so many entries; none where that is open.
+
+    Where blanks stand between entries alone, or other signs do, they are as they were.
+    """
+    if tokens[0].kind != "[" or tokens[-1].kind != "]":
+        return tokens
+    found, has_factors = [tokens[0]], False
+    for row in pieces(tokens[1:-1], ";"):
+        entries = _by_blanks(row)
+        factors = [at for at in range(1, len(entries)) if _may_multiply(entries[at - 1], entries[at])]
+        if len(pieces(row, ",")) > 1 or any(token.kind in ("[", "\\\\", "&", "begin") for token in row):
+            return tokens
+        has_factors = has_factors or len(entries) > columns
+        if len(entries) > columns and len(entries) - len(factors) != columns:
+            return []
+        joined = factors if len(entries) > columns else []
+        for at, entry in enumerate(entries):
+            if at and at not in joined:
+                found.append(entry[0]._replace(kind=",", text=",", end=entry[0].start))
+            found += entry
+        found.append(tokens[-1]._replace(kind=";", text=";", end=tokens[-1].start))
+    return [*found[:-1], tokens[-1]] if has_factors else tokens
+
+
+def _by_blanks(row: list[Token]) -> list[list[Token]]:
+    """The pieces of a row between blanks that stand outside of brackets and beside no sign."""
+    found: list[list[Token]] = [[]]
+    level = 0
+    for position, token in enumerate(row):
+        before = row[position - 1].kind if position else "+"
+        is_sign = token.kind in _PENDING and token.kind != "command"
+        leads = token.kind in ("+", "-") and position + 1 < len(row) and not row[position + 1].spaced
+        if level == 0 and token.spaced and before not in _PENDING and (leads or not is_sign):
+            found.append([])
+        found[-1].append(token)
+        level += OPENS.get(token.kind, 0)
+    return found
+
+
+def _may_multiply(left: list[Token], right: list[Token]) -> bool:
+    """Whether two pieces may be factors of one entry: no number or sign begins the second, and 0 is no factor."""
+    return left[-1].kind != "number" and right[0].kind not in ("number", "+", "-")
+
+
 def _decimal_commas(tokens: list[Token]) -> list[int]:
     """Where commas stand between the digits of a number, outside of lists: `0,5 m_1`, not `[0,5]`."""
     found: list[int] = []
@@ -552,6 +607,7 @@ def _may_help(way: str, tokens: list[Token]) -> bool:
 _HELPED: dict[str, Callable[[Token], bool]] = {
     "inertia": lambda token: token.kind == "name" and token.text[0] in "IJ",
     "spaces": lambda token: token.kind == "[",
+    "factors": lambda token: token.kind == "[",
     "vectors": lambda token: token.text in OWN_LETTERS,
     "driving": lambda token: token.text == "tau",
 }

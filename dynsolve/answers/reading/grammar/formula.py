@@ -30,6 +30,8 @@ from dynsolve.notation.tree import Degrees, Node, Number, Power, Product, Quotie
 _BEFORE_DEGREES = frozenset({"°", "name", "^"})
 """The tokens that the sign of degrees may begin with."""
 
+_DEGREES = frozenset({"deg", "degrees", "degree", "Grad", "grader"})
+
 
 def read(reader: Reader) -> Value:
     """A number, with its degrees."""
@@ -39,7 +41,7 @@ def read(reader: Reader) -> Value:
     if len(token.text) == 1 and reader.token.kind not in _BEFORE_DEGREES:  # as most numbers are
         return reader.scripted(Number(int(token.text)))
     value = plain.rational(plain.FormulaToken("number", token.text, token.start, token.end))
-    if reader.token.kind == "°" or (reader.token.kind == "name" and reader.token.text == "deg"):
+    if reader.token.kind == "°" or (reader.token.kind == "name" and reader.token.text in _DEGREES):
         reader.take()
         return Degrees(value.numerator, value.denominator)
     if reader.token.kind == "^" and _circle(reader):
