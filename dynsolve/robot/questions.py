@@ -126,8 +126,9 @@ def component_names(questions: Questions) -> tuple[tuple[str, ...], ...]:
     task = questions.task
     if task is None or task.is_twist:
         return ()
-    own = [(name,) for name in questions.reach] or [()] * task.rows
-    return tuple(_names_of(entry) + name for entry, name in zip(task.entries, own, strict=True))
+    if not questions.reach:
+        return tuple(map(_names_of, task.entries))
+    return tuple((*_names_of(entry), name) for entry, name in zip(task.entries, questions.reach, strict=True))
 
 
 def _names_of(entry: Node) -> tuple[str, ...]:

@@ -328,12 +328,12 @@ class DisplayedSets(Struct, dict=True):
         return held_together(text) if self._spoken_of(words + text) == "equilibria" else text
 
     def _without_own(self, display: Display, row: str) -> str:
-        r"""A row without what it defines beside a coordinate: `\cos q_2 = ... =: D`, `q_2 = ..., where D = ...`."""
+        r"""A row without what it defines beside a coordinate: `\cos q_2 = ... =: D`, `q_2 = ..., D = ...`."""
         equations = joined(_plain(row))
         if len(equations) > 1:
             own = [one for one in equations if self._is_own(one.partition("=")[0])]
             left = [one for one in equations if one not in own]
-            if not own or not all(self._is_unknown(one.partition("=")[0]) for one in left):
+            if not (own and left) or not all(self._is_unknown(one.partition("=")[0]) for one in left):
                 return row
             for one in own:
                 self.reader.read_display(replace(display, text=one))

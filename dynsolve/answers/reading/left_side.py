@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from itertools import pairwise
 
 from msgspec import Struct
 
@@ -298,6 +299,9 @@ As it stands; a bare I_1 as the moment of inertia; blanks between entries, or al
 number of columns; 0,5 as a decimal; c and h as the vector C q̇; τ as the force of the only motor.
 """
 
+_PARTED_WAYS = ("spaces", "factors")
+"""The ways of `[1 0; 0 m]`, in which 1 0 is no product."""
+
 
 _UNITS = frozenset("in J N Nm kg kgm rad m s W".split())
 _OF_UNITS = frozenset("{ } ( ) [ ] ^ * / - cdot number raised".split())
@@ -369,7 +373,7 @@ def _read_anew(vocabulary: Vocabulary, member: list[Token], owners: tuple[str, .
     tokens = split_names(_without_unit(member, vocabulary), vocabulary)
     first: RightSide | ReadError | None = None
     fits: RightSide | None = None
-    for way in _WAYS:
+    for way in _PARTED_WAYS if _has_parted_numbers(tokens) else _WAYS:
         if way and not _may_help(way, tokens):
             continue
         piece = _with_decimals(tokens) if way == "decimals" else tokens
@@ -552,6 +556,12 @@ def _with_commas(tokens: list[Token], columns: int) -> list[Token]:
     return [*found[:-1], tokens[-1]] if has_factors else tokens
 
 
+def _has_parted_numbers(tokens: list[Token]) -> bool:
+    """Whether a blank stands between two numbers in a bracket."""
+    pairs = pairwise(tokens) if tokens and tokens[0].kind == "[" else ()
+    return any(first.kind == second.kind == "number" and second.spaced for first, second in pairs)
+
+
 def _by_blanks(row: list[Token]) -> list[list[Token]]:
     """The pieces of a row between blanks that stand outside of brackets and beside no sign."""
     found: list[list[Token]] = [[]]
@@ -568,7 +578,7 @@ def _by_blanks(row: list[Token]) -> list[list[Token]]:
 
 
 def _may_multiply(left: list[Token], right: list[Token]) -> bool:
-    """Whether two pieces may be factors of one entry: no number or sign begins the second, and 0 is no factor."""
+    """Whether two pieces may be factors: the first is no number, and no number or sign begins the second."""
     return left[-1].kind != "number" and right[0].kind not in ("number", "+", "-")
 
 

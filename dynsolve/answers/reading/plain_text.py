@@ -22,7 +22,7 @@ from msgspec import Struct, field
 
 from dynsolve.answers.reading.grids import MAX_NESTING
 from dynsolve.answers.reading.matrix_parts import rest_is_zero
-from dynsolve.answers.reading.sources import HIDDEN
+from dynsolve.answers.reading.sources import HIDDEN, levels
 
 _BRACKETS = {"[": ("[", "]"), "(": ("(", ")"), **dict.fromkeys("/\\|", ("/\\|", "/\\|"))}
 _BRACKETS |= dict.fromkeys("⎛⎜⎝⎡⎢⎣", ("⎛⎜⎝⎡⎢⎣", "⎞⎟⎠⎤⎥⎦"))
@@ -322,7 +322,10 @@ _LEAD = re.compile(
 )
 """What stands before an equation in its line: a prompt, the mark of a list, its number."""
 
-_EQUATION = re.compile(r"[^\n=]{1,200}=")
+_EQUATION = re.compile(r"[^\n=]{1,5000}=")
+_CALLED = re.compile(r"[ \t]*(?:>>>[ \t]+)?Eq\((?P<sides>[^\n=]{3,9999})\)[ \t]*\Z")
+"""SymPy's `Eq(a, b)` of a whole line."""
+
 _ITEM = re.compile(r"[-*+][ \t]+[^=]{1,60}=|[-*+][ \t]+[^\s:]{1,40}:[ \t]")
 """The next item of a list, which is no term of the equation above."""
 
@@ -396,6 +399,8 @@ def plain_lines(
             position = drawn.end()
             continue
         begins = not text[position:stop].strip()
+        if called := _CALLED.match(text, position, stop):
+            yield called.start("sides"), _with_sign(called["sides"])
         has_sign = _SIGN.search(text, position, stop) or _SIGN_BELOW.match(text, stop)
         first = _begins(text, position, stop, names_answer) if has_sign else -1
         if first >= 0:
@@ -406,6 +411,12 @@ def plain_lines(
             else:
                 yield first, _formula(_with_powers(text, first, stop), names_answer)
         position = stop + 1
+
+
+def _with_sign(sides: str) -> str:
+    """Both sides of an equation with a sign for the comma between them."""
+    at = next((at for at, level in enumerate(levels(sides)) if level == 0 and sides[at] == ","), len(sides))
+    return f"{sides[:at]}={sides[at + 1 :]}"
 
 
 def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool]) -> int:

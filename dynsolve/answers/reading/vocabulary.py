@@ -146,7 +146,8 @@ class Vocabulary(Struct):
     `orders` says for letters of Christoffel symbols which index counts the row.
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
-    asked for, each with the component of r that it is; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
+    asked for, each with the component of r that it is; `passive` are the generalized forces that are 0,
+    since no motor drives their coordinates;
     `candidates` are the matrices that are to be judged; `asked` is what has to be answered, with its parts;
     `defined` is what the student defined, `remembered` what was read since, `shared` what was read by all
     hand-ins before they said anything of their own; `from_zero` are the names whose
