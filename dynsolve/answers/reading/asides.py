@@ -48,9 +48,10 @@ from dynsolve.answers.reading.matrix_parts import shown
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import CONDITION, may_hold
 from dynsolve.answers.reading.sources import Source, blanked
-from dynsolve.answers.reading.vocabulary import defined_order
+from dynsolve.answers.reading.vocabulary import Vocabulary, defined_order
 from dynsolve.answers.verdict import PICTURE, Answer, NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Node, Reference, Symbol
 from dynsolve.quantities.letters import key
 
 # What a formula in the midst of a sentence says
@@ -104,7 +105,7 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
         name = name_alone(vocabulary, members[0])
         called = called_force(vocabulary, name, side.candidates, [value.value])
         if friction := called_friction(vocabulary, name, side.candidates, [value.value]):
-            reader.define(name, value)
+            reader.define(name, replace(value, value=Reference(friction[0])))
         side = NamedAnswers(called or friction or side.candidates)
         origin = replace(origin, names=side.candidates)
     names = [side.candidates] if isinstance(side, NamedAnswers) else []
@@ -137,13 +138,28 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
                 refused, holds = replace(refused, why=CONDITION), False
             reader.found.said_aside(refused, answers if holds else ())
         return
-    reader.found.left_alone.append(origin.of(members, origin.display.aside))
-    if isinstance(value, ReadError):
-        if isinstance(side, UnknownSide):
-            vocabulary.cannot_be_read(side.key, value.message)
-    elif gives:
-        _define(reader, side, own, value, equation)
+    if gives and _only_renames(vocabulary, members[0], side, value):
+        origin = replace(origin, names=())
+    refused = origin.of(members, origin.display.aside)
+    kept = _define(reader, side, own, value, equation) if gives and isinstance(value, RightSide) else ""
+    if kept:
+        reader.found.own_scalars.append((kept, [], refused))
+    else:
+        reader.found.left_alone.append(refused)
+    if gives:
         _define_by_the_end(reader, members)
+    elif isinstance(value, ReadError) and isinstance(side, UnknownSide):
+        vocabulary.cannot_be_read(side.key, value.message)
+
+
+def _only_renames(
+    vocabulary: Vocabulary, first: list[Token], side: LeftSide, found: RightSide | ReadError
+) -> bool:
+    r"""Whether a formula only says what else a symbol, a sine or a cosine is called: `\sin q_2 = s_2`."""
+    value = found.value if isinstance(found, RightSide) else None
+    same = read_right_side(vocabulary, first)
+    is_same = isinstance(same, RightSide) and isinstance(value, Node) and same.value == value
+    return is_same or (isinstance(side, NamedAnswers) and isinstance(value, Symbol))
 
 
 def _define_by_the_end(reader: EquationReader, members: list[list[Token]]) -> None:
@@ -154,19 +170,19 @@ def _define_by_the_end(reader: EquationReader, members: list[list[Token]]) -> No
         reader.define_scalar(members[-1], last, value)
 
 
-def _define(reader: EquationReader, side: LeftSide, own: str, value: RightSide, equation: Equation) -> None:
-    """Keep what a letter means."""
+def _define(reader: EquationReader, side: LeftSide, own: str, value: RightSide, equation: Equation) -> str:
+    """Keep what a letter means; gives what it is kept under where else it is the name of an answer."""
     if isinstance(side, UnknownSide):
         is_new = side.is_name_alone and not side.family and side.key not in _NEVER_DEFINED
         if is_new:
             reader.define(side.key, value)
-        return
-    if not isinstance(side, NamedAnswers):
+    elif not isinstance(side, NamedAnswers):
         reader.defines_in_passing(equation.members[0], value)
     elif own in OWN_LETTERS:
         reader.define(own, value)
     else:
-        reader.define_scalar(equation.members[0], side, value)
+        return reader.define_scalar(equation.members[0], side, value)
+    return ""
 
 
 # Verdicts on matrices in the lines of a report

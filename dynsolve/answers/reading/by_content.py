@@ -298,7 +298,7 @@ def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
     side = read_left_side(vocabulary, tokens)
     if isinstance(side, NamedAnswers):
         forces = tuple(force for force in side.candidates if force in known)
-        if forces or not {"tau", "friction"} & set(side.candidates):
+        if forces or not name or not {"tau", "friction"} & set(side.candidates):
             return forces
     else:  # `M_2` is no mass where the problem has only an m_2
         is_unknown = side.is_name_alone if isinstance(side, UnknownSide) else name[-1:].isdigit()

@@ -61,7 +61,7 @@ from dynsolve.answers.reading.report_text import CONDITION, CONSTANT
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, defined_order, order_of_pair
 from dynsolve.answers.verdict import Answer, NotRecognized
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Function, Node, names_in
+from dynsolve.notation.tree import Function, Node, Reference, names_in
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.letters import key
 from dynsolve.questions.forward_dynamics import QDD_FORWARD
@@ -260,7 +260,7 @@ class EquationReader:
         for candidates, member in called.items():
             name = name_alone(self.vocabulary, member)
             if entry := called_friction(self.vocabulary, name, candidates, values):
-                self.define(name, found[-1])
+                self.define(name, replace(found[-1], value=Reference(entry[0])))
                 entries.append(entry)
             names.append(entry or called_force(self.vocabulary, name, candidates, values) or candidates)
         return [one for one in names if one != ("friction",)] if entries else names

@@ -246,6 +246,8 @@ def scaled(left: Node, right: Node) -> Node:
 
 def _product(left: Grid, right: Grid) -> Value:
     (rows, inner), (height, columns) = left.shape, right.shape
+    if left.quantity == "friction" and right.is_rates == 1:
+        return left  # F_v q̇, of which F_v has no name of its own
     if inner != height:
         message = f"a {rows}×{inner} matrix cannot be multiplied by a {height}×{columns} one"
         raise ReadError(message, help="check the shapes, and which one is transposed")

@@ -34,7 +34,7 @@ def judged(text: str, ending: str = "md") -> dict[str, Any]:
         ("$$D[7,7] = m_2$$", 1, "matrix"),
         ("$$(7)\\quad d_{12} = \\frac{d}{dt}(x_9)$$", 1, "x_9"),
         (r"$$\frac{D}{2} = \begin{bmatrix} 1 & 0 \\ 0 & m_2/2 \end{bmatrix}$$", 1, "more than a name"),
-        ("Eq(D, Matrix(2, 2, X))", 1, "no equation"),
+        ("Eq(D, Matrix(2, 2, X))", 1, "unknown symbol"),
         (">>> D\nMatrix(2, 2, X)", 1, "no equation"),
     ],
 )

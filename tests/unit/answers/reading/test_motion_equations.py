@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.answers.judge import Checker
+from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.reading.report_text import FREE
+from dynsolve.problem import read_problem
 from tests.unit.answers.reading.submissions import report, shown
 
 # of the crane, q1 is driven and q2 is passive
@@ -111,3 +114,50 @@ def test_a_force_that_may_be_any_names_all() -> None:
 def test_a_torque_by_any_letter_counts_in_a_sentence(name: str) -> None:
     (answer,) = report(rf"The torque of joint two is ${name}=m_2\ddot q_1$, as it must be.").answers
     assert answer.name == "tau2"
+
+
+RUBBED = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  D: [[m*l^2, 0], [0, m*l^2]]
+  P: m*g*l*sin(q1)
+friction: {q1: {viscous: b1, coulomb: fc}, q2: b2}
+find: [friction, tau]
+"""
+RUBS, RUBS_TOO = r"F_1 = b_1\dot q_1 + f_c\,\mathrm{sgn}(\dot q_1)", r"F_2 = b_2\dot q_2"
+
+
+@pytest.mark.parametrize("text", [
+    f"The friction torques are\n\n$${RUBS}$$\n$${RUBS_TOO}$$",
+    f"Friction torques: ${RUBS}$ and ${RUBS_TOO}$.",
+    "friction: F1 = b1 q1' + fc sign(q1'), F2 = b2 q2'",
+])  # fmt: skip
+def test_what_holds_rates_beside_no_mass_is_friction_and_no_torque(text: str) -> None:
+    judge = Checker(read_problem(RUBBED))
+    for said, expected in ((text, "correct"), (text.replace("b", "2b"), "wrong")):
+        found = judge(read_submission(judge.problem, said, "a.md"))
+        verdicts = {answer.name: str(answer.verdict) for answer in found.answers}
+        assert verdicts["friction2"] == verdicts["friction"] == expected
+        assert verdicts.get("tau1", "missing") == "missing"
+
+
+def test_friction_that_is_said_below_is_put_into_the_torque() -> None:
+    judge = Checker(read_problem(RUBBED))
+    text = rf"$$\tau_1 = m l^2\ddot q_1 + m g l\cos q_1 + F_1$$ where the friction is $${RUBS}$$"
+    for said, expected in ((text, "correct"), (text.replace("b_1", "2b_1"), "wrong")):
+        found = judge(read_submission(judge.problem, said, "a.md"))
+        verdicts = {answer.name: str(answer.verdict) for answer in found.answers}
+        assert verdicts["friction1"] == expected
+        assert (verdicts["tau1"] == "correct") is (expected == "correct")
+
+
+LONG = "m*l**2*(sin(q1(t))**2 + cos(q1(t))**2)*Derivative(q1(t), (t, 2))" + " + 0*sin(q2(t))" * 12
+
+
+@pytest.mark.parametrize("line", [f"{LONG} = tau1", f"Eq({LONG}, tau1)", f"{LONG} - tau1 = 0"])
+def test_a_long_equation_of_motion_as_programs_print_it(line: str) -> None:
+    free = RUBBED.replace("friction: {q1: {viscous: b1, coulomb: fc}, q2: b2}", "")
+    problem = read_problem(free.replace("[friction, tau]", "[tau]"))
+    found = read_submission(problem, line, "a.txt")
+    assert [answer.name for answer in found.answers] == ["tau1"]

@@ -133,3 +133,69 @@ def test_two_alternatives_in_one_display_define_nothing() -> None:
     text = r"The arm is singular where $$q_2 = 0 \text{ or } q_2 = \pi$$"
     report = judge(read_submission(judge.problem, text, "report.md"))
     assert next(answer.verdict for answer in report.answers if answer.name == "singular") == "correct"
+
+
+ARM = """
+gravity: none
+dh: [{theta: q1*, a: a1}, {theta: q2*, a: a2}, {theta: q3*, a: a3}]
+task: [tip.x, tip.y, q1 + q2 + q3]
+reach: [x, y, phi]
+find: [r, Jr, inverse]
+"""
+X, Y = r"$$x = a_1c_1+a_2c_{12}+a_3c_{123}$$", r"$$y = a_1s_1+a_2s_{12}+a_3s_{123}$$"
+IN_XY = r"""$$J_r = \begin{bmatrix} -y & -(y - a_1s_1) & -a_3s_{123}\\
+x & x - a_1c_1 & a_3c_{123}\\ 1&1&1\end{bmatrix}$$"""
+WRIST = "xw = x - a3*cos(phi), yw = y - a3*sin(phi)"
+Q2 = "acos((xw^2+yw^2-a1^2-a2^2)/(2*a1*a2))"
+OTHERS = "q1 = atan2(yw, xw) - atan2(a2*sin(q2), a1+a2*cos(q2))\nq3 = phi-q1-q2"
+
+
+def arm(text: str, ending: str = "md") -> dict[str, tuple[str, str]]:
+    judge = Checker(read_problem(ARM))
+    report = judge(read_submission(judge.problem, text, f"a.{ending}"))
+    return {one.name: (str(one.verdict), "; ".join(one.notes)) for one in report.answers}
+
+
+@pytest.mark.parametrize("text", [f"{X}{Y}{IN_XY}", f"{IN_XY}\nwhere {X} and {Y}"])
+def test_what_is_to_be_reached_stands_in_a_jacobian_for_the_task(text: str) -> None:
+    assert arm(text)["Jr"][0] == "correct"
+    assert arm(text.replace("-y &", "y &"))["Jr"][0] == "wrong"
+
+
+@pytest.mark.parametrize(("text", "ending"), [
+    (rf"{X}{Y}$$\phi = q_1 + q_2 + q_3$$", "md"), ("answers: {phi: q1 + q2 + q3}", "yaml"),
+])  # fmt: skip
+def test_a_component_of_the_task_is_called_as_what_is_to_be_reached(text: str, ending: str) -> None:
+    assert arm(text, ending)["r3"][0] == "correct"
+    assert arm(text.replace("+ q", "- q"), ending)["r3"][0] == "wrong"
+
+
+@pytest.mark.parametrize("sign", ["±", "+/-", "+-", "+- "])
+@pytest.mark.parametrize("form", [f"q2 = {{0}}{Q2} where {WRIST}\n{OTHERS}",
+                                  f"{WRIST}\nq2 = {{0}}{Q2}\n{OTHERS}"])  # fmt: skip
+def test_what_a_branch_defines_on_its_line_and_both_signs(sign: str, form: str) -> None:
+    assert arm(form.format(sign), "txt")["inverse"] == ("correct", "")
+    assert arm(form.format(""), "txt")["inverse"] == ("correct", "incomplete")
+
+
+def test_blanks_in_a_matrix_stand_between_entries_or_also_between_factors() -> None:
+    judge = Checker(
+        read_problem("""
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute, theta: revolute}
+  D: [[m, 0, 0, 0], [0, m, 0, 0], [0, 0, Id, 0], [0, 0, 0, Ia]]
+constraints: [{rates: x' - R*theta'*cos(phi)}, {rates: y' - R*theta'*sin(phi)}]
+find: [Ac]
+""")
+    )
+    for rows, expected in {
+        "1 0 0 -R*cos(phi); 0 1 0 -R*sin(phi)": "correct",
+        "1 0 0 -R cos(phi); 0 1 0 -R sin(phi)": "correct",
+        "1 0 0 -R cos(phi); 0 1 0 R sin(phi)": "wrong",
+        "1 0 0 - R*cos(phi); 0 1 0 -R sin(phi)": "unreadable",
+        "1 0 R m cos(phi); 0 1 R m sin(phi)": "unreadable",
+        "1 0 0; 0 1 0": "wrong",
+    }.items():
+        report = judge(read_submission(judge.problem, f"Ac = [{rows}]", "a.txt"))
+        assert (rows, [str(a.verdict) for a in report.answers if a.name == "Ac"]) == (rows, [expected])

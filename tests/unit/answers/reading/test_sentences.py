@@ -153,3 +153,19 @@ def test_what_letters_mean_behind_an_equation_in_plain_text() -> None:
 def test_an_approximation_is_no_value() -> None:
     for value, expected in ((P, "correct"), (SLIP, "wrong")):
         assert verdicts(rf"$$P={value}\approx Mgq_1+mglq_2$$")["P"] == expected
+
+
+@pytest.mark.parametrize("text", [
+    r"Let $\theta = q_2$ be the angle.", r"We write $\sin q_2 = s_2$.", r"Here $\varphi := \psi$.",
+])  # fmt: skip
+def test_another_name_is_no_answer(text: str) -> None:
+    problem = read_problem(ARM.replace("m*l*cos(q2)", "m*l*cos(q2 - psi)").replace("[D,", "[equilibria, D,"))
+    report = Checker(problem)(read_submission(problem, text, "a.md"))
+    assert not [one for one in (*report.set_aside, *report.not_recognized) if one.answers or one.waits]
+
+
+def test_the_model_in_letters_calls_no_force() -> None:
+    text = r"$$\tau = D\ddot q + C\dot q + F\dot q + g$$"
+    problem = read_problem(f"{ARM}friction: {{q1: b}}\n".replace("[D,", "[tau, D,"))
+    (said,) = read_submission(problem, text, "a.md").left_alone
+    assert "drives" not in said.why
