@@ -331,7 +331,7 @@ class DisplayedSets(Struct, dict=True):
         r"""A row without what it defines beside a coordinate: `\cos q_2 = ... =: D`, `q_2 = ..., D = ...`."""
         equations = joined(_plain(row))
         if len(equations) > 1:
-            own = [one for one in equations if self._is_own(one.partition("=")[0])]
+            own = [one for one in equations if "=" in one and self._is_own(one.partition("=")[0])]
             left = [one for one in equations if one not in own]
             if not (own and left) or not all(self._is_unknown(one.partition("=")[0]) for one in left):
                 return row

@@ -178,6 +178,12 @@ def test_what_a_branch_defines_on_its_line_and_both_signs(sign: str, form: str) 
     assert arm(form.format(""), "txt")["inverse"] == ("correct", "incomplete")
 
 
+def test_a_further_value_is_no_definition() -> None:
+    arm = read_problem("{dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}], find: [singular]}")
+    found = read_submission(arm, r"The arm is singular where $$ q_2 = 0, \pi $$", "a.md")
+    assert [len(one.alternatives) for one in found.configurations] == [2]
+
+
 def test_blanks_in_a_matrix_stand_between_entries_or_also_between_factors() -> None:
     judge = Checker(
         read_problem("""
