@@ -84,8 +84,8 @@ _ITEM = re.compile(
 )
 _EQUATION = re.compile(r"\n(?![ \t]*(?:\\begin|\\\[|\$\$))(?P<value>[^\n=:]+=[^\n=]+)")
 _DISPLAY = re.compile(
-    r"\$\$(?P<dollars>(?:(?!\$\$).)+)\$\$|\$(?P<inline>[^$\n]+)\$|\\\[(?P<bracket>(?:(?!\\\]).)+)\\\]"
-    r"|\\begin\{(?P<name>(?:equation|align|gather|eqnarray|multline)\*?)\}(?P<rows>.+?)\\end\{(?P=name)\}",
+    r"\$\$(?P<dollars>.+?)(?:\$\$|\Z)|\$(?P<inline>[^$\n]+)\$|\\\[(?P<bracket>.+?)(?:\\\]|\Z)"
+    r"|\\begin\{(?P<name>(?:equation|align|gather|eqnarray|multline)\*?)\}(?P<rows>.+?)(?:\\end\{(?P=name)\}|\Z)",
     re.DOTALL,
 )
 _SENTENCE = re.compile(r"[.;!?](?=\s)|\n[ \t]*\n|\n(?=[ \t]*(?:#|\\(?:sub){0,2}section))")
@@ -175,7 +175,7 @@ def _announced_motions(text: str, reader: EquationReader) -> Iterator[HeadedSet]
         is_led = (is_led and goes_on) or WITHOUT_MULTIPLIERS.search(sentence) is not None
         rows = _rows(next(filter(None, display.group("dollars", "inline", "bracket", "rows"))))
         value = " ; ".join(held_together(_plain(row)) for row in rows)
-        if is_led and "=" in value and are_motions(reader.vocabulary, value):
+        if is_led and "=" in value and len(value) < _LONGEST and are_motions(reader.vocabulary, value):
             start = start if values else display.start()
             values.append(value)
         if "=" in value:

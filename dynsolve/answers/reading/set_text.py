@@ -144,7 +144,7 @@ FOLLOWS = re.compile(
 
 _RESTATED = re.compile(
     r"\\?(?:sin|cos|tan)\s*[({]?\s*(?P<of>\\?\w+(?:_\{\w+\})?)\s*[)}]?\s*=\s*[-+]?[01]\s*,\s*"
-    rf"(?=(?P=of)\s*=[^=]*(?:,|\s(?:{OR}|{AND})\s)[^=]*\Z)"
+    rf"(?=(?P=of)\s*=[^=]{{1,80}}?(?:,|\s(?:{OR}|{AND})\s)[^=]{{1,80}}\Z)"
 )
 """`sin(q2) = 0, q2 = 0 or pi`: the angles say again what the sine says."""
 
