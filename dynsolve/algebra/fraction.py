@@ -63,19 +63,25 @@ def is_zero(expr: Expr) -> bool:
 
 def clear_inverses(expr: Expr) -> Expr:
     """The expression times its denominators: with u = 1/p, Σ aₖ uᵏ becomes Σ aₖ pⁿ⁻ᵏ, n its degree in u."""
-    ring = expr.ring
-    for index, inverted in ring.inverses.items():
-        coefficients: dict[int, dict[tuple[int, ...], Any]] = {}
-        for exponents, value in expr.poly.to_dict().items():
-            rest = (*exponents[:index], 0, *exponents[index + 1 :])
-            coefficients.setdefault(int(exponents[index]), {})[rest] = value
-        degree = max(coefficients, default=0)
-        if degree:
-            total = ring.ctx.constant(0)
-            for k, terms in coefficients.items():
-                total = total + ring.ctx.from_dict(terms) * inverted ** (degree - k)
-            expr = Expr(ring, ring.reduce(total))
+    for index in expr.ring.inverses:
+        expr = _times(expr, index, int(expr.poly.degrees()[index]))
     return expr
+
+
+def _times(expr: Expr, index: int, degree: int) -> Expr:
+    """Σ aₖ uᵏ times pⁿ, with u = 1/p of that index; n is no less than the degree in u."""
+    ring = expr.ring
+    if not degree:
+        return expr
+    inverted = ring.inverses[index]
+    coefficients: dict[int, dict[tuple[int, ...], Any]] = {}
+    for exponents, value in expr.poly.to_dict().items():
+        rest = (*exponents[:index], 0, *exponents[index + 1 :])
+        coefficients.setdefault(int(exponents[index]), {})[rest] = value
+    total = ring.ctx.constant(0)
+    for k, terms in coefficients.items():
+        total = total + ring.ctx.from_dict(terms) * inverted ** (degree - k)
+    return Expr(ring, ring.reduce(total))
 
 
 def equal(a: RationalExpr, b: RationalExpr) -> bool:
@@ -118,7 +124,8 @@ def cancelled(value: RationalExpr) -> RationalExpr:
     """The same fraction with what numerator and denominator share divided out.
 
     A denominator keeps its form, s₂ and not 1 - c₂², unless the whole becomes shorter without
-    sines, or without roots of numbers, below; its leading coefficient is 1.
+    sines, without roots of numbers, or without fractions of parameters, below; its leading coefficient
+    is 1.
 
     >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.tree import Symbol
@@ -130,8 +137,8 @@ def cancelled(value: RationalExpr) -> RationalExpr:
     if value.divisor is None or is_zero(value.numerator):
         return RationalExpr(value.numerator)
     plain = _without_common(_without_roots(value))
-    other = simplified(plain)
-    return other if _length(other) < _length(plain) else plain
+    ways = [plain, simplified(plain), *([_without_inverses(plain)] if plain.ring.inverses else [])]
+    return min(ways, key=_length)
 
 
 def with_integers(value: RationalExpr) -> RationalExpr:
@@ -165,6 +172,15 @@ def _without_common(value: RationalExpr) -> RationalExpr:
     lead = divisor.leading_coefficient()
     above, below = Expr(ring, numerator / lead), Expr(ring, divisor / lead)
     return RationalExpr(above) if below.is_number else RationalExpr(above, below)
+
+
+def _without_inverses(value: RationalExpr) -> RationalExpr:
+    """The fraction with what stands below its own fractions: (m + I/R²)/(m R + I/R) is 1/R."""
+    above, below = value.numerator, value.denominator
+    for index in value.ring.inverses:
+        degree = max(int(one.poly.degrees()[index]) for one in (above, below))
+        above, below = _times(above, index, degree), _times(below, index, degree)
+    return _without_common(RationalExpr(above, below))
 
 
 def _without_roots(value: RationalExpr) -> RationalExpr:

@@ -79,6 +79,47 @@ def quotient(numerators: Matrix, divisor: Expr) -> Matrix | FractionMatrix:
     return tidy(ring, rows)
 
 
+def inverse_times(matrix: Matrix, right: Matrix) -> Matrix | FractionMatrix | None:
+    """A⁻¹ B, cancelled; None where A has no inverse.
+
+    Rows that no entry beside the diagonal links are solved apart: of a diagonal matrix each over its own
+    entry.
+
+    >>> from dynsolve.algebra.ring_values import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
+    >>> a, b = ring.symbol("a"), ring.symbol("b")
+    >>> found = inverse_times(Matrix.of(ring, [[a, ring.zero], [ring.zero, a + b]]), Matrix.identity(ring, 2))
+    >>> found[1, 1]
+    RationalExpr(numerator=Expr(1), divisor=Expr(1*a + 1*b))
+    """
+    rows: dict[int, tuple[RationalExpr, ...]] = {}
+    for block in blocks(matrix):
+        linked = part(matrix, block, block)
+        divisor = determinant(linked)
+        if divisor.is_zero:
+            return None
+        here = adjugate(linked) @ Matrix(right.ring, tuple(right.rows[i] for i in block))
+        for i, row in zip(block, here.rows, strict=True):
+            rows[i] = tuple(cancelled(RationalExpr(entry, divisor)) for entry in row)
+    return tidy(matrix.ring, [rows[i] for i in range(len(rows))])
+
+
+def is_diagonal(matrix: Matrix) -> bool:
+    """Whether all entries beside the diagonal of a square matrix are 0."""
+    return len(blocks(matrix)) == len(matrix.rows)
+
+
+def blocks(matrix: Matrix) -> list[tuple[int, ...]]:
+    """The rows of a square matrix, from 0, in sets that no entry links with each other."""
+    found: list[set[int]] = []
+    for i, row in enumerate(matrix.rows):
+        linked = {i, *(j for j, entry in enumerate(row) if not (entry.is_zero and matrix[j, i].is_zero))}
+        apart = [one for one in found if one.isdisjoint(linked)]
+        found = [*apart, linked.union(*(one for one in found if one not in apart))]
+    return [tuple(sorted(one)) for one in found]
+
+
 def tidy(ring: Ring, rows: Iterable[Iterable[RationalExpr]]) -> Matrix | FractionMatrix:
     """A matrix of fractions, one of polynomials where it has no denominators."""
     listed = tuple(tuple(row) for row in rows)

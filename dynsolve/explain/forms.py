@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cached_property
+from math import prod
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import trig_factors
-from dynsolve.algebra.fraction import RationalExpr, with_integers
+from dynsolve.algebra.fraction import RationalExpr, clear_inverses, is_zero, with_integers
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
@@ -364,6 +365,12 @@ class ProductForms:
 
         relative = search_ring(self.ring, (), {})
         there, back = Transfer(self.ring, relative), Transfer(relative, self.ring)
+        degrees = {index: int(expr.poly.degrees()[index]) for index in self.ring.inverses}
+        below = [(Expr(self.ring, self.ring.inverses[i]), -degree) for i, degree in degrees.items() if degree]
+        whole, expr = expr, clear_inverses(expr)
+        over = prod((self.ring.generator(i) ** degree for i, degree in degrees.items()), start=self.ring.one)
+        if not is_zero(expr * over - whole):  # a parameter below another
+            return None
         try:
             factors = [(back(factor), power) for factor, power in trig_factors(there(expr))]
         except AlgebraError:
@@ -374,5 +381,6 @@ class ProductForms:
         coefficient = fraction(expr.poly.leading_coefficient() / product.poly.leading_coefficient())
         if product * coefficient != expr:
             return None
+        factors += below
         factors.sort(key=lambda found: (self.ring.depends_on_coordinates(found[0]), len(found[0])))
         return coefficient, [(self.compactor.form(factor), power) for factor, power in factors]

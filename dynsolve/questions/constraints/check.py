@@ -221,27 +221,23 @@ def _verify_multipliers(robot: Robot, results: Mapping[str, Node], states: int) 
     program = compile_trees(list(results.values()))
     for values, _ in islice(arms(robot), states):
         ours = dict(zip(results, program.run(values), strict=True))
-        rates = [values[q.velocity] for q in robot.coordinates]
-        qdd = solved(ours["D"], _forces(robot, values, ours))
-        gaps = [
-            abs(_dot(row, qdd) + _dot(moved, rates))
-            for row, moved in zip(ours["Ac"], ours["Ac_dot"], strict=True)
-        ]
-        if not max(gaps) <= TOLERANCE * max((1.0, *map(abs, qdd))):
+        A, rates = ours["Ac"], [values[q.velocity] for q in robot.coordinates]
+        rows = [[*row, *(-one[k] for one in A)] for k, row in enumerate(ours["D"])]
+        rows += [[*row, *[0.0] * len(A)] for row in A]
+        along = [-_dot(row, rates) for row in ours["Ac_dot"]]
+        theirs = solved(rows, [*_forces(robot, values, ours), *along])
+        gaps = [abs(mine - x) for (mine,), x in zip(ours["lambda"], theirs[robot.n :], strict=True)]
+        if not max(gaps) <= TOLERANCE * max((1.0, *map(abs, theirs))):
             raise VerificationError("lambda does not keep the constraint; this is a fault of dynsolve")
 
 
 def _forces(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -> list[float]:
-    """τ + Q + A_cᵀ λ - C q̇ - g"""
+    """τ + Q - C q̇ - friction - g"""
     found = []
     loads = outside_forces(robot, values)
     for k, q in enumerate(robot.coordinates):
         total = loads[k] + (0.0 if k in robot.actions.passive else values[q.force])
-        total += sum(row[k] * x for row, (x,) in zip(ours["Ac"], ours["lambda"], strict=True))
-        for name in ACTING:
-            if name in ours:
-                total -= ours[name][k][0]
-        found.append(total)
+        found.append(total - sum(ours[name][k][0] for name in ACTING if name in ours))
     return found
 
 

@@ -5,7 +5,10 @@ besides.  Put q̈ from the first into the second:
 
     λ = -(A_c D⁻¹ A_cᵀ)⁻¹ (A_c D⁻¹ (τ + Q - C q̇ - g) + Ȧ_c q̇)
 
-Every inverse is an adjugate over a determinant, so that all is polynomial but for one division.
+Every inverse is an adjugate over a determinant, so that all is polynomial but for one division.  A D
+without an inverse, as of a coordinate that moves no mass, leaves both systems together to be solved:
+
+    [D, -A_cᵀ; A_c, 0] [q̈; λ] = [τ + Q - C q̇ - g; -Ȧ_c q̇]
 
 Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.2;
 Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 11.4 for constraints on the rates.
@@ -14,8 +17,8 @@ Constraints as rules; the formulas are in `constraints`.
 
 Constraints, compared with the motion of the arm, and the multipliers with elimination on numbers.
 
-The functions h, A_c and its rate are held to the motion as a task is.  With the multipliers put into
-the equations of motion the accelerations are found by elimination; they must keep the constraint.
+The functions h, A_c and its rate are held to the motion as a task is.  The multipliers are found by
+elimination from the equations of motion and the constraint together.
 """
 
 from __future__ import annotations
@@ -24,14 +27,22 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, quotient
-from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.linear_systems import (
+    FractionMatrix,
+    adjugate,
+    fraction_of,
+    inverse_times,
+    quotient,
+    rank_parts,
+    tidy,
+)
+from dynsolve.algebra.matrix import Matrix, determinant, vstack, work
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation import kinematics
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.questions.forward_dynamics.derive import (
-    SINGULAR,
+    Reduced,
     acting_forces,
     acting_names,
     outside_names,
@@ -47,6 +58,8 @@ from dynsolve.robot.questions import TIP, Task, points_of
 
 MOST_PRODUCTS = 200_000
 """Multipliers that may come to more products of terms are not multiplied out: nobody could read them."""
+
+FREE = "what the constraints leave free moves no mass, so that the accelerations are not determined"
 
 DEPENDENT = "one constraint follows from the others, so that the multipliers are not determined"
 
@@ -81,19 +94,36 @@ def multipliers(
     robot: Robot, A: Matrix, A_dot: Matrix, D: Matrix, acting: Matrix
 ) -> Matrix | FractionMatrix | Skipped:
     """λ, c×1; `acting` is τ + Q - C q̇ - g, n×1: what is left of the forces beside D q̈."""
+    if rank_parts(A).rank < len(A.rows):
+        return Skipped(DEPENDENT)
     if work(D) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
-    inverse, scale = adjugate(D), determinant(D)
-    through = A @ inverse
+    through, scale = A @ adjugate(D), determinant(D)
+    along = A_dot @ velocities(robot)
     square = through @ A.T
-    if work(square) > MOST_PRODUCTS:
+    if not scale.is_zero and work(square) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
-    if scale.is_zero:
-        return Skipped(SINGULAR)
-    if determinant(square).is_zero:
-        return Skipped(DEPENDENT)
-    wanted = through @ acting + (A_dot @ velocities(robot)).scale(scale)
+    if scale.is_zero or determinant(square).is_zero:
+        return _together(A, D, vstack(acting, -along))
+    wanted = through @ acting + along.scale(scale)
     return quotient(-(adjugate(square) @ wanted), determinant(square))
+
+
+def _together(A: Matrix, D: Matrix, right: Matrix) -> Matrix | FractionMatrix | Skipped:
+    """λ of a D without an inverse."""
+    both = bordered(A, D)
+    if work(both) > MOST_PRODUCTS:
+        return Skipped(TOO_LARGE)
+    found = inverse_times(both, right)
+    if found is None:
+        return Skipped(FREE)
+    return tidy(D.ring, (map(fraction_of, row) for row in found.rows[len(D.rows) :]))
+
+
+def bordered(A: Matrix, D: Matrix) -> Matrix:
+    """[D, -Aᵀ; A, 0]"""
+    upper = Matrix(D.ring, tuple((*mine, *theirs) for mine, theirs in zip(D.rows, (-A.T).rows, strict=True)))
+    return vstack(upper, Matrix(D.ring, tuple((*row, *(D.ring.zero for _ in A.rows)) for row in A.rows)))
 
 
 # Constraints as rules; the formulas are in `constraints`
@@ -116,7 +146,15 @@ def rules(robot: Robot) -> Iterator[Rule]:
     if LAMBDA in robot.questions.asked and robot.has_dynamics:
         yield _multipliers(robot)
     if REDUCED in robot.questions.asked and robot.has_dynamics:
-        yield Rule(REDUCED, ("Ac", "tau", *outside_names(robot)), partial(reduced, robot))
+        yield Rule(REDUCED, ("hc", "Ac", "tau", *outside_names(robot)), partial(_reduced, robot))
+
+
+def _reduced(robot: Robot, h: Matrix, A: Matrix, *forces: Matrix) -> Reduced | Skipped:
+    """The equations without multipliers, with h, A_c q̇ and its rate as what is kept at 0."""
+    rates = velocities(robot)
+    accelerations = Matrix.column(robot.ring, [robot.ring.symbol(q.name, 2) for q in robot.coordinates])
+    kept = (*h.entries, *(A @ rates).entries, *(A @ accelerations + task.rate(A) @ rates).entries)
+    return reduced(robot, A, [value for value in kept if not value.is_zero], *forces)
 
 
 def _multipliers(robot: Robot) -> Rule:

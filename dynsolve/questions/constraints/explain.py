@@ -26,13 +26,15 @@ from dynsolve.explain.writing import is_small, mls, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Parenthesized, Sum, column, equation, mapped
 from dynsolve.quantities import letters
-from dynsolve.questions.constraints.derive import holonomic
-from dynsolve.questions.forward_dynamics.derive import Reduced, outside_names, reduced
+from dynsolve.questions.constraints.derive import bordered, holonomic
+from dynsolve.questions.forward_dynamics.derive import Reduced
 from dynsolve.questions.forward_dynamics.explain import inverse_of_inertia
 from dynsolve.questions.task.explain import with_letters
 
 _KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 𝟎")
 """What the constraints ask of the accelerations."""
+
+_ZERO = formula("𝟎")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -54,12 +56,11 @@ def steps(context: Context) -> Iterator[Step]:
             detail=Detail.BRIEF,
         )
     found = context.values["lambda"] if "lambda" in wanted else None
-    has_multipliers = found is not None and not isinstance(found, Skipped)
     if isinstance(found, Skipped):
         yield not_derived("lambda", "The multipliers", found.why)
-    elif has_multipliers:
+    elif found is not None:
         yield _multipliers(context)
-    if has_multipliers or "reduced" in wanted:
+    if "reduced" in wanted:
         yield from _reduced(context)
 
 
@@ -104,36 +105,58 @@ def _matrix(context: Context) -> Step:
 
 
 def _multipliers(context: Context) -> Step:
-    lines = (*_rates(context), *_products(context))
     acting = acting_side(context)
+    is_regular = not determinant(context.values["D"]).is_zero
+    lines = (*_rates(context), *(_products(context) if is_regular else _both(context)))
     value = mapped(scalar(context.form("lambda")), with_force_letters(context.robot))
+    equations = equations_of_motion(context)
+    solved = say(
+        "That gives the accelerations, {accelerations}; put into {kept} they give {put_in}, which is solved "
+        "for $𝛌$.",
+        accelerations=formula("𝐪̈ = 𝐃⁻¹ ({acting} + 𝐀_cᵀ 𝛌)", acting=acting),
+        kept=_KEPT,
+        put_in=formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ 𝛌 + 𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇ = 𝟎", acting=acting),
+    )
+    explicit = formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting)
+    together = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] [𝐪̈; 𝛌] = [{acting}; -𝐀̇_c 𝐪̇]", acting=acting)
+    concluding = "Put in, and cancelled:" if is_regular else "Solved for the multipliers:"
+    if not is_regular:
+        solved = say(
+            "$𝐃$ has no inverse: its determinant is 0. So these equations and {kept} are solved together.",
+            kept=_KEPT,
+        )
     return Step(
         id="lambda",
         title="The multipliers",
         why=say(
             "The forces of constraint do no work, so they are combinations of the rows of $𝐀_c$: "
-            "{equations}. That gives the accelerations, {accelerations}; put into {kept} they give {put_in}, "
-            "which is solved for $𝛌$.{motors}",
-            equations=equations_of_motion(context),
-            accelerations=formula("𝐪̈ = 𝐃⁻¹ ({acting} + 𝐀_cᵀ 𝛌)", acting=acting),
-            kept=_KEPT,
-            put_in=formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ 𝛌 + 𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇ = 𝟎", acting=acting),
+            "{equations}. {solved}{motors}",
+            equations=equations,
+            solved=solved,
             motors=motors_prose(context),
         ),
-        formula=formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting),
+        formula=explicit if is_regular else together,
         source=mls("6.1.2"),
         lines=lines,
-        concluding=("Put in, and cancelled:",) if lines else (),
+        concluding=(concluding,) if lines else (),
         result=(equation(letters.LAMBDA, value),),
         detail=Detail.BRIEF,
     )
 
 
+def _both(context: Context) -> Iterator[Line]:
+    """The matrix of both systems, where it can be read."""
+    shown = context.show(bordered(context.values["Ac"], context.values["D"]))
+    if is_small(shown):
+        matrix = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] = {shown}", shown=shown)
+        yield Line(("The matrix, whose determinant is not 0:",), (matrix,), is_kept=True)
+
+
 def _rates(context: Context) -> Iterator[Line]:
     """C q̇ and the rate of the constraint along q̇, where they can be read."""
-    values = context.values
-    turned = context.forms("Cqd")
-    along = context.show(values["Ac_dot"] @ velocities(context.robot))
+    rate = context.values["Ac_dot"] @ velocities(context.robot)
+    turned = _ZERO if context.values["Cqd"].is_zero else context.forms("Cqd")
+    along = _ZERO if rate.is_zero else context.show(rate)
     nodes = [formula("𝐂 𝐪̇ = {turned}", turned=turned)] if is_small(turned) else []
     nodes += [formula("𝐀̇_c 𝐪̇ = {along}", along=scalar(along))] if is_small(along) else []
     if nodes:
@@ -141,43 +164,29 @@ def _rates(context: Context) -> Iterator[Line]:
 
 
 def _products(context: Context) -> tuple[Line, ...]:
-    """D⁻¹ as an adjugate over a determinant, and A D⁻¹ Aᵀ, where they can be read."""
+    """D⁻¹ and A D⁻¹ Aᵀ, where they can be read."""
     D, A = context.values["D"], context.values["Ac"]
-    inverse, scale = adjugate(D), determinant(D)
-    if scale.is_zero:
+    inverse = inverse_of_inertia(context)
+    square = scalar(context.forms.of(quotient(A @ adjugate(D) @ A.T, determinant(D)))) if inverse else _KEPT
+    if not inverse or not is_small(square):
         return ()
-    square = scalar(context.forms.of(quotient(A @ inverse @ A.T, scale)))
-    over = context.forms.of(quotient(inverse, scale))
-    if is_small(square, over):
-        return (
-            inverse_of_inertia(over),
-            Line(("With it:",), (formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ = {square}", square=square),), is_kept=True),
-        )
-    parts = context.show(inverse), context.show(scale), scalar(context.show(A @ inverse @ A.T))
-    if not all(map(is_small, parts)):
-        return ()
-    adjoint, size, square = parts
     return (
-        Line(
-            say("The inverse of $𝐃$ is its adjugate over its determinant:"),
-            (formula("adj 𝐃 = {adjoint}", adjoint=adjoint), formula("det 𝐃 = {size}", size=size)),
-            is_kept=True,
-        ),
-        Line(("With them:",), (formula("𝐀_c adj 𝐃 𝐀_cᵀ = {square}", square=square),), is_kept=True),
+        *inverse,
+        Line(("With it:",), (formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ = {square}", square=square),), is_kept=True),
     )
 
 
 def _reduced(context: Context) -> Iterator[Step]:
     """The equations of motion along what the constraints leave free, without the multipliers."""
-    values, is_asked = context.values, "reduced" in context.wanted
-    loads = (values[name] for name in outside_names(context.robot))
-    found = reduced(context.robot, values["Ac"], values["tau"], *loads)
-    Z = nullspace(values["Ac"]) if isinstance(found, Skipped) else found.free
-    shown = context.forms.of(Z)
-    if not Z.shape[1] or not (is_small(shown) or is_asked):
+    found = context.values["reduced"]
+    Z = nullspace(context.values["Ac"]) if isinstance(found, Skipped) else found.free
+    if not Z.shape[1]:
         return
     right = driving_side(context, constrained=False)
-    free, rows = formula("𝐙 = {shown}", shown=shown), _free_rows(context, found)
+    free, rows = formula("𝐙 = {shown}", shown=context.show(Z)), _free_rows(context, found)
+    led = "Row by row" if len(rows) > 1 else "Multiplied out"
+    if rows and found.is_shorter:
+        led += f", without terms that are 0 by the constraint{'s' * (len(context.values['Ac'].rows) > 1)}"
     yield Step(
         id="reduced",
         title="The equations without the multipliers",
@@ -192,10 +201,9 @@ def _reduced(context: Context) -> Iterator[Step]:
         ),
         source=mls("6.1.3"),
         lines=(Line(("The free rates:",), (free,)),) if rows else (),
-        concluding=("Row by row:" if len(rows) > 1 else "Multiplied out:",) if rows else (),
+        concluding=(f"{led}:",) if rows else (),
         result=rows or (free,),
         uses=("Ac",),
-        is_task=is_asked,
     )
 
 
@@ -204,10 +212,9 @@ def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:
     if isinstance(found, Skipped):
         return ()
     named = with_force_letters(context.robot)
-    rows = tuple(
+    return tuple(
         equation(context.show(left), mapped(context.show(right), named)) for left, right in found.equations
     )
-    return rows if "reduced" in context.wanted or is_small(*rows) else ()
 
 
 # -- hints -----------------------------------------------------------------------------------------

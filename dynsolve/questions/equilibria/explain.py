@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
@@ -368,6 +369,12 @@ def _balance(context: Context) -> Step:
 # -- near one of them ------------------------------------------------------------------------------
 
 
+_SECOND_ORDER = (
+    "$𝐂 𝐪̇$ is of second order in the rates and falls away; so does every change of $𝐃$, which stands beside "
+    "an acceleration. "
+)
+
+
 def _state_matrix(context: Context) -> Step:
     robot, value = context.robot, context.values["linear_A"]
     if isinstance(value, Skipped):
@@ -390,16 +397,19 @@ def _state_matrix(context: Context) -> Step:
     if has_friction:
         F = linearization.damping(robot, context.values["friction"])
         working.append(equation(letters.bold("F"), context.show(F)))
-    working.append(formula("det 𝐃 = {value}", value=context.show(determinant(D))))
+    if not is_diagonal(D):
+        working.append(formula("det 𝐃 = {value}", value=context.show(determinant(D))))
     jumps = "Coulomb friction jumps where a rate changes its sign: it has no part in a linear model."
     return Step(
         id="linear_A",
         title="The motion near the equilibrium",
         why=say(
             "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
-            "inputs are counted from the forces that hold it. {balanced}$𝐂 𝐪̇$ is of second order in the "
-            "rates and falls away; so does every change of $𝐃$, which stands beside an acceleration. The "
-            "rest is taken at {rests}. $𝐄$ is the identity matrix{friction}.",
+            "inputs are counted from the forces that hold it. {balanced}{moving}The matrices are taken at "
+            "{rests}. $𝐄$ is the identity matrix{friction}.",
+            moving=say(_SECOND_ORDER)
+            if any(map(robot.ring.depends_on_coordinates, context.values["D"].entries))
+            else "",
             friction=say(", $𝐅$ the factors of the rates in the friction") if has_friction else "",
             balanced=say(balanced, passive=listed(passive), which="it" if len(passive) == 1 else "them")
             if passive

@@ -5,7 +5,7 @@ With x = (q - q_e, q̇) and the inputs u counted from the forces g(q_e) that hol
     A = [ 0, 1; -D⁻¹ ∂g/∂q, -D⁻¹ F ],   B = [ 0; D⁻¹ S ]   at q = q_e, q̇ = 0:
 
 C q̇ is of second order, F holds the viscous friction, and S a column for each coordinate that a
-motor drives.  D⁻¹ is the adjugate over the determinant.
+motor drives.
 
 Slotine, Li, Applied Nonlinear Control, section 3.3 (1991).
 
@@ -50,8 +50,8 @@ from itertools import combinations, islice
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, fraction_of, quotient, tidy
-from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of, inverse_times, tidy
+from dynsolve.algebra.matrix import AtState, Matrix, work
 from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.graph import Skipped
@@ -163,10 +163,9 @@ def _below(robot: Robot, D: Matrix, upper: Matrix, right: Matrix) -> Linear:
     inertia = at_equilibrium(robot).matrix(D)
     if work(inertia) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
-    divisor = determinant(inertia)
-    if divisor.is_zero:
+    lower = inverse_times(inertia, right)
+    if lower is None:
         return Skipped(SINGULAR)
-    lower = quotient(adjugate(inertia) @ right, divisor)
     return tidy(robot.ring, [map(fraction_of, row) for row in (*upper.rows, *lower.rows)])
 
 

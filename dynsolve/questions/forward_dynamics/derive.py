@@ -2,7 +2,7 @@
 
     q̈ = D⁻¹ (τ + Q - C q̇ - friction - g)
 
-D⁻¹ is the adjugate over the determinant, so that all is polynomial but for one division.
+D⁻¹ is the adjugate over the determinant, block by block: of a diagonal D the reciprocals.
 
 Lynch, Park, Modern Robotics, section 8.5 (2017).
 
@@ -18,14 +18,15 @@ Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import product
 
 from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, nullspace, quotient
-from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.linear_systems import FractionMatrix, inverse_times, nullspace
+from dynsolve.algebra.matrix import Matrix, work
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import FOR_EVERY_Q
@@ -80,8 +81,7 @@ def accelerations(robot: Robot, D: Matrix, *forces: Matrix) -> Matrix | Fraction
     acting = acting_forces(robot, *forces)
     if work(D) * max(1, max(map(len, acting.entries))) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
-    scale = determinant(D)
-    return Skipped(SINGULAR) if scale.is_zero else quotient(adjugate(D) @ acting, scale)
+    return inverse_times(D, acting) or Skipped(SINGULAR)
 
 
 # The equations of motion of a constrained mechanism without the multipliers
@@ -91,14 +91,20 @@ MOST_TERMS = 400
 
 
 class Reduced(Struct, frozen=True):
-    """Z, n×(n-c), and (left, right) of each equation."""
+    """Z, n×(n-c), and (left, right) of each equation; whether terms that constraints make 0 were left out."""
 
     free: Matrix
     equations: tuple[tuple[Expr, Expr], ...]
+    is_shorter: bool
 
 
-def reduced(robot: Robot, A: Matrix, forces: Matrix, *loads: Matrix) -> Reduced | Skipped:
-    """The equations without multipliers; `forces` are their left sides, n×1, `loads` Q where there is any."""
+def reduced(
+    robot: Robot, A: Matrix, kept: Sequence[Expr], forces: Matrix, *loads: Matrix
+) -> Reduced | Skipped:
+    """The equations without multipliers; `forces` are their left sides, n×1, `loads` Q where there is any.
+
+    What is `kept` at 0 are functions of the coordinates, of the rates and of the accelerations.
+    """
     Z = nullspace(A)
     if not Z.shape[1]:
         return Skipped("the constraints leave nothing free to move")
@@ -107,7 +113,36 @@ def reduced(robot: Robot, A: Matrix, forces: Matrix, *loads: Matrix) -> Reduced 
     driving = driving_forces(robot)
     for Q in loads:
         driving = driving + Q
-    return Reduced(Z, tuple(zip((Z.T @ forces).entries, (Z.T @ driving).entries, strict=True)))
+    whole = (Z.T @ forces).entries
+    left = [without_zeros(value, kept) for value in whole]
+    return Reduced(Z, tuple(zip(left, (Z.T @ driving).entries, strict=True)), tuple(left) != whole)
+
+
+def without_zeros(value: Expr, zeros: Sequence[Expr]) -> Expr:
+    """A value less multiples of what is 0, as long as terms fall away and none is new.
+
+    >>> from dynsolve.algebra.ring_values import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b"), Symbol("m")])
+    >>> a, b, m = map(ring.symbol, "abm")
+    >>> without_zeros(m * a - m * b + a * a, [a - b])
+    Expr(1*a^2)
+    """
+    while (shorter := next(_shorter(value, zeros), None)) is not None:
+        value = shorter
+    return value
+
+
+def _shorter(value: Expr, zeros: Sequence[Expr]) -> Iterator[Expr]:
+    terms = value.poly.to_dict()
+    for zero in zeros:
+        for (lead, number), (exponents, factor) in product(zero.poly.to_dict().items(), terms.items()):
+            rest = tuple(have - need for have, need in zip(exponents, lead, strict=True))
+            if min(rest, default=0) < 0:
+                continue
+            found = value - Expr(value.ring, value.ring.ctx.from_dict({rest: factor / number})) * zero
+            if len(found) < len(terms) and found.poly.to_dict().keys() <= terms.keys():
+                yield found
 
 
 # Forward dynamics, put back

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.algebra.linear_systems import adjugate, quotient
-from dynsolve.algebra.matrix import determinant
+from dynsolve.algebra.linear_systems import adjugate, fraction_of, inverse_times, is_diagonal
+from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
@@ -18,8 +18,10 @@ from dynsolve.explain.terms import (
 )
 from dynsolve.explain.writing import LYNCH_PARK, is_small
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Node, Symbol, equation, mapped
+from dynsolve.notation.tree import Node, Number, Quotient, Symbol, equation, mapped
 from dynsolve.quantities import letters
+
+_DET = formula("det 𝐃")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -30,9 +32,7 @@ def steps(context: Context) -> Iterator[Step]:
     if isinstance(value, Skipped):
         yield not_derived("qdd_forward", "The accelerations", value.why)
         return
-    D = context.values["D"]
-    inverse = context.forms.of(quotient(adjugate(D), determinant(D)))
-    lines = (inverse_of_inertia(inverse),) if is_small(inverse) else ()
+    lines = inverse_of_inertia(context)
     shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
     yield Step(
         id="qdd_forward",
@@ -46,17 +46,33 @@ def steps(context: Context) -> Iterator[Step]:
         formula=formula("𝐪̈ = 𝐃⁻¹ ({acting})", acting=acting_side(context)),
         source=LYNCH_PARK.section("8.5"),
         lines=lines,
-        concluding=("Multiplied out, and cancelled:",) if lines else (),
+        concluding=(f"Multiplied out{', and cancelled' * (not is_diagonal(context.values['D']))}:",)
+        if lines
+        else (),
         result=(equation(letters.QDD, shown),),
         entries=tuple((Symbol(q.name, 2),) for q in context.robot.coordinates),
         detail=Detail.BRIEF,
     )
 
 
-def inverse_of_inertia(inverse: Node) -> Line:
-    """D⁻¹, as a line."""
-    told = say("The inverse of $𝐃$, its adjugate over its determinant:")
-    return Line(told, (formula("𝐃⁻¹ = {inverse}", inverse=inverse),), is_kept=True)
+def inverse_of_inertia(context: Context) -> tuple[Line, ...]:
+    """D⁻¹, as a line, where it can be read."""
+    D = context.values["D"]
+    inverse = inverse_times(D, Matrix.identity(D.ring, len(D.rows)))
+    if inverse is None:
+        return ()
+    told = "The inverse of $𝐃$, its adjugate over its determinant:"
+    size = determinant(D)
+    if is_diagonal(D):
+        told = "$𝐃$ is diagonal; its inverse has the reciprocals:"
+    elif len(size) > 1 and all(len(fraction_of(entry).denominator) == len(size) for entry in inverse.entries):
+        adjoint, value = context.show(adjugate(D)), context.show(size)
+        over = Quotient(Number(1), _DET)
+        parts = (formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint), equation(_DET, value))
+        return (Line(say(told), parts, is_kept=True),) if is_small(adjoint, value) else ()
+    shown = context.forms.of(inverse)
+    whole = formula("𝐃⁻¹ = {shown}", shown=shown)
+    return (Line(say(told), (whole,), is_kept=True),) if is_small(shown) else ()
 
 
 # -- hints -----------------------------------------------------------------------------------------

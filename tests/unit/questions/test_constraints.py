@@ -5,11 +5,13 @@ from __future__ import annotations
 import unicodedata
 
 import pytest
+import sympy
 
 import dynsolve
 from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.notation.tree import Matrix, Negative
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem.reader import find
 from dynsolve.questions.constraints.check import verify_constraints
 from tests.support import numbers
 
@@ -98,8 +100,77 @@ def test_it_does_not_matter_when_the_numbers_are_put_in() -> None:
     assert numbers([found], state)[0] == pytest.approx(numbers(early, state)[0])
 
 
+def reduced_rows(text: str) -> tuple[list[str], str]:
+    """The equations of the step, and what stands above them."""
+    (step,) = (step for step in dynsolve.solve(text).steps if step.id == "reduced")
+    return [unicodedata.normalize("NFC", to_unicode(row)) for row in step.result], str(step.concluding)
+
+
 def test_the_equations_without_multipliers_are_written_out() -> None:
     """m v̇ along the blade, with what drives it in this direction (by hand)."""
-    (step,) = (step for step in dynsolve.solve("knife-edge").steps if step.id == "reduced")
-    rows = [unicodedata.normalize("NFC", to_unicode(row)) for row in step.result]
+    text = find("knife-edge").read_text(encoding="utf-8").replace("lambda]", "lambda, reduced]")
+    rows, told = reduced_rows(text)
     assert rows == ["m (cos(φ) ẍ + sin(φ) ÿ) = f₂ sin(φ) + f₁ cos(φ)", "J φ̈ = τ₃"]
+    assert "0 by" not in told
+
+
+def test_they_are_worked_out_where_they_are_asked_for() -> None:
+    assert "reduced" not in {step.id for step in dynsolve.solve("knife-edge").steps}
+
+
+HOOP = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {r: prismatic, phi: revolute}
+  bodies: [{mass: m, at: [r*sin(phi), -r*cos(phi), 0]}]
+passive: [r, phi]
+constraints: [r - R]
+find: [reduced]
+"""
+
+
+def test_what_the_constraint_makes_zero_stands_in_no_equation() -> None:
+    """2m r ṙ φ̇, where r is held (by hand)."""
+    rows, told = reduced_rows(HOOP)
+    assert rows == ["m r² φ̈ + m g r sin(φ) = 0"]
+    assert "without terms that are 0 by the constraint" in told
+
+
+RAMP = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, s: prismatic}
+  bodies: [{mass: m, at: [x, y, 0]}]
+constraints: [x - s^2/R, y - s]
+find: [D, Ac, Ac_dot, lambda]
+"""
+SLOT = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m, link: 1}]
+constraints: [tip.y]
+find: [D, Cqd, g, Ac, Ac_dot, lambda]
+"""
+
+
+@pytest.mark.parametrize("text", [RAMP, SLOT])
+def test_a_coordinate_without_mass_has_multipliers_as_any_other(text: str) -> None:
+    """Against SymPy, which solves both systems together."""
+    solution = dynsolve.solve(text)
+    found = solution.to_json()["results"]
+    read = {name: sympy.Matrix(sympy.sympify(found[name])) for name in ("D", "Ac", "Ac_dot")}
+    coordinates = solution.robot.coordinates
+    tau = sympy.Matrix(sympy.sympify(found["tau"]))
+    still = {sympy.Symbol(q.acceleration): 0 for q in coordinates}
+    forces = sympy.Matrix(sympy.symbols([q.force for q in coordinates])) - tau.subs(still)
+    rates = sympy.Matrix(sympy.symbols([q.velocity for q in coordinates]))
+    n, c = len(coordinates), read["Ac"].rows
+    both = sympy.Matrix(sympy.BlockMatrix([[read["D"], -read["Ac"].T], [read["Ac"], sympy.zeros(c, c)]]))
+    solved = both.LUsolve(sympy.Matrix([*forces, *(-read["Ac_dot"] * rates)]))
+    assert read["D"].det() == 0
+    assert sympy.simplify(sympy.Matrix(sympy.sympify(found["lambda"])) - solved[n:, :]) == sympy.zeros(c, 1)
+
+
+def test_what_moves_no_mass_and_is_free_has_no_acceleration() -> None:
+    why = dynsolve.solve(RAMP.replace("x - s^2/R, ", "x, ").replace("- s]", "- h]")).to_json()
+    assert "moves no mass" in why["results"]["lambda"]["skipped"]

@@ -152,3 +152,34 @@ def test_a_state_is_where_forces_are_held_and_no_part_of_the_equations_of_motion
         there = solve_json(TELESCOPE + asked + "state: {q1: 30deg}\n")["results"]
         assert [there[name] for name in names] == [general[name] for name in names]
         assert there["Q"] != general["Q"]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (TELESCOPE + "find: [qdd_forward]\n", "𝐃 is diagonal; its inverse has the reciprocals:"),
+        (CART, "The inverse of 𝐃, its adjugate over its determinant: 𝐃⁻¹ = 1/(det 𝐃)"),
+    ],
+)
+def test_the_inverse_is_told_as_it_is_found(text: str, told: str) -> None:
+    assert told in " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
+
+
+def test_what_a_length_divides_is_cancelled_as_any_other_factor() -> None:
+    """A ball that rolls on a beam about its own centre: (m R + I/R)/(m + I/R²) is R (by hand)."""
+    text = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {r: prismatic, theta: revolute}
+  bodies:
+    - {mass: M, at: [0, 0, 0], turn: theta, inertia: {zz: J}}
+    - {mass: m, at: [r*cos(theta) - R*sin(theta), r*sin(theta) + R*cos(theta), 0], turn: theta - r/R,
+       inertia: {zz: I}}
+passive: [r]
+linearize: {r: 0, theta: 0}
+find: [linear_A, linear_B, qdd_forward]
+"""
+    found = solve_json(text)["results"]
+    assert [row[0] for row in found["linear_B"]] == ["0", "0", "R/J", "1/J"]
+    assert found["linear_A"][2][0] == "-m*g*R/J"
+    assert "I" not in found["qdd_forward"][1]
