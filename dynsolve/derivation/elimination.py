@@ -168,6 +168,11 @@ class ParameterSigns(Struct, frozen=True):
                 left = left * (ring.constant(sign) if sign else factor) ** times
         return left
 
+    def even_factors(self, value: Expr) -> list[Expr]:
+        """The irreducible factors that stand in a value to even powers alone, and may be 0."""
+        found = [] if value.is_zero else _factored(value)[1]
+        return [f for f, times in found if not (times % 2 or self._sign(f) or f in self.nonzero)]
+
     def is_positive(self, value: Expr) -> bool:
         """Whether a value is positive."""
         part = self.open_part(value)

@@ -14,6 +14,9 @@ from dynsolve.notation.tree import Relation
 from dynsolve.robot.model import Robot
 
 
+_TURNED = {">": "<", "≥": "≤", "<": ">", "≤": "≥"}
+
+
 class Inequalities:
     """The inequalities of one robot, in its ring or one of a search."""
 
@@ -41,6 +44,8 @@ class Inequalities:
             sides[factor < 0][exponents] = abs(factor)
         form = self.compactor(ring).form
         left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
+        if not sides[0]:
+            left, right, sign = right, left, _TURNED.get(sign, sign)
         return Relation((left, right), (sign,))
 
     def compactor(self, ring: Ring) -> Compactor:

@@ -55,7 +55,7 @@ def alternatives(export: Export, shown: SetForms, name: str) -> list[list[str]] 
 def plain_inequality(relation: Relation, printer: PythonPrinter) -> str:
     """a1 >= a2"""
     left, right = relation.parts
-    sign = {"≥": ">="}.get(relation.signs[0], relation.signs[0])
+    sign = {"≥": ">=", "≤": "<=", "≠": "!="}.get(relation.signs[0], relation.signs[0])
     return f"{printer.text(left)} {sign} {printer.text(right)}"
 
 

@@ -15,6 +15,8 @@ from math import atan2, hypot
 
 from msgspec import Struct
 
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.configurations import NO_VALUE, is_zero
@@ -22,12 +24,14 @@ from dynsolve.derivation.elimination import is_positive_definite, rank, solved
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.tree import Matrix, Negative, Node, Product, Sum
+from dynsolve.notation.tree import Matrix as MatrixTree
+from dynsolve.notation.tree import Negative, Node, Product, Sum
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.questions.equation_sets import starts
 from dynsolve.questions.equilibria.balance import STATES, never_zero, table_lengths
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
+from dynsolve.questions.equilibria.multipliers import Along
 from dynsolve.questions.equilibria.solving import Point, Stability, multipliers, wanted_rows
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
@@ -37,7 +41,7 @@ _NEAR = 1e-6
 _NEWTON_STEPS = 60
 _TINY = 1e-12
 _NEAR_ZERO = 1e-4
-"""So near is a zero of higher order found, of which Newton's method sees the square."""
+"""So near is a zero of higher order found, of which Newton's method sees the square, and so are differences."""
 
 
 class Case(Struct, frozen=True):
@@ -56,13 +60,13 @@ def balanced_forces(robot: Robot) -> str:
 def in_balance(forms: Forms, forces: Node) -> list[Node]:
     """What must be 0: the forces of what no motor holds; with constraints what these leave of them."""
     robot, wanted = forms.robot, wanted_rows(forms.robot)
-    assert isinstance(forces, Matrix)
+    assert isinstance(forces, MatrixTree)
     row = tuple(forces.rows[k][0] for k in wanted)
     if not robot.questions.constraints or robot.questions.model.steady:
         return list(row)
     A, h = forms("Ac"), forms("hc")
     order = multipliers(robot, *(forms.values[name] for name in ("g", "Ac", "hc"))).rank + 1
-    assert isinstance(A, Matrix) and isinstance(h, Matrix)
+    assert isinstance(A, MatrixTree) and isinstance(h, MatrixTree)
     columns = [tuple(line[k] for k in wanted) for line in A.rows]
     dependent = [
         _determinant([[line[k] for k in across] for line in (*chosen, row)])
@@ -181,8 +185,11 @@ def _lies_in(robot: Robot, case: Program, found: Mapping[str, float]) -> bool:
 
 def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
     """Whether a minimum of the energy is told for these parameters; None where nothing is."""
+    if any(abs(evaluate(factor, at)) < _NEAR for factor in point.nonzero):
+        return None
     if not point.conditions:
-        return {Stability.STABLE: True, Stability.UNSTABLE: False}.get(point.stability)
+        is_told = bool(point.nonzero) or point.stability is Stability.STABLE
+        return True if is_told else {Stability.UNSTABLE: False}.get(point.stability)
     least = min(evaluate(bound.value, at) for bound in point.conditions)
     return None if least == 0 else least > 0
 
@@ -193,6 +200,8 @@ def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Poin
         at = zero_near(robot, zeros, {**start, **turned})
         if at is None or any(abs(at[name] - angle) > _NEAR for name, angle in turned.items()):
             continue
+        if point.along is not None:
+            _verify_along(robot, forces, point.along, at)
         told = _is_minimum(point, at)
         if told is not None and _rises(robot, forces, at, point) is not told:
             raise VerificationError("the stability told is another; this is a fault of dynsolve")
@@ -211,11 +220,48 @@ def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point)
     return is_positive_definite(rows)
 
 
-def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
-    """Whether the energy rises along what constraints leave free, by differences of g - A_cᵀ λ."""
+def _verify_along(robot: Robot, program: Program, along: Along, at: Mapping[str, float]) -> None:
+    """Raises VerificationError where Z, λ or the second derivatives along Z are others."""
+    if abs(evaluate(along.size, at)) < _NEAR:
+        return
     g, A = program.run(at)
-    across = _orthonormal(A)
+    Z, held, second = (_numbers(one, at) for one in (along.free, along.multipliers, along.second))
+    columns = list(zip(*Z, strict=True))
+    gaps = [sum(a * z for a, z in zip(row, column, strict=True)) for row in A for column in columns]
+    pulls = (sum(x * row[k] for (x,), row in zip(held, A, strict=True)) for k in range(robot.n))
+    gaps += [force[0] - pull for force, pull in zip(g, pulls, strict=True)]
+    theirs = _between(columns, _slopes(robot, program, at))
+    gaps += [a - b for mine, row in zip(second, theirs, strict=True) for a, b in zip(mine, row, strict=True)]
+    if not max(map(abs, gaps)) < _NEAR_ZERO * max(1.0, *(abs(x) for row in theirs for x in row)):
+        raise VerificationError("what is curved along the constraint differs; this is a fault of dynsolve")
+
+
+def _numbers(matrix: Matrix | FractionMatrix, at: Mapping[str, float]) -> list[list[float]]:
+    fractions = [[fraction_of(entry) for entry in row] for row in matrix.rows]
+    return [[evaluate(x.numerator, at) / evaluate(x.denominator, at) for x in row] for row in fractions]
+
+
+def _between(vectors: Sequence[Sequence[float]], slopes: Sequence[Sequence[float]]) -> list[list[float]]:
+    """Vᵀ S V, of vectors as columns."""
+    return [
+        [
+            sum(a * s * b for a, row in zip(u, slopes, strict=True) for b, s in zip(v, row, strict=True))
+            for v in vectors
+        ]
+        for u in vectors
+    ]
+
+
+def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
+    """Whether the energy rises along what constraints leave free."""
+    across = _orthonormal(program.run(at)[1])
     free = _orthonormal([[float(i == j) for j in range(robot.n)] for i in range(robot.n)], across)
+    return is_positive_definite(_between(free, _slopes(robot, program, at)))
+
+
+def _slopes(robot: Robot, program: Program, at: Mapping[str, float]) -> list[list[float]]:
+    """The derivatives of g - A_cᵀ λ, by differences, with the λ of the equilibrium."""
+    g, A = program.run(at)
     squares = [[sum(a * b for a, b in zip(row, other, strict=True)) for other in A] for row in A]
     pulls = solved(squares, [sum(a * force[0] for a, force in zip(row, g, strict=True)) for row in A])
 
@@ -228,14 +274,7 @@ def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> boo
     for q in robot.coordinates:
         ahead, behind = (left({**at, q.name: at[q.name] + step}) for step in (_STEP, -_STEP))
         slopes.append([(a - b) / (2 * _STEP) for a, b in zip(ahead, behind, strict=True)])
-    curved = [
-        [
-            sum(a * s * b for a, row in zip(u, slopes, strict=True) for b, s in zip(v, row, strict=True))
-            for v in free
-        ]
-        for u in free
-    ]
-    return is_positive_definite(curved)
+    return slopes
 
 
 def _orthonormal(

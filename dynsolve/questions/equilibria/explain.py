@@ -14,7 +14,7 @@ from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.set_forms import vanishing, without_number
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, as_row, is_small, listed, side_by_side, spong
+from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, as_row, is_small, listed, scalar, side_by_side, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,
@@ -259,24 +259,27 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         forces, working = forces_of_motion(context), (energy,)
         second = SECOND
     told = [
-        (point, _point(context, shown, point, case))
+        (point, _place(shown, point, case))
         for case, points in zip(shown.equilibria, found.points, strict=True)
         for point in points
     ]
+    more: Prose = ()
+    lines: tuple[Line, ...] = ()
     if robot.questions.constraints and not steady:
         told, more = _of_constrained(told, all(found.points))
         why = say(_CONSTRAINED_ENERGY, curved=_CURVED) if told else ()
+        lines = tuple(line for point, place in told for line in _along(context, point, place))
     else:
-        more = ()
         curvature = context.show(linearization.curvature(robot, forces))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
-    sentences = [*(sentence for _, sentence in told), *([more] if more else [])]
+    sentences = [*(_verdict(context, shown, *one) for one in told), *([more] if more else [])]
     return Step(
         id="equilibria_stability",
         title="How stable they are",
         why=why,
         source=(SOURCE if steady else SLOTINE_LI.section("3.4")) if told else "",
         working=working,
+        lines=lines,
         concluding=tuple(part for sentence in sentences for part in (*sentence, " ")),
         uses=("equilibria",),
     )
@@ -300,34 +303,56 @@ _CONSTRAINED_ENERGY = (
 _CURVED = formula("𝐙ᵀ (∂(𝐠 - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙")
 
 
-def _point(context: Context, shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:
-    """At q₁ = -90°, q₂ = 0: stable."""
+def _along(context: Context, point: Point, place: Prose) -> Iterator[Line]:
+    """Z, λ and the matrix between Z at an equilibrium, where they can be read."""
+    if point.along is None:
+        return
+    found = point.along
+    free, held, second = (context.forms.of(one) for one in (found.free, found.multipliers, found.second))
+    if is_small(free, held, second):
+        shown = (
+            formula("𝐙 = {free}", free=free),
+            equation(letters.LAMBDA, scalar(held)),
+            equation(_CURVED, scalar(second)),
+        )
+        yield Line(say("{place}:", place=place), shown, is_kept=True)
+
+
+def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:
+    """At q₁ = -90°, q₂ = 0"""
     quarters = {(0, 1): Number(0), (1, 0): Degrees(90), (0, -1): Degrees(180), (-1, 0): Negative(Degrees(90))}
     at = [
         equation(Symbol(pair.angle.terms[0][0][0][0]), quarters[sine, cosine])
         for pair, sine, cosine in point.values
     ]
+    if at:
+        return ("At ", side_by_side(at))
+    if not case:
+        return ("In every configuration",)
+    cases = shown.equilibria
+    return ("In these equilibria",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
+
+
+def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Prose) -> Prose:
+    """At q₁ = -90°, q₂ = 0: stable."""
     said = _VERDICTS[point.stability]
     if point.is_open:
-        said = ("put the values into the second derivatives",)
-    if point.conditions:
-        said = say("stable where {all}", all=listed([*map(shown.inequality, point.conditions)]))
+        said = ("not told here",)
+    needed = [*map(shown.inequality, point.conditions), *(shown.comparison(f, "≠") for f in point.nonzero)]
+    if needed:
+        said = say("stable where {all}", all=listed(needed))
     if point.falls:
-        fails = [shown.comparison(bound.value, "<") for bound in point.conditions]
-        said = say("{stable}, not stable where {fails}", stable=said, fails=listed(fails, "or"))
+        fails: Prose = ("one of these inequalities is reversed",)
+        if len(point.conditions) == 1:
+            fails = (shown.comparison(point.conditions[0].value, "<"),)
+        said = say("{stable}, not stable where {fails}", stable=said, fails=fails)
     steady = dict(context.robot.questions.model.steady)
     names = [context.robot.coordinates[k].name for k in point.neutral]
     free = listed([Symbol(name) for name in names if name not in steady])
     along = say(", but for {free}, along which nothing changes", free=free) if free and point.is_told else ""
     if point.drifts:
         along = (", but for motions along the equilibria, in which nothing changes",)
-    where: Prose = ("In every configuration",)
-    if at:
-        where = ("At ", side_by_side(at))
-    elif case:
-        cases = shown.equilibria
-        where = ("In these equilibria",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
-    return say("{where}: {said}{along}.", where=where, said=said, along=along)
+    return say("{place}: {said}{along}.", place=place, said=said, along=along)
 
 
 _VERDICTS: dict[Stability, Prose] = {

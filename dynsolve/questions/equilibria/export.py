@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.questions.equilibria.forms import EquilibriaForms
@@ -35,7 +36,8 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
         return inequalities(shown, printer, bounds)
 
     def told(point: Point) -> dict[str, Any]:
-        conditions = {"stable_if": written(point.conditions)} if point.conditions else {}
+        needed = [*written(point.conditions), *(_nonzero(shown, printer, factor) for factor in point.nonzero)]
+        conditions = {"stable_if": needed} if needed else {}
         if point.falls:
             conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])
         return {**angles(point.values), "stability": point.stability.value, **conditions}
@@ -51,6 +53,10 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
         yield "equilibria_special", [_special(one, shown, printer) for one in found.special]
     if found.may_be_others:
         yield "equilibria_general", True
+
+
+def _nonzero(shown: EquilibriaForms, printer: PythonPrinter, factor: Expr) -> str:
+    return plain_inequality(shown.comparison(factor, "≠"), printer)
 
 
 def _special(one: SpecialCase, shown: EquilibriaForms, printer: PythonPrinter) -> dict[str, Any]:

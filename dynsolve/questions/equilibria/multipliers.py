@@ -11,13 +11,15 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from itertools import chain, product
+from math import prod
 
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import halves
-from dynsolve.algebra.linear_systems import adjugate, nullspace, part, rank_parts
+from dynsolve.algebra.fraction import RationalExpr, cancelled, multiply
+from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, fraction_of, nullspace, part, quotient, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.sampling import Transfer
@@ -59,6 +61,40 @@ class Settled(Struct, frozen=True):
         return zip(self.alternatives, self.excluded, strict=True)
 
 
+class Along(Struct, frozen=True):
+    """Along what constraints leave free: Z, λ, and the second derivatives between the columns of Z.
+
+    Where `size` is 0 the rows of A_c are dependent.
+    """
+
+    free: Matrix
+    multipliers: Matrix | FractionMatrix
+    second: Matrix | FractionMatrix
+    size: Expr
+
+    @property
+    def divisor(self) -> Expr:
+        """What the second derivatives are fractions of."""
+        divisors = {fraction_of(entry).denominator for entry in self.second.entries}
+        return prod(divisors, start=self.free.ring.one)
+
+    @property
+    def without_fractions(self) -> Matrix:
+        """The second derivatives times the square of the divisor."""
+        square = RationalExpr(self.divisor * self.divisor)
+        entries = (cancelled(multiply(fraction_of(entry), square)) for entry in self.second.entries)
+        width = self.second.shape[1]
+        flat = [entry.numerator for entry in entries]
+        return Matrix.of(self.free.ring, (flat[i : i + width] for i in range(0, len(flat), width)))
+
+
+def _over(matrix: Matrix, divisor: Expr, at: Callable[[Matrix], Matrix]) -> Matrix | FractionMatrix:
+    """A matrix over a divisor, both at a configuration."""
+    ring = matrix.ring
+    rows = at(Matrix.of(ring, [*matrix.rows, [divisor] * matrix.shape[1]])).rows
+    return quotient(Matrix(ring, rows[:-1]), rows[-1][0])
+
+
 class Multipliers(Struct, frozen=True):
     """A_c and the forces in the columns that no motor holds, gᵀ as a row, and the h that are 0."""
 
@@ -86,15 +122,15 @@ class Multipliers(Struct, frozen=True):
         """Whether an energy decides on stability: all n coordinates are free, all constraints functions."""
         return len(self.A.rows) == len(self.h) and self.A.shape[1] == n
 
-    def along(self, second: Matrix, at: Callable[[Matrix], Matrix]) -> Matrix | None:
+    def along(self, second: Matrix, at: Callable[[Matrix], Matrix]) -> Along | None:
         """The second derivatives of P - λᵀ h along what A_c leaves free, `at` a configuration.
 
-        They come up to a positive factor; None where the rows of A_c are dependent, or nothing is free.
-        `second` are those of P; `at` may bring a factor, the same in all that it is given at once.
+        None where the rows of A_c are dependent, or nothing is free.  `second` are those of P; `at` may
+        bring a factor, the same in all that it is given at once.
         """
         ring, (count, n) = self.A.ring, self.A.shape
         of_h = [[ring.diff(ring.diff(h, i), j) for j in range(n)] for h in self.h for i in range(n)]
-        rows = at(Matrix.of(ring, [*self.A.rows, *self.g.rows, *second.rows, *of_h])).rows
+        rows = at(Matrix.of(ring, [*self.A.rows, *self.g.rows, *second.rows, *of_h, [ring.one] * n])).rows
         A, g, of_P = (
             Matrix(ring, lines) for lines in (rows[:count], rows[count : count + 1], rows[count + 1 :])
         )
@@ -109,7 +145,9 @@ class Multipliers(Struct, frozen=True):
             bent = of_P.block(n * (k + 1), n * (k + 2), 0, n)
             total = total - bent.scale(multipliers[0, k])
         Z = nullspace(A)
-        return Z.T @ total.scale(size) @ Z
+        scaled = Z.T @ total.scale(size) @ Z
+        second = _over(scaled, size * size * rows[-1][0], at)
+        return Along(Z, _over(multipliers.T, size, at), second, at(Matrix.of(ring, [[size * size]]))[0, 0])
 
     def zeros(self, rank: int) -> tuple[Expr, ...]:
         """What is 0 where the forces are held and A_c has this rank."""

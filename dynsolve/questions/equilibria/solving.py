@@ -54,7 +54,7 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.questions.equilibria.multipliers import Multipliers, Settled
+from dynsolve.questions.equilibria.multipliers import Along, Multipliers, Settled
 from dynsolve.questions.parameters.derive import generators
 from dynsolve.robot.model import Robot
 
@@ -91,21 +91,25 @@ class Point(Struct, frozen=True):
     in any motion along the equilibria, in which the others follow these.  Where the stability is
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
-    sides are equal nothing is said.  `is_open` says that signs hold coordinates, and are not seen.
+    sides are equal nothing is said, nor where one of `nonzero` is 0.  Coordinates stand in conditions where their values are not known;
+    `is_open` says that these are too long to be told.  `along` is what constraints leave of the second
+    derivatives.
     """
 
     values: Values
     stability: Stability
     neutral: tuple[int, ...] = ()
     conditions: tuple[Bound, ...] = ()
+    nonzero: tuple[Expr, ...] = ()
     falls: bool = False
     is_open: bool = False
     drifts: bool = False
+    along: Along | None = None
 
     @property
     def is_told(self) -> bool:
         """Whether something is known."""
-        return bool(self.conditions) or self.stability is not Stability.UNDECIDED
+        return bool(self.conditions or self.nonzero) or self.stability is not Stability.UNDECIDED
 
 
 class Curvature(Struct, frozen=True):
@@ -129,7 +133,7 @@ class Curvature(Struct, frozen=True):
             if told == point or told.stability is not Stability.STABLE:
                 yield point
             else:  # where a bound is an equality nothing is known
-                yield replace(point, conditions=tuple(inside), falls=False, is_open=False)
+                yield replace(point, conditions=tuple(inside), nonzero=(), falls=False, is_open=False)
 
     def _points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         if 2 ** len(alternative) > MOST_POINTS:
@@ -152,12 +156,22 @@ class Curvature(Struct, frozen=True):
             here = partial(_there, values=values, zeros=left)
             if self.held is not None:
                 along = self.held.along(self.second, here)
-                undecided = Point(values, Stability.UNDECIDED)
-                yield undecided if along is None else self._point(values, along, signs, (), here)
+                point = Point(values, Stability.UNDECIDED)
+                yield point if along is None else self._held_point(values, along, signs, here)
                 continue
             at = here(self.second)
             drifting = self._drifting(values, at, signs, len(alternative))
             yield drifting or self._point(values, at, signs, free, here)
+
+    def _held_point(self, values: Values, along: Along, signs: ParameterSigns, here: Here) -> Point:
+        """The stability along what constraints leave free, where their rows are independent."""
+        apart = signs.beside(nonzero=signs.open_factors(along.divisor))
+        point = replace(self._point(values, along.without_fractions, apart, (), here), along=along)
+        dependent = tuple(signs.open_factors(along.size))
+        if not dependent or not point.is_told or point.stability is Stability.UNSTABLE:
+            return point
+        nonzero = tuple(dict.fromkeys((*point.nonzero, *dependent)))
+        return replace(point, stability=Stability.UNDECIDED, nonzero=nonzero)
 
     def _drifting(self, values: Values, second: Matrix, signs: ParameterSigns, held: int) -> Point | None:
         """The stability where equilibria, of which `held` conditions are asked, are all that is flat.
@@ -193,19 +207,26 @@ class Curvature(Struct, frozen=True):
             return Point(values, Stability.UNDECIDED, neutral, is_open=bool(rest))
         if not self.may_be_held and _falls(minor, rest, signs):
             return Point(values, Stability.UNSTABLE, neutral)
-        leading = (minor(rest[:k]) for k in range(1, len(rest) + 1))
+        leading = [minor(rest[:k]) for k in range(1, len(rest) + 1)]
+        nonzero = tuple(dict.fromkeys(factor for one in leading for factor in signs.even_factors(one)))
+        signs = signs.beside(nonzero=nonzero)
         left = [
             sign
             for sign in map(signs.open_part, leading)
             if not (sign.is_number and sign.number > 0) and not _is_positive_throughout(sign, signs)
         ]
-        if not left:
+        if not left and not nonzero:
             return Point(values, Stability.STABLE, neutral)
-        moves = any(sign.ring.depends_on_coordinates(sign) for sign in left)
-        if moves or any(sign.is_number for sign in left):
-            return Point(values, Stability.UNDECIDED, neutral, is_open=moves)
-        conditions = independent([Bound(sign) for sign in _least(left, signs)], signs.assumed)
-        return Point(values, Stability.UNDECIDED, neutral, conditions, not self.may_be_held)
+        moves = any(sign.ring.depends_on_coordinates(sign) for sign in (*left, *nonzero))
+        if any(sign.is_number for sign in left):
+            return Point(values, Stability.UNDECIDED, neutral)
+        if moves and max(map(len, (*left, *nonzero))) > MOST_SHOWN_TERMS:
+            return Point(values, Stability.UNDECIDED, neutral, is_open=True)
+        conditions = tuple(map(Bound, dict.fromkeys(left)))
+        if not moves:
+            conditions = independent([Bound(sign) for sign in _least(left, signs)], signs.assumed)
+        falls = bool(conditions) and not self.may_be_held
+        return Point(values, Stability.UNDECIDED, neutral, conditions, nonzero, falls)
 
 
 def _falls(minor: Callable[[tuple[int, ...]], Expr], rest: Sequence[int], signs: ParameterSigns) -> bool:

@@ -53,7 +53,7 @@ def steps(problem: str) -> dict[str, Step]:
 
 @pytest.mark.parametrize(
     ("assumed", "verdict"),
-    [("assume: [k > m*g*l]", ": stable."), ("", "put the values into the second derivatives.")],
+    [("assume: [k > m*g*l]", ": stable."), ("", "not stable where k < m g l cos(a).")],
 )
 def test_what_is_assumed_decides_stability(assumed: str, verdict: str) -> None:
     found = steps(BEAM + assumed)
@@ -70,7 +70,7 @@ def test_gravity_alone_does_not_balance_what_is_held() -> None:
     found = steps(CRANK)
     assert "equilibrium" not in found
     assert words(found["Ac"].why).startswith("The function stays 0, so its rate is 0: ")
-    assert words(found["reduced"].concluding) == "Multiplied out:"
+    assert words(found["reduced"].concluding).startswith("Multiplied out")
 
 
 def test_no_spring_and_one_input() -> None:
