@@ -13,7 +13,6 @@ from dynsolve.explain.forms import is_numeric, leading_names, parallel_coordinat
 from dynsolve.notation.tree import Relation
 from dynsolve.robot.model import Robot
 
-
 _TURNED = {">": "<", "≥": "≤", "<": ">", "≤": "≥"}
 
 

@@ -31,6 +31,7 @@ from dynsolve.explain.working.differentiation import (
 )
 from dynsolve.explain.working.identities import (
     SILENT,
+    SORTED,
     Identity,
     Tactic,
     Way,
@@ -111,7 +112,7 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node) -> Wa
     last = found.expanded
     if last != found.tree and sums_of_rates(last) - sums_of_rates(found.form):
         last = by_rates(last, decimal=is_numeric(context.robot))
-        tactics.append(("Multiplied out, and sorted by the products of the rates:", last))
+        tactics.append((SORTED if isinstance(last, Sum) else "Multiplied out:", last))
     elif last != found.tree:
         tactics.append(("Multiplied out:", last))
     opened = {each for each in brackets(last) if has_rates(each)} - brackets(found.form)

@@ -388,6 +388,9 @@ def _ordered(node: Node) -> Node:
     return node
 
 
+SORTED = "Multiplied out, and sorted by the products of the rates:"
+
+
 def collected(before: Node, after: Node) -> str:
     """What is done to a line that needs no identity: its sums of rates are multiplied out, if they go."""
     opened = sums_of_rates(before) - sums_of_rates(after)

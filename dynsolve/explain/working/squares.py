@@ -34,6 +34,7 @@ from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import brackets
 from dynsolve.explain.working.identities import (
     SILENT,
+    SORTED,
     Tactic,
     Way,
     Words,
@@ -200,7 +201,8 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     ring, components = context.robot.ring, [x for x in velocity.entries if not x.is_zero]
     found = list(_by_rates(context, components))
     sorted_out = total([whole for _, whole, _ in found])
-    tactics: list[Tactic] = [("Multiplied out, and sorted by the products of the rates:", sorted_out)]
+    has_many = isinstance(sorted_out, Sum)
+    tactics: list[Tactic] = [(SORTED if has_many else "Multiplied out:", sorted_out)]
     if velocity != context.values[f"v{body.name}"]:
         tactics.insert(0, ("The squares of its entries:", _sum_of_squares(context, components)))
     used = [identities(ring, bracket, context.show(value)) or () for bracket, _, value in found]
@@ -209,7 +211,7 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     each = dict.fromkeys(identity for some in used for identity in some)
     by_name = sorted(each, key=lambda identity: bool(identity.name))
     opened = _opened(sorted_out, context.form(f"Kv{body.name}"))
-    text = "Multiplied out, with {used}, and collected:" if opened else "With {used}, and collected:"
+    text = f"{'Multiplied out, with' if opened else 'With'} {{used}}{', and collected' * has_many}:"
     return _chain(context, body, tactics, say(text, used=said(by_name)))
 
 
@@ -357,8 +359,9 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
     cancelled = list(_cancelled(context, together, poly))
     with_these = say("the terms with {found} cancel", found=listed(cancelled)) if cancelled else ()
     by = say(
-        "{which} multiplied out, and sorted{cancelled}:",
+        "{which} multiplied out{sorted}{cancelled}:",
         which=which,
+        sorted=", and sorted" * isinstance(multiplied, Sum),
         cancelled=say("; {these}", these=with_these) if cancelled else "",
     )
     identity = Words(

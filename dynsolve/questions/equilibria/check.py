@@ -41,7 +41,7 @@ _NEAR = 1e-6
 _NEWTON_STEPS = 60
 _TINY = 1e-12
 _NEAR_ZERO = 1e-4
-"""So near is a zero of higher order found, of which Newton's method sees the square, and so are differences."""
+"""So near is a zero of higher order found, of which Newton's method sees the square; so are differences."""
 
 
 class Case(Struct, frozen=True):

@@ -14,7 +14,16 @@ from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.set_forms import vanishing, without_number
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import GOLDSTEIN, SLOTINE_LI, as_row, is_small, listed, scalar, side_by_side, spong
+from dynsolve.explain.writing import (
+    GOLDSTEIN,
+    SLOTINE_LI,
+    as_row,
+    is_small,
+    listed,
+    scalar,
+    side_by_side,
+    spong,
+)
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,

@@ -19,7 +19,15 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import halves
 from dynsolve.algebra.fraction import RationalExpr, cancelled, multiply
-from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, fraction_of, nullspace, part, quotient, rank_parts
+from dynsolve.algebra.linear_systems import (
+    FractionMatrix,
+    adjugate,
+    fraction_of,
+    nullspace,
+    part,
+    quotient,
+    rank_parts,
+)
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.sampling import Transfer

@@ -91,9 +91,9 @@ class Point(Struct, frozen=True):
     in any motion along the equilibria, in which the others follow these.  Where the stability is
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
-    sides are equal nothing is said, nor where one of `nonzero` is 0.  Coordinates stand in conditions where their values are not known;
-    `is_open` says that these are too long to be told.  `along` is what constraints leave of the second
-    derivatives.
+    sides are equal nothing is said, nor where one of `nonzero` is 0.  Coordinates stand in conditions
+    where their values are not known; `is_open` says that these are too long to be told.  `along` is what
+    constraints leave of the second derivatives.
     """
 
     values: Values
