@@ -472,6 +472,11 @@ def _energy(m: Mechanism, s: Sentence) -> bool:
     return m.is_conserved(s.formulas[1:2], lambda p: m.result("K", p) + m.result("P", p))
 
 
+@says("No motor drives: the energy is conserved.")
+def _energy_stays(m: Mechanism, s: Sentence) -> bool:
+    return m.is_conserved((), lambda p: m.result("K", p) + m.result("P", p))
+
+
 @says("[As long as {&}, the ][The ]Euler-Lagrange equation[s] say[s] that the <...> conserved[:|.]")
 def _momenta(m: Mechanism, s: Sentence) -> bool:
     conditions = tuple(node for node in s.formulas if isinstance(node, tree.Relation))
@@ -682,24 +687,48 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In these equilibria|In case #>: <stable|not stable> where {}, <stable|not stable> where {}.",
+    "<At {}|In these equilibria|In case #>: <stable|not stable> where {}, <stable|not stable> where {}[, ...].",
 )
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
     *told, first, second = s.formulas
-    for kind, condition in zip(s.words[-2:], (first, second), strict=True):
-        seeds = (seed for seed in range(60) if m.holds(condition, m.point(seed=seed)))
-        points = list(islice((point for seed in seeds for point in _equilibria(m, s, tuple(told), seed)), 3))
-        if not points or not all(m.is_stable(point, kind) for point in points):
-            return False
-    return True
+    found = [
+        _stable_there(m, s, tuple(told), kind, (condition,))
+        for kind, condition in zip(s.words[1:3], (first, second), strict=True)
+    ]
+    return any(found) and all(map(all, found))
+
+
+@says(
+    "<At {}|In these equilibria|In case #>: <stable> where {&}[, not stable where one of these inequalities "
+    "is reversed][, ...].",
+)
+def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
+    at = 1 if s.words[0].startswith("At") else 0
+    found = _stable_there(m, s, s.formulas[:at], "stable", s.formulas[at:])
+    return bool(found) and all(found)
+
+
+def _stable_there(
+    m: Mechanism, s: Sentence, told: tuple[Node, ...], kind: str, conditions: tuple[Node, ...]
+) -> list[bool]:
+    """Of some equilibria at which the conditions hold, whether they are of this kind."""
+    points = (point for seed in range(60) for point in _equilibria(m, s, told, seed))
+    meeting = (point for point in points if all(m.holds(one, point) for one in conditions))
+    return [m.is_stable(point, kind) for point in islice(meeting, 3)]
 
 
 @says("No motor drives {&}: in the equilibrium ... <does|do> not move <it|them>.")
 def _stays_by_itself(m: Mechanism, s: Sentence) -> bool:
     point = m.posed(
-        [node for text, nodes in s.before() if text.startswith("The rest is taken at") for node in nodes]
+        [node for text, nodes in s.before() if text.startswith("The matrices are taken at") for node in nodes]
     )
     return near(m.at_rest(point)[[m.coordinates.index(q) for q in names_of(s.formulas)]], 0)
+
+
+@says("{} is diagonal; its inverse has the reciprocals:")
+def _is_diagonal(m: Mechanism, s: Sentence) -> bool:
+    matrices = [m.result("D", p) for p in m.points()]
+    return all(near(matrix, np.diag(np.diag(matrix))) for matrix in matrices)
 
 
 @says("Where {}, {} is diagonal in every configuration: ...")
@@ -720,9 +749,12 @@ def _entries(m: Mechanism, s: Sentence) -> bool:
             return m.result("D", p) @ np.array([[p.names[f"{q}_ddot"]] for q in m.coordinates])
         return m.result("g" if "gravity" in s.where else "tau", p)
 
-    for generator in m.solution.robot.ring.generators:  # angles that are given count as motions do
+    for (
+        generator
+    ) in m.solution.robot.ring.generators:  # angles that a joint turns on from count as motions do
         if generator.kind in ("sin", "cos"):
-            moving |= {name for atom, _ in generator.angle.terms for name, _ in atom}
+            names = {name for atom, _ in generator.angle.terms for name, _ in atom}
+            moving |= names if names & set(m.coordinates) else set()
 
     def moves(name: str) -> bool:
         return name.removesuffix("_dot").removesuffix("_ddot") in moving
@@ -795,7 +827,7 @@ def _no_torque(m: Mechanism, s: Sentence) -> bool:
 
 GENERAL = """
 Each {} leads one frame further along the arm, so it multiplies from the right.
-Let all parameters be positive[, and the tensors those of bodies].
+Let all parameters be positive[, and the tensors those of bodies][, and {&}].
 {} is symmetric, and may depend on the coordinates, but on no rate.
 Read off[ from the forces] and assembled directly: the same {&}.
 The tensor along the body's own axes put in:

@@ -128,7 +128,7 @@ class Mechanism:
         for relation in (part for part in walk(node) if isinstance(part, tree.Relation)):
             values = [self.value(part, point) for part in relation.parts]
             for a, sign, b in zip(values, relation.signs, values[1:], strict=False):
-                if not {"<": a < b, ">": a > b, "≤": a <= b, "≥": a >= b}.get(
+                if not {"<": a < b, ">": a > b, "≤": a <= b, "≥": a >= b, "≠": not near(a, b)}.get(
                     sign, sign == "=" and near(a, b)
                 ):
                     return False
@@ -156,19 +156,31 @@ class Mechanism:
         ]  # fmt: skip
         for seed in range(2):
             moving = [f"{q}_ddot" for q in self.coordinates]
-            tau = [self.result("tau", self.point(dict(zip(moving, row, strict=True)), seed))[rows, 0]
-                   for row in [np.zeros(n), *np.eye(n)]]  # fmt: skip
+            rates, pull = self._kept(seed)
+            tau = [self.result("tau", self.point(rates | dict(zip(moving, row, strict=True)), seed))[rows, 0]
+                   - pull[rows] for row in [np.zeros(n), *np.eye(n)]]  # fmt: skip
             slopes = np.transpose([column - tau[0] for column in tau[1:]]).reshape(len(rows), n)
             some = np.linspace(-1.0, 1.5, n)
             qdd = some - np.linalg.pinv(slopes) @ (slopes @ some + tau[0]) if rows else some
             if rows and not near(slopes @ qdd + tau[0], 0):
                 continue  # no motion meets them: something moves that has no mass
-            here = self.point(seed=seed)
+            here = self.point(rates, seed)
             along = {q: here.names[f"{q}_dot"] for q in self.coordinates}
             along |= {f"{q}_dot": a for q, a in zip(self.coordinates, qdd, strict=True)}
             if not near(self.slope(what, here, seed, along), 0, float(np.max(np.abs(qdd))) * 10):
                 return False
         return True
+
+    def _kept(self, seed: int) -> tuple[dict[str, float], Any]:
+        """Rates that the constraints allow, and what they do to the coordinates with some multipliers."""
+        point = self.point(seed=seed)
+        rates = np.array([point.names[f"{q}_dot"] for q in self.coordinates])
+        if not self.solution.robot.questions.constraints:
+            return {}, np.zeros(len(rates))
+        A = self.result("Ac", point)
+        rates = rates - np.linalg.pinv(A) @ (A @ rates)
+        named = {f"{q}_dot": float(x) for q, x in zip(self.coordinates, rates, strict=True)}
+        return named, A.T @ np.linspace(0.5, 2.0, len(A))
 
     @property
     def steady(self) -> dict[str, Node]:
