@@ -687,7 +687,8 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In these equilibria|In case #>: <stable|not stable> where {}, <stable|not stable> where {}[, ...].",
+    "<At {}|In these equilibria|In case #>: <stable|not stable> where {}, <stable|not stable> where {}"
+    "[, ...].",
 )
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
     *told, first, second = s.formulas
@@ -749,9 +750,7 @@ def _entries(m: Mechanism, s: Sentence) -> bool:
             return m.result("D", p) @ np.array([[p.names[f"{q}_ddot"]] for q in m.coordinates])
         return m.result("g" if "gravity" in s.where else "tau", p)
 
-    for (
-        generator
-    ) in m.solution.robot.ring.generators:  # angles that a joint turns on from count as motions do
+    for generator in m.solution.robot.ring.generators:  # angles from which joints turn count as motions do
         if generator.kind in ("sin", "cos"):
             names = {name for atom, _ in generator.angle.terms for name, _ in atom}
             moving |= names if names & set(m.coordinates) else set()
