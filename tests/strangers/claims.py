@@ -871,7 +871,7 @@ Those that are combinations of others are left out, and so are factors that are 
   lengths of the table are.
 A motor gives the component of what its joint holds along the joint's axis; the bearings hold the others.
 A joint moves all links after it like one body.
-The coefficients that occur, ...
+The coefficients that occur[ with {&}], ...
 {} lies along each joint axis in the direction that is given.
 #; {}; slides along; {}; {}
 Letters are positive and independent of each other: what vanishes for some of their values alone does not

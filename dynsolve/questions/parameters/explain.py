@@ -28,7 +28,22 @@ from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import SLOTINE_LI, listed, scalar, spong
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Entry, Letter, Node, Number, Product, Row, Symbol, Words, equation
+from dynsolve.notation.tree import (
+    Entry,
+    Function,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Row,
+    Sum,
+    Symbol,
+    Words,
+    equation,
+    walk,
+)
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.questions.parameters.derive import combinations, known_names
@@ -139,8 +154,12 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
     found = combinations(context.robot, _forces(context, linear), parameters)
     if not 0 < len(found) <= MOST_SHOWN:
         return
-    by = "The coefficients that occur, without numbers and known factors that all terms of one share:"
-    yield Line((by,), tuple(context.show(coefficient) for coefficient, _ in found))
+    squares = _squares_of_sines(context, linear)
+    by = say(
+        "The coefficients that occur{used}, without numbers and known factors that all terms of one share:",
+        used=say(" with {identities}", identities=listed(squares)) if squares else "",
+    )
+    yield Line(by, tuple(context.show(coefficient) for coefficient, _ in found))
     names = [Entry(linear.letter("a"), Number(k)) for k in range(1, len(parameters.rows) + 1)]
     dependent = [
         equation(context.show(coefficient), _sum(context, names, factors))
@@ -153,6 +172,22 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
             "other independent combinations serve as well:"
         )
         yield Line((by,), tuple(dependent))
+
+
+def _squares_of_sines(context: Context, linear: _Linear) -> list[Node]:
+    """sin² q = 1 - cos² q of each angle whose sine stands squared in the forces as they are printed."""
+    names = {"Y": ("tau",), "Yg": ("g",)}.get(linear.Y, ("D",))
+    shown = list(walk(*map(context.form, names)))
+    squared = walk(*(node.base for node in shown if isinstance(node, Power) and node.exponent == Number(2)))
+    angles = [node.argument for node in squared if isinstance(node, Function) and node.name == "sin"]
+    return [
+        equation(_square("sin", angle), Sum((Number(1), Negative(_square("cos", angle)))))
+        for angle in dict.fromkeys(angles)
+    ]
+
+
+def _square(function: str, angle: Node) -> Node:
+    return Power(Function(function, angle), Number(2))
 
 
 def _sum(context: Context, names: Sequence[Node], factors: tuple[RationalExpr, ...]) -> Node:
