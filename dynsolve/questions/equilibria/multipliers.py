@@ -154,8 +154,8 @@ class Multipliers(Struct, frozen=True):
             total = total - bent.scale(multipliers[0, k])
         Z = nullspace(A)
         scaled = Z.T @ total.scale(size) @ Z
-        second = _over(scaled, size * size * rows[-1][0], at)
-        return Along(Z, _over(multipliers.T, size, at), second, at(Matrix.of(ring, [[size * size]]))[0, 0])
+        curved = _over(scaled, size * size * rows[-1][0], at)
+        return Along(Z, _over(multipliers.T, size, at), curved, at(Matrix.of(ring, [[size * size]]))[0, 0])
 
     def zeros(self, rank: int) -> tuple[Expr, ...]:
         """What is 0 where the forces are held and A_c has this rank."""

@@ -167,11 +167,11 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
         if coefficient not in parameters.entries
     ]
     if dependent:
-        by = (
+        chosen = (
             "Independent entries are chosen of which all of these are combinations; "
             "other independent combinations serve as well:"
         )
-        yield Line((by,), tuple(dependent))
+        yield Line((chosen,), tuple(dependent))
 
 
 def _squares_of_sines(context: Context, linear: _Linear) -> list[Node]:
