@@ -23,7 +23,9 @@ general values of what is left as a symbol.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
 from itertools import combinations
+from math import gcd, lcm
 
 from msgspec import Struct
 
@@ -245,7 +247,7 @@ def basis(like: Matrix, vectors: Sequence[Sequence[Expr]], height: int) -> Matri
 
 
 def primitive(vector: Sequence[Expr]) -> list[Expr]:
-    """A vector over what its entries share, the first that is not 0 with a positive leading number."""
+    """A vector over what its entries share, in whole numbers, the first that is not 0 with a positive one."""
     ring = vector[0].ring
     shared = ring.zero.poly
     for entry in vector:
@@ -253,8 +255,24 @@ def primitive(vector: Sequence[Expr]) -> list[Expr]:
     first = next((entry for entry in vector if not entry.is_zero), None)
     if first is None:
         return list(vector)
-    lead = first.poly.leading_coefficient() / shared.leading_coefficient()
-    return [Expr(ring, divmod(entry.poly, shared)[0] / lead) for entry in vector]
+    divided = [Expr(ring, divmod(entry.poly, shared)[0]) for entry in vector]
+    leading = next(entry for entry in divided if not entry.is_zero).poly.leading_coefficient()
+    number = content(divided) * (1 if leading > 0 else -1)
+    return [entry * (1 / number) for entry in divided]
+
+
+def content(values: Iterable[Expr]) -> Fraction:
+    """The number that leaves whole coefficients without a common factor.
+
+    >>> from dynsolve.algebra.ring_values import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
+    >>> a, b = ring.symbol("a"), ring.symbol("b")
+    >>> content([2 * a / 3, 4 * b])
+    Fraction(2, 3)
+    """
+    numbers = [number for value in values for number in value.poly.coeffs()]
+    return Fraction(gcd(*(int(n.p) for n in numbers)), lcm(*(int(n.q) for n in numbers)))
 
 
 def same_span(one: Matrix, other: Matrix) -> bool:

@@ -132,3 +132,19 @@ def test_what_the_library_says_is_true(name: str) -> None:
     document = solution_document(solution, Detail.FULL, None, Abbreviate.NEVER)
     found = untrue_sentences(Mechanism(solution, document, 1), document.blocks)
     assert [f"{sentence.where}: {why}: {sentence}" for sentence, why in found] == []
+
+
+def test_what_is_said_with_constraints_is_held() -> None:
+    """The energy of a skate on a slope without motors, and of one that friction brakes."""
+    skate = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute}
+  bodies: [{mass: m, at: [x, y, 0], turn: phi, inertia: {zz: J}}]
+constraints: [{rates: x'*sin(phi) - y'*cos(phi)}]
+passive: [x, y, phi]
+find: [D, Ac]
+"""
+    text = Text(("No motor drives: the energy is conserved. ",))
+    assert wrong(skate, "", text) == []
+    assert wrong(f"{skate}friction: {{x: b}}\n", "", text) == ["is not true"]

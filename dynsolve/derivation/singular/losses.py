@@ -10,13 +10,13 @@ signs, a w of these columns; it is one of J where the rank is k.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from itertools import combinations
 
 from msgspec import Struct
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import trig_factors, trig_quotient
+from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.matrix import Matrix, determinant, minors, work
 from dynsolve.derivation.singular.zeros import Condition, can_hold, core, follows
 
@@ -202,7 +202,5 @@ def _without_shared(direction: Direction) -> Direction:
             if any(value is None for value in divided):
                 break
             direction = tuple(value for value in divided if value is not None)
-    leading = next(value for value in direction if not value.is_zero).poly.leading_coefficient()
     sign = -1 if all(f < 0 for value in direction for f in value.poly.coeffs()) else 1
-    shared = Fraction(abs(int(leading.p)), int(leading.q)) * sign
-    return tuple(value * (1 / shared) for value in direction)
+    return tuple(value * (sign / content(direction)) for value in direction)

@@ -107,9 +107,22 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
 
 
 def _of_basic_angles(ring: Ring, difference: fmpq_mpoly) -> list[Angle]:
-    """The basic angles of which a sine or cosine is squared in a difference that s² + c² = 1 makes 0."""
+    """The basic angles whose s² + c² = 1 makes a difference 0."""
     degrees = difference.degrees()
-    return [pair.angle for pair in ring.pairs if degrees[pair.sine] > 1 or degrees[pair.cosine] > 1]
+    needed = [pair for pair in ring.pairs if degrees[pair.sine] > 1 or degrees[pair.cosine] > 1]
+    for pair in tuple(needed):
+        others = [one for one in needed if one is not pair]
+        if not _modulo(ring, difference, others):
+            needed = others
+    return [pair.angle for pair in needed]
+
+
+def _modulo(ring: Ring, poly: fmpq_mpoly, pairs: Iterable[Pair]) -> fmpq_mpoly:
+    """What is left of a polynomial where s² + c² = 1 for some angles."""
+    for pair in pairs:
+        s, c = (ring.generator(index).poly for index in (pair.sine, pair.cosine))
+        poly = divmod(poly, s * s + c * c - 1)[1]
+    return poly
 
 
 def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:

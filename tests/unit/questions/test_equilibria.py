@@ -19,6 +19,7 @@ from dynsolve.derivation.singular.sets import Special, common_zeros
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Function, Number, Product, Quotient, Relation, Symbol, equation, walk
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.check import Case, in_balance, verify_equilibria
 from dynsolve.questions.equilibria.forms import EquilibriaForms
@@ -478,3 +479,57 @@ find: [equilibria]
 """
     (held,) = dynsolve.solve(arm).to_json()["results"]["equilibria"]
     assert held == ["m*g*q3*sin(q1)*cos(q2) - k*q2 = 0", "sin(q2) = 0", "cos(q1) = 0"]
+
+
+PARABOLA = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic}
+  bodies: [{mass: m, at: [x, y, 0]}]
+constraints: [y - a*x^2]
+springs: [{stiffness: k, of: y, rest: h}]
+find: [equilibria]
+"""
+
+
+def test_second_derivatives_along_the_constraints_are_shown_with_their_values() -> None:
+    """A bead on a wire: P = m g a x² + ½ k (a x² - h)² along x (by hand)."""
+    solution = dynsolve.solve(PARABOLA)
+    (step,) = (step for step in solution.steps if step.id == "equilibria_stability")
+    shown = [to_unicode(node) for line in step.lines for node in line.formulas]
+    assert [text.split(" = ")[-1] for text in shown if "∂" in text] == [
+        "2a (m g - k h)",
+        "4a² k x²",
+    ]
+    lowest, others = solution.to_json()["results"]["equilibria_stability"]
+    assert lowest == [{"stability": "undecided", "stable_if": ["m*g > k*h"], "unstable_if": ["m*g < k*h"]}]
+    assert others == [{"stability": "undecided", "stable_if": ["x != 0"]}]
+
+
+def test_the_check_finds_other_second_derivatives_along_the_constraints() -> None:
+    robot = read_problem(PARABOLA).robot
+    values = derive(robot)
+    forms, shown, found = Forms(robot, values), EquilibriaForms(robot, values), values["equilibria"]
+    g = forms("g")
+    given = (robot, g, in_balance(forms, g))
+    cases = [Case(*one) for one in zip(shown.equilibria, found.points, strict=True)]
+    verify_equilibria(*given, cases, constraints=forms("Ac"))
+    (point,) = cases[0].points
+    wrong = replace(point.along, second=-point.along.second)
+    turned = [replace(cases[0], points=(replace(point, along=wrong),)), *cases[1:]]
+    with pytest.raises(VerificationError, match="curved along"):
+        verify_equilibria(*given, turned, constraints=forms("Ac"))
+
+
+def test_where_rows_of_the_constraint_are_dependent_no_equilibrium_is_called_stable() -> None:
+    """A crank and its rod fold onto each other where they are as long: then the rod alone may turn."""
+    crank = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: r}, {theta: q2*, a: l}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+constraints: [tip.y]
+find: [equilibria]
+"""
+    above, below = dynsolve.solve(crank).to_json()["results"]["equilibria_stability"][0]
+    assert (above["stability"], below["stability"]) == ("unstable", "undecided")
+    assert below["stable_if"] == ["l > r"] and "unstable_if" not in below

@@ -89,3 +89,17 @@ def test_an_arm_of_full_rank_says_that_its_minors_are_never_0_at_once() -> None:
     assert len({to_unicode(one).partition("=")[2].lstrip(" -") for one in minors.result}) == len(
         minors.result
     )
+
+
+def test_a_direction_is_written_in_whole_numbers() -> None:
+    """At q₂ = 0 the tip moves across the arm: 3 and 2 are the heights that q₁ and q₂ turn it by."""
+    arm = """
+dh: [{theta: q1*, a: 3}, {theta: q2*, a: 2}]
+task: [tip.y, q1]
+state: {q1: 0, q2: 90deg}
+find: [lost, nullspace]
+"""
+    found = dynsolve.solve(arm.replace("q2: 90deg", "q2: 0")).to_json()["results"]
+    assert found["lost"] == [] and found["nullspace"] == []
+    wide = arm.replace("[tip.y, q1]", "[tip.y]").replace("q2: 90deg", "q2: 0")
+    assert dynsolve.solve(wide).to_json()["results"]["nullspace"] == [["2", "-5"]]

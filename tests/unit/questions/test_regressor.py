@@ -13,6 +13,7 @@ from dynsolve.derivation.rules import derive
 from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.questions.parameters.check import verify_model
 from dynsolve.questions.parameters.derive import minimal_parameters, parameters_for, regressor
@@ -127,3 +128,16 @@ def test_the_check_finds_a_wrong_entry_and_a_parameter_too_many() -> None:
 def test_without_masses_nothing_is_asked_of_the_model(name: str) -> None:
     with pytest.raises(ProblemError, match="no answer of this problem"):
         read_problem(f"dh: [{{theta: q1*, a: l1}}]\nfind: [{name}]\n")
+
+
+@pytest.mark.parametrize(("axes", "is_said"), [("alpha: 90deg", True), ("alpha: 0", False)])
+def test_that_a_squared_sine_is_put_otherwise_is_said_where_there_is_one(axes: str, is_said: bool) -> None:
+    arm = f"""
+gravity: [0, 0, -g]
+dh: [{{theta: q1*, d: h, {axes}}}, {{theta: q2*, a: l2}}]
+masses: [{{mass: m, link: 2, center: {{near: [lc, 0, 0]}}, inertia: {{xx: Ix, yy: Iy, zz: Iz}}}}]
+find: [Y, a]
+"""
+    (step,) = (step for step in dynsolve.solve(arm).steps if step.id == "a")
+    told = "".join(part if isinstance(part, str) else to_unicode(part) for part in step.lines[0].by)
+    assert ("occur with sin²(q₂) = 1 - cos²(q₂), without" in told) is is_said

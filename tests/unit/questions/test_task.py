@@ -106,3 +106,11 @@ def test_a_determinant_is_expanded_before_it_is_simplified() -> None:
     arm = "dh: [{theta: q1*, d: l1, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
     (line,) = steps(f"{arm}task: [tip.x, tip.y, tip.z]\nfind: [det]")["det"].lines
     assert line.by[0] == "Along row 3, each entry times the determinant that is left, signs in turn, with "
+
+
+def test_a_determinant_names_the_identities_that_its_minors_need() -> None:
+    """Of a spherical arm both minors are products with s₁² + c₁², and s₂² stands in one as it is."""
+    arm = "dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: -90deg}, {d: q3*}]\nfind: [det]\n"
+    (line,) = steps(arm)["det"].lines
+    told = "".join(part if isinstance(part, str) else to_unicode(part) for part in line.by)
+    assert told.endswith("signs in turn, with sin²(q₁) + cos²(q₁) = 1:")

@@ -541,3 +541,16 @@ masses:
   - {mass: m1, link: 1, center: {near: [e*cos(beta), -e*sin(beta), 0]}, inertia: {zz: J}}
 """
     assert lines(problem, "Kv1") == ["By sin²(φ - β) + cos²(φ - β) = 1:"]
+
+
+TURNING = """
+gravity: none
+dh: [{theta: q1*, a: l1}]
+masses: [{mass: m, link: 1}]
+find: [D]
+"""
+
+
+def test_one_term_is_not_sorted() -> None:
+    assert not any("sorted" in text or "collected" in text for text in lines(TURNING, "Kv1"))
+    assert any("sorted" in text for text in lines("planar-2r", "Kv2"))
