@@ -502,7 +502,7 @@ def test_second_derivatives_along_the_constraints_are_shown_with_their_values() 
         "4a² k x²",
     ]
     lowest, others = solution.to_json()["results"]["equilibria_stability"]
-    assert lowest == [{"stability": "undecided", "stable_if": ["m*g > k*h"], "unstable_if": ["m*g < k*h"]}]
+    assert lowest == [{"stability": "undecided", "stable_if": ["m*g > k*h"], "unstable_if": ["k*h > m*g"]}]
     assert others == [{"stability": "undecided", "stable_if": ["x != 0"]}]
 
 
