@@ -687,21 +687,22 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In these equilibria|In case #>: <stable|not stable> where {}, <stable|not stable> where {}"
-    "[, ...].",
+    "<At {}|In every configuration|In these equilibria|In case #>: "
+    "<stable|not stable> where {}, <stable|not stable> where {}[, ...].",
 )
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
-    *told, first, second = s.formulas
+    at = 1 if s.words[0].startswith("At") else 0
+    kinds = [word for word in s.words[1:] if word.endswith("stable")]
     found = [
-        _stable_there(m, s, tuple(told), kind, (condition,))
-        for kind, condition in zip(s.words[1:3], (first, second), strict=True)
+        _stable_there(m, s, s.formulas[:at], kind, (condition,))
+        for kind, condition in zip(kinds, s.formulas[at : at + 2], strict=True)
     ]
     return any(found) and all(map(all, found))
 
 
 @says(
-    "<At {}|In these equilibria|In case #>: <stable> where {&}[, not stable where one of these inequalities "
-    "is reversed][, ...].",
+    "<At {}|In every configuration|In these equilibria|In case #>: <stable> where {&}"
+    "[, not stable where one of these inequalities is reversed][, ...].",
 )
 def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
     at = 1 if s.words[0].startswith("At") else 0

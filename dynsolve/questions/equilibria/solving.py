@@ -371,6 +371,12 @@ class Equilibria(Struct, frozen=True):
     may_be_dependent: bool = False
 
 
+def _kept_turning(robot: Robot) -> set[int]:
+    """The coordinates, from 0, whose rates motors keep in a steady motion."""
+    steady = dict(robot.questions.model.steady)
+    return {k for k, q in enumerate(robot.coordinates) if q.name in steady and k not in robot.actions.passive}
+
+
 def wanted_rows(robot: Robot) -> list[int]:
     """The coordinates, from 0, whose forces must be 0: those that no motor holds, or keeps at its rate."""
     passive, model = robot.actions.passive, robot.questions.model
@@ -430,7 +436,11 @@ def equilibria(
     }
     points: tuple[tuple[Point, ...], ...] = tuple(() for _ in found)
     if constrained is None or constrained.is_of_energy(robot.n):
-        slopes = ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries)
+        kept = _kept_turning(robot)
+        slopes = (
+            [ring.zero if {i, k} & kept else there(robot.ring.diff(g, k)) for k in range(robot.n)]
+            for i, g in enumerate(forces.entries)
+        )
         second = Matrix.of(ring, slopes)
         for condition in (condition for one in found for condition in one):
             special.add(condition.multiplier(second.entries))
