@@ -472,6 +472,16 @@ def _energy(m: Mechanism, s: Sentence) -> bool:
     return m.is_conserved(s.formulas[1:2], lambda p: m.result("K", p) + m.result("P", p))
 
 
+@says("What the constraints leave free moves no mass, so that the accelerations are not determined.")
+def _moves_no_mass(m: Mechanism, s: Sentence) -> bool:
+    for point in m.points():
+        A, D = m.result("Ac", point), m.result("D", point)
+        both = np.block([[D, -A.T], [A, np.zeros((len(A), len(A)))]])
+        if rank(A) < len(A) or rank(both) == len(both):
+            return False
+    return True
+
+
 @says("No motor drives: the energy is conserved.")
 def _energy_stays(m: Mechanism, s: Sentence) -> bool:
     return m.is_conserved((), lambda p: m.result("K", p) + m.result("P", p))
@@ -706,7 +716,8 @@ def _stable_where(m: Mechanism, s: Sentence) -> bool:
 )
 def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
     at = 1 if s.words[0].startswith("At") else 0
-    found = _stable_there(m, s, s.formulas[:at], "stable", s.formulas[at:])
+    conditions = tuple(node for node in s.formulas[at:] if not isinstance(node, Symbol))
+    found = _stable_there(m, s, s.formulas[:at], "stable", conditions)
     return bool(found) and all(found)
 
 
@@ -716,7 +727,8 @@ def _stable_there(
     """Of some equilibria at which the conditions hold, whether they are of this kind."""
     points = (point for seed in range(60) for point in _equilibria(m, s, told, seed))
     meeting = (point for point in points if all(m.holds(one, point) for one in conditions))
-    return [m.is_stable(point, kind) for point in islice(meeting, 3)]
+    still = names_of(tuple(node for node in s.formulas if isinstance(node, Symbol)))
+    return [m.is_stable(point, kind, still) for point in islice(meeting, 3)]
 
 
 @says("No motor drives {&}: in the equilibrium ... <does|do> not move <it|them>.")
