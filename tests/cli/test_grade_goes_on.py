@@ -76,7 +76,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, float]:
     """A folder with a set, hand-ins and what an undisturbed run makes of them; how long its workers took."""
     folder = tmp_path_factory.mktemp("whole")
     problem_set(folder / "set")
-    course(folder / "in", 24)
+    course(folder / "in", 12)
     with _grade(folder / "set", folder / "in", folder / "out") as run:
         _at_work(run)
         start = time.monotonic()
@@ -94,7 +94,7 @@ def test_a_run_that_is_killed_goes_on_to_the_same_bytes(tmp_path: Path, whole: t
     folder, took = whole
     words = (folder / "set", folder / "in", tmp_path / "killed")
     chance = random.Random(5)
-    for _ in range(3):
+    for _ in range(2):
         with _grade(*words) as run:
             _at_work(run)  # before that, there is nothing that a kill could spoil
             time.sleep(chance.uniform(0, took / 3))

@@ -36,7 +36,7 @@ masses:
 """
 ROBOTS = {"in3140-rp": "in3140-rp", "planar-2r": "planar-2r", "crustcrawler-2r": "crustcrawler-2r",
           "twisted": TWISTED}  # fmt: skip
-HAND_INS = 30
+HAND_INS = 15
 
 
 class HandIn(NamedTuple):

@@ -28,10 +28,10 @@ RP = next(path for path in LIBRARY if path.stem == "in3140-rp")
 @pytest.mark.latex
 @pytest.mark.parametrize("problem", ALL_PROBLEMS, ids=lambda path: path.stem)
 def test_every_problem_of_the_library_compiles_without_complaint(problem: Path, tmp_path: Path) -> None:
-    done = typeset(made(problem, Format.LATEX).decode(), tmp_path)
+    done = typeset(made(problem, Format.LATEX).decode(), tmp_path, once=problem.stem not in MOST_PAGES)
     assert done.complaints == []
     assert done.code == 0
-    assert done.settled, "two runs are enough"
+    assert done.settled, "two runs are enough, and one leaves nothing but references open"
     assert done.pages <= MOST_PAGES.get(problem.stem, 30)
     assert min(map(len, lines_of(done.pdf))) >= FEWEST_LINES
 

@@ -61,6 +61,10 @@ def made(
     return report(solved(problem), format, star=star, fragment=fragment, detail=detail)
 
 
+CHANGED = ("Label(s) may have changed",)
+OPEN = ("Reference `", "There were undefined references")
+
+
 @dataclass(frozen=True)
 class Typeset:
     """What pdflatex made of a source."""
@@ -70,6 +74,8 @@ class Typeset:
     pdf: Path
     settled: bool = True
     """Whether a further run would find the references where they are."""
+    waiting: tuple[str, ...] = CHANGED
+    """Warnings of what a further run settles."""
 
     @property
     def pages(self) -> int:
@@ -82,20 +88,25 @@ class Typeset:
         """Errors and warnings of substance."""
         marks = ("!", "Overfull", "LaTeX Warning", "Package amsmath Warning", "Missing character", "Runaway")
         found = [line for line in self.log.splitlines() if line.startswith(marks)]
-        return [line for line in found if "Label(s) may have changed" not in line]
+        return [line for line in found if not any(waiting in line for waiting in self.waiting)]
 
 
-def typeset(source: str, folder: Path) -> Typeset:
-    """Run pdflatex twice, as references need."""
+def typeset(source: str, folder: Path, once: bool = False) -> Typeset:
+    """Run pdflatex twice, as references need; or `once`, where each reference is to a label that is there."""
     program = needed("pdflatex")
     (folder / "report.tex").write_text(source, encoding="utf-8")
     options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
-    command = [program, *options, "-draftmode", "report.tex"]
+    command = [program, *options, *(() if once else ("-draftmode",)), "report.tex"]
     done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
     first = _references(folder, source) if done.returncode == 0 else {}
-    if done.returncode == 0:
+    if done.returncode == 0 and not once:
         done = subprocess.run([program, *options, "report.tex"], cwd=folder, capture_output=True, check=False)
     log = (folder / "report.log").read_text(encoding="utf-8", errors="replace")
+    if once:
+        _, _, text = source.partition("\\begin{document}")
+        referred = re.findall(r"\\(?:eqref|contentsrow\{.*\})\{(.*?)\}", text)
+        settled = bool(first) and set(referred) <= first.keys()
+        return Typeset(done.returncode, log, folder / "report.pdf", settled, (*CHANGED, *OPEN))
     settled = done.returncode == 0 and _references(folder, source) == first
     return Typeset(done.returncode, log, folder / "report.pdf", settled)
 

@@ -187,7 +187,7 @@ _POLICIES = st.builds(
 
 @pytest.mark.slow
 @given(_answers(), _POLICIES, st.booleans())
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=120, deadline=None)
 def test_marks_hold_together_whatever_the_policy(
     answers: list[JudgedAnswer], policy: Policy, lost: bool
 ) -> None:
@@ -222,7 +222,7 @@ def test_marks_hold_together_whatever_the_policy(
 
 @pytest.mark.slow
 @given(_answers(), _POLICIES)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_what_is_right_earns_no_less_than_what_is_not(answers: list[JudgedAnswer], policy: Policy) -> None:
     before = sum((m.marks for m in mark(answers, QUANTITIES, policy)), F(0))
     better = [replace(a, verdict=Verdict.CORRECT, entries=()) for a in answers]

@@ -16,6 +16,7 @@ from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.problem.reader import bundled
 from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import quantities
+from tests.conftest import LARGE
 from tests.support import solved, with_files
 
 ARM = """title: Two links
@@ -55,7 +56,7 @@ def test_an_author_may_say_it_in_words(tmp_path: Path) -> None:
     assert "b) Show that l₁ is in D. (3 points)" in text
 
 
-@pytest.mark.parametrize("name", sorted(bundled()))
+@pytest.mark.parametrize("name", sorted(bundled().keys() - LARGE))
 def test_no_sheet_tells_what_is_asked(name: str) -> None:
     problems = load_set(name)
     robot = problems.items[0].problem.robot
