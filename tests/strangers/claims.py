@@ -496,7 +496,7 @@ def _momenta(m: Mechanism, s: Sentence) -> bool:
     formulas = iter(s.formulas[len(conditions) :])
     for kind, what in told:
         momentum = next(formulas)
-        axis = next(formulas) if "{}" in what else None
+        axis, *_ = *(next(formulas) for _ in range(what.count("{}"))), None  # about 𝐳₀ of all that q₁ moves
         if not m.is_conserved(conditions, lambda p, node=momentum: m.value(node, p)):
             return False
         if kind and not all(
@@ -921,6 +921,10 @@ Where that is positive definite, the equilibrium is stable; where the energy fal
 How stable <they|the others> are is not told here.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
 Where nothing moves: not derived.
+The singular configurations: not derived.
+At given values of q its rank shows whether the arm is singular.
+The kinetic energy needs the moment about the parallel axis through the mass centre.
+The first of the relative coordinates of a chain does not occur.
 Independent entries are chosen of which all of these are combinations; other independent combinations ...
 It is given along axes of its link, and turned into the world.
 Each motion is along or about an axis of the frame that those before it have led to.

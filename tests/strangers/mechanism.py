@@ -24,6 +24,9 @@ from tests.strangers.oracle import Point, Unknown, Value, state, untrue
 NEAR = 1e-6
 """The relative difference up to which numbers are the same: that of finite differences."""
 
+ROUNDED = 1e-3
+"""The same of a number that is printed rounded, behind ≈."""
+
 STEP = 1e-4
 """How far apart the states of a difference are."""
 
@@ -128,9 +131,16 @@ class Mechanism:
         for relation in (part for part in walk(node) if isinstance(part, tree.Relation)):
             values = [self.value(part, point) for part in relation.parts]
             for a, sign, b in zip(values, relation.signs, values[1:], strict=False):
-                if not {"<": a < b, ">": a > b, "≤": a <= b, "≥": a >= b, "≠": not near(a, b)}.get(
-                    sign, sign == "=" and near(a, b)
-                ):
+                held = {
+                    "<": a < b,
+                    ">": a > b,
+                    "≤": a <= b,
+                    "≥": a >= b,
+                    "≠": not near(a, b),
+                    "=": near(a, b),
+                }
+                held["≈"] = abs(a - b) <= ROUNDED * abs(b)
+                if not held.get(sign):
                     return False
         return True
 
