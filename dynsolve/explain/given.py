@@ -56,11 +56,10 @@ from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.families import DH
 from dynsolve.quantities.index import Quantity, quantities
-from dynsolve.quantities.owners import derived_stages
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.owners import asked_stages, derived_stages
+from dynsolve.quantities.stages import ASKED_FOR, Stage
 from dynsolve.robot import actions, units
 from dynsolve.robot.model import AxesKind, Body, JointType, Robot
-from dynsolve.robot.questions import TIP, Load
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
 if TYPE_CHECKING:
@@ -244,18 +243,18 @@ def _axes(normals: Normals) -> Iterator[Prose]:
     """The axes of a drawing and its hand."""
     drawing = normals.drawing
 
-    def flat(vector: Matrix) -> Node:
-        return _flat(map(Compactor(drawing.ring).form, vector.entries))
+    def flat_row(vector: Matrix) -> Node:
+        return flat(map(Compactor(drawing.ring).form, vector.entries))
 
     for i, axis in enumerate(drawing.axes, 1):
         told: Prose = (f"Joint {i}, with the variable ", Symbol(axis.coordinate))
-        told += (", slides along " if axis.slides else ", turns about ", flat(axis.line.direction))
-        told += (" through ", flat(axis.line.point)) if axis.is_placed else ()
+        told += (", slides along " if axis.slides else ", turns about ", flat_row(axis.line.direction))
+        told += (" through ", flat_row(axis.line.point)) if axis.is_placed else ()
         yield (*told, ".")
-    yield ("In this pose the hand is at ", flat(drawing.hand.at), ".")
+    yield ("In this pose the hand is at ", flat_row(drawing.hand.at), ".")
 
 
-def _flat(entries: Iterable[Node]) -> Node:
+def flat(entries: Iterable[Node]) -> Node:
     """(v_x, v_y): a column as a line of text can hold it, its commas nearer than those of a list."""
     parts: list[Node] = []
     for entry in entries:
@@ -263,12 +262,12 @@ def _flat(entries: Iterable[Node]) -> Node:
     return Row((Words("("), *parts, Words(")")))
 
 
-def _vector(forms: Forms, entries: Sequence[Expr], unit: str) -> Node:
+def vector(forms: Forms, entries: Sequence[Expr], unit: str) -> Node:
     """(v_x, v_y), with its unit where all entries are numbers."""
-    vector = _flat(map(forms.of, entries))
+    row = flat(map(forms.of, entries))
     if all(entry.is_number for entry in entries):
-        return Row((vector, Words(" "), units.node(unit)))
-    return vector
+        return Row((row, Words(" "), units.node(unit)))
+    return row
 
 
 def _model(forms: Forms) -> Iterator[Prose]:
@@ -289,7 +288,7 @@ def _position(forms: Forms, body: Body) -> Prose:
 
     point = "a point " if body.is_point else ""
     told: Prose = (f"{opened(name_of(body))}, {point}of mass ", measured(forms.of(body.mass), "kg"))
-    told += (", is at ", _flat(map(forms.of, body.center.entries)), ".")
+    told += (", is at ", flat(map(forms.of, body.center.entries)), ".")
     if body.inertia is None:
         return told
     told += (" ", *turning(body))
@@ -370,7 +369,7 @@ def _place(forms: Forms, body: Body | Place, drawn: DrawnFrames = NOT_DRAWN) -> 
     """A point of a link: at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁; at (x, y, 0) from 𝐨₁ along the axes of frame 1"""
     if drawn.frames and is_given_by(body, "drawn"):
         seen = drawn.in_world(body.link, [*map(forms.of, body.center.entries)])
-        return ("at ", _flat(forms.of(value_of(forms.robot.ring, entry)) for entry in seen))
+        return ("at ", flat(forms.of(value_of(forms.robot.ring, entry)) for entry in seen))
     near, far = ends(forms.robot, body)
     if body.center_written == "tip":
         return ("at ", letters.o(far))
@@ -387,7 +386,7 @@ def _place(forms: Forms, body: Body | Place, drawn: DrawnFrames = NOT_DRAWN) -> 
     if not along:
         return ("at ", letters.o(start))
     if len(along) > 1:
-        at = _flat(map(forms.of, place.entries))
+        at = flat(map(forms.of, place.entries))
         return ("at ", at, " from ", letters.o(start), f" along the axes of frame {body.link}")
     ((axis, entry),) = along
     unit: Node = letters.bold(axis, Number(body.link))
@@ -527,9 +526,9 @@ def _gravity(forms: Forms) -> Prose:
         else:
             told += (f"{'against' if opposite else 'along'} the axis {axis}",)
     elif along:
-        vector = _vector(forms, entries, "m/s^2")
+        written = vector(forms, entries, "m/s^2")
         ground = "the world" if in_world or not robot.has_table else "frame 0"
-        told = ("The acceleration of gravity is ", equation(letters.GRAVITY, vector))
+        told = ("The acceleration of gravity is ", equation(letters.GRAVITY, written))
         told += (f" along the axes of {ground}",)
     if robot.actions.resisting:
         return (*told, ".")
@@ -583,27 +582,18 @@ def at_the_state(robot: Robot) -> Text:
 
 
 def _questions(forms: Forms) -> Iterator[Prose]:
-    """Constraints, task, target, state, forces from outside, limits and assumptions."""
+    """What questions share (points, task, target, limits, state, what is assumed), and what each is given."""
     robot, questions = forms.robot, forms.robot.questions
     for point in questions.points:
         place = _place(forms, Place(point.link, point.position, point.written))
         yield (f"Point {point.name} of link {point.link} is ", *place, ".")
-    for constraint in questions.constraints:
-        yield ("Every motion keeps ", equation(_in_letters(constraint.entry), ZERO), ".")
     task = questions.task
     if task is not None and task.entries and not task.is_default:
-        yield ("The task is ", equation(letters.TASK, _flat(map(_in_letters, task.entries))), ".")
+        yield ("The task is ", equation(letters.TASK, flat(map(_in_letters, task.entries))), ".")
     if questions.target is not None:
         yield ("To be reached: ", _reached(forms, questions.target.values), ".")
     elif "inverse" in questions.asked:
         yield ("To be reached: ", _reached(forms, [*map(Symbol, questions.reached)]), ".")
-    for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
-        if value is not None:
-            wanted = equation(
-                letters.bold("r", dots=dots), _of_task(forms, map(forms.of, value.entries), dots)
-            )
-            yield (f"The task is to have the {'velocity' if dots == 1 else 'acceleration'} ", wanted, ".")
-    yield from (_load(forms, load) for load in questions.loads)
     ranges = [
         Relation((one.low, Symbol(name), _measured(one.high, _unit(robot, name))), ("≤", "≤"))
         for one in questions.limits
@@ -611,28 +601,15 @@ def _questions(forms: Forms) -> Iterator[Prose]:
     ]
     if ranges:
         yield ("Limits: ", *listed(ranges), ".")
-    at_state = not questions.state_is_reached and any(holds_at_state(robot, name) for name in questions.asked)
-    is_linear = not questions.asked.isdisjoint(("linear_A", "linear_B"))
-    given = (
-        ("The state: ", questions.state.values if at_state else ()),
-        ("To be linearized at ", questions.model.linearize if is_linear else ()),
-    )
-    for what, values in given:
-        shown = [_valued(robot, name, dots, value) for name, dots, value in values]
-        if shown:
-            yield (what, side_by_side(shown), ".")
+    stages = asked_stages(questions)
+    for stage in (stage for stage in ASKED_FOR if stage in stages):
+        given = getattr(stage.part("explain"), "given", None)
+        yield from given(forms) if given else ()
     if questions.state_is_reached:
         within = " within these limits" if questions.limits else ""
         yield (f"The state is the configuration{within} that reaches it.",)
-    steady = [_valued(robot, name, 1, value) for name, value in questions.model.steady]
-    if steady:
-        yield ("The motion keeps ", *listed(steady), ".")
-    if questions.model.inputs_given:
-        yield ("In equilibria motors hold the coordinates that they drive.",)
-    if questions.weights is not None:
-        yield ("The weights are ", equation(letters.WEIGHTS, forms.of(questions.weights)), ".")
-    elif questions.weighs_by_inertia:
-        yield ("The weights are the inertia matrix ", letters.D, ".")
+    elif questions.state.values and any(holds_at_state(robot, name) for name in questions.asked):
+        yield ("The state: ", in_units(robot, questions.state.values), ".")
     said: list[tuple[Prose, Sequence[Bound]]] = [((), questions.model.assumed)]
     if questions.candidates and forms.robot.given is None:  # each has its own
         said = [((" of ", Symbol(one.name)), one.assumed) for one in questions.candidates]
@@ -648,9 +625,14 @@ def _unit(robot: Robot, name: str, dots: int = 0) -> str:
     return ("m" if kind is JointType.PRISMATIC else "rad") + ("", "/s", "/s^2")[dots]
 
 
-def _valued(robot: Robot, name: str, dots: int, value: Node) -> Node:
-    """q₂ = 0.1 m; q̇₁ = 2 rad/s"""
-    return equation(Symbol(name, dots), _measured(value, _unit(robot, name, dots)))
+def in_units(robot: Robot, values: Iterable[tuple[str, int, Node]]) -> Node:
+    """q₂ = 0.1 m, q̇₁ = 2 rad/s"""
+    return side_by_side(
+        [
+            equation(Symbol(name, dots), _measured(value, _unit(robot, name, dots)))
+            for name, dots, value in values
+        ]
+    )
 
 
 def _measured(value: Node, unit: str) -> Node:
@@ -663,24 +645,24 @@ def _reached(forms: Forms, values: Sequence[Node]) -> Node:
     """The task, or the frame, and what it is to be."""
     robot, task = forms.robot, forms.robot.questions.task
     if task is None or not task.is_pose:
-        left = _flat(map(_in_letters, task.entries)) if task and task.is_default else letters.TASK
-        return equation(left, _of_task(forms, values))
+        left = flat(map(_in_letters, task.entries)) if task and task.is_default else letters.TASK
+        return equation(left, of_task(forms, values))
     values = tuple(map(_in_decimals, values))
     rows = [(*values[3 * k + 3 : 3 * k + 6], values[k]) for k in range(3)]
     pose = tree.Matrix((*rows, (ZERO, ZERO, ZERO, Number(1))))
     return equation(letters.H(robot, len(robot.joints)), pose)
 
 
-def _of_task(forms: Forms, values: Iterable[Node], dots: int = 0) -> Node:
+def of_task(forms: Forms, values: Iterable[Node], dots: int = 0) -> Node:
     """(0.3, 0.2) m: what the task, or its rate, is to be; (0.3 m, 60°) where it has angles."""
     written, task = list(values), forms.robot.questions.task
     if task is not None and task.is_twist:
-        return _flat(map(_in_decimals, written))
+        return flat(map(_in_decimals, written))
     per = ("", "/s", "/s^2")[dots]
     kinds = [f"{'rad' if is_angle else 'm'}{per}" for is_angle in angle_rows(forms.values["r"])]
     if len(set(kinds)) == 1 and all(rational_value(value) is not None for value in written):
-        return Row((_flat(map(_in_decimals, written)), Words(" "), units.node(kinds[0])))
-    return _flat(
+        return Row((flat(map(_in_decimals, written)), Words(" "), units.node(kinds[0])))
+    return flat(
         _with_unit(value, unit) if rational_value(value) else value
         for value, unit in zip(written, kinds, strict=True)
     )
@@ -697,28 +679,6 @@ def _in_decimals(value: Node) -> Node:
     if exact is None or text is None:
         return value
     return Negative(Words(text)) if exact < 0 else Words(text)
-
-
-def _load(forms: Forms, load: Load) -> Prose:
-    """The force (F, 0, 0) and the moment (0, 0, M) act on link 2 at the tip; or link 2 exerts them."""
-    kinds = (("the force ", load.force, "N"), ("the moment ", load.moment, "N m"))
-    acting = [(what, _vector(forms, value.entries, unit)) for what, value, unit in kinds if not value.is_zero]
-    at: Prose = (" at the tip",) if load.point == TIP else (" at ", load.point)
-    if load.force.is_zero:
-        at = ()
-    elif not load.point and load.position.is_zero:
-        at = (" at ", letters.o(load.link))
-    elif not load.point:
-        at = (" at ", _flat(map(forms.of, load.position.entries)), f" in frame {load.link}")
-    along = "" if load.axes is None else f", along the axes of frame {load.link}"
-    if load.axes is not None and load.axes != load.axes.identity(load.axes.ring, 3):
-        along += " turned as given"
-    told = listed(acting)
-    if load.by_robot:
-        return (f"Link {load.link} exerts ", *told, *at, f"{along}.")
-    first, *others = told
-    act = "act" if len(acting) > 1 else "acts"
-    return (opened(str(first)), *others, f" {act} on link {load.link}", *at, f"{along}.")
 
 
 _AS_WRITTEN = re.compile(r"[-+0-9./eE]*")

@@ -23,8 +23,9 @@ A folder has the name of its stage (`quantities.stages`), and these files, of wh
     derive      `rules(robot)`: the rules of its quantities, and their formulas
     check       `verify(held)`: the results as they are printed, held by a computation that shares no formula
                 (`held`)
-    explain     `steps(context)`: its chapter of the solution; for its hint `AT_HAND`, what one has, with the
-                results `inputs(context)`, and `PITFALLS`, of which those are told whose `facts(robot)` hold
+    explain     `steps(context)`: its chapter of the solution; `given(forms)`: what the file gives for it, in
+                words; for its hint `AT_HAND`, what one has, the results `inputs(context)`, and `PITFALLS`,
+                of which those are told whose `facts(robot)` hold
     export      `value(export, name)` of what is no matrix or number, `beside(export)` what the JSON says
                 beside it (`export`)
     judge       `KEYS`: of each answer that is a set, the class that judges it, and its faults;

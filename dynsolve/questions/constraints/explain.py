@@ -11,8 +11,10 @@ from dynsolve.algebra.linear_systems import adjugate, nullspace, quotient
 from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import velocities
+from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.step import Detail, Line, Step, not_derived
 from dynsolve.explain.terms import (
     acting_side,
@@ -24,7 +26,7 @@ from dynsolve.explain.terms import (
 )
 from dynsolve.explain.writing import is_small, mls, scalar
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Node, Parenthesized, Sum, column, equation, mapped
+from dynsolve.notation.tree import ZERO, Node, Parenthesized, Sum, column, equation, mapped
 from dynsolve.quantities import letters
 from dynsolve.questions.constraints.derive import bordered, holonomic
 from dynsolve.questions.forward_dynamics.derive import Reduced
@@ -35,6 +37,12 @@ _KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 𝟎")
 """What the constraints ask of the accelerations."""
 
 _ZERO = formula("𝟎")
+
+
+def given(forms: Forms) -> Iterator[Prose]:
+    """What every motion keeps."""
+    for constraint in forms.robot.questions.constraints:
+        yield ("Every motion keeps ", equation(mapped(constraint.entry, with_letters), ZERO), ".")
 
 
 def steps(context: Context) -> Iterator[Step]:

@@ -12,6 +12,8 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.given import in_units
 from dynsolve.explain.set_forms import vanishing, without_number
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import (
@@ -53,6 +55,17 @@ from dynsolve.robot.model import JointType, Robot
 _SOURCE = SLOTINE_LI.section("3.3")
 _ZERO = formula("𝟎")
 _DG = formula("∂𝐠/∂𝐪")
+
+
+def given(forms: Forms) -> Iterator[Prose]:
+    """Where to linearize, which motion goes on, what motors hold."""
+    robot, model = forms.robot, forms.robot.questions.model
+    if not robot.questions.asked.isdisjoint(("linear_A", "linear_B")):
+        yield ("To be linearized at ", in_units(robot, model.linearize), ".")
+    if model.steady:
+        yield ("The motion keeps ", in_units(robot, [(name, 1, value) for name, value in model.steady]), ".")
+    if model.inputs_given:
+        yield ("In equilibria motors hold the coordinates that they drive.",)
 
 
 def steps(context: Context) -> Iterator[Step]:

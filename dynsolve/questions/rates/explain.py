@@ -12,6 +12,8 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.given import of_task
 from dynsolve.explain.step import TOLD, Detail, Part, Step
 from dynsolve.explain.writing import column_of, side_by_side, spong
 from dynsolve.notation.template import formula
@@ -22,6 +24,21 @@ from dynsolve.questions.rates.derive import MOST_PRODUCTS, squared, wanted_by_ac
 from dynsolve.robot.model import Robot
 
 _J = letters.J_TASK
+
+
+def given(forms: Forms) -> Iterator[Prose]:
+    """What the task is to do, and the weights."""
+    questions = forms.robot.questions
+    for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
+        if value is not None:
+            wanted = equation(
+                letters.bold("r", dots=dots), of_task(forms, map(forms.of, value.entries), dots)
+            )
+            yield (f"The task is to have the {'velocity' if dots == 1 else 'acceleration'} ", wanted, ".")
+    if questions.weights is not None:
+        yield ("The weights are ", equation(letters.WEIGHTS, forms.of(questions.weights)), ".")
+    elif questions.weighs_by_inertia:
+        yield ("The weights are the inertia matrix ", letters.D, ".")
 
 
 def steps(context: Context) -> Iterator[Step]:

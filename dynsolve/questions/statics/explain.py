@@ -8,8 +8,10 @@ from msgspec.structs import replace
 
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Prose
-from dynsolve.document.sentences import Value, say
+from dynsolve.document.sentences import Value, opened, say
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.given import flat, vector
 from dynsolve.explain.step import NOTED, Detail, Group, Step
 from dynsolve.explain.writing import agreeing, is_small, listed, spong, sum_of
 from dynsolve.notation.template import formula
@@ -25,6 +27,33 @@ HELD = Group("Q", "The sum, and what holds it")
 
 
 _FORCES = spong("4.10")
+
+
+def given(forms: Forms) -> Iterator[Prose]:
+    """What acts from outside."""
+    return (_acting(forms, load) for load in forms.robot.questions.loads)
+
+
+def _acting(forms: Forms, load: Load) -> Prose:
+    """The force (F, 0, 0) and the moment (0, 0, M) act on link 2 at the tip; or link 2 exerts them."""
+    kinds = (("the force ", load.force, "N"), ("the moment ", load.moment, "N m"))
+    acting = [(what, vector(forms, value.entries, unit)) for what, value, unit in kinds if not value.is_zero]
+    at: Prose = (" at the tip",) if load.point == TIP else (" at ", load.point)
+    if load.force.is_zero:
+        at = ()
+    elif not load.point and load.position.is_zero:
+        at = (" at ", letters.o(load.link))
+    elif not load.point:
+        at = (" at ", flat(map(forms.of, load.position.entries)), f" in frame {load.link}")
+    along = "" if load.axes is None else f", along the axes of frame {load.link}"
+    if load.axes is not None and load.axes != load.axes.identity(load.axes.ring, 3):
+        along += " turned as given"
+    told = listed(acting)
+    if load.by_robot:
+        return (f"Link {load.link} exerts ", *told, *at, f"{along}.")
+    first, *others = told
+    act = "act" if len(acting) > 1 else "acts"
+    return (opened(str(first)), *others, f" {act} on link {load.link}", *at, f"{along}.")
 
 
 def steps(context: Context) -> Iterator[Step]:
