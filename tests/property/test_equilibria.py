@@ -186,15 +186,16 @@ def holds_the_equilibria(
 def holds_the_stability(told: Told, values: Mapping[str, float], starts: Sequence[Array]) -> None:
     """The least eigenvalue has the sign that is told."""
     for point, equations in told.points(values):
-        verdict = point["stability"]
-        if all(is_true(text, values) for text in point.get("stable_if", ["0 > 1"])):
-            verdict = "stable"
-        elif any(is_true(text, values) for text in point.get("unstable_if", [])):
-            verdict = "unstable"
         function = told.residuals(equations, values)
         for at in (zero(function, start) for start in starts):
             if at is None or np.max(np.abs(function(at)), initial=0) > CLOSE:
                 continue
+            verdict = point["stability"]
+            known = {**values, **dict(zip(told.of.names, at, strict=True))}
+            if all(is_true(text, known) for text in point.get("stable_if", ["0 > 1"])):
+                verdict = "stable"
+            elif any(is_true(text, known) for text in point.get("unstable_if", [])):
+                verdict = "unstable"
             second = told.of.second(at, values)
             moving = np.max(np.abs(second), axis=0) > 1e-5
             least = np.min(np.linalg.eigvalsh(second[np.ix_(moving, moving)]), initial=np.inf)
