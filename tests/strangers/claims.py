@@ -294,7 +294,7 @@ def _tensor_in_frame(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "Of the tensor of body # about its mass centre the moment about the axis parallel to {}[, ...,] is given."
+    "Of the tensor of body # about ... the moment about the axis parallel to {}[, ...,] is given.",
 )
 def _moment_along(m: Mechanism, s: Sentence) -> bool:
     axis = lambda p: m.value(s.formulas[0], p)  # noqa: E731
