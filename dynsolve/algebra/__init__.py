@@ -7,8 +7,9 @@ Arrows run one way, from the first of these files to the last:
                         what
                         formulas hold
     ring_plan           what a ring must hold for them; cosines of constant angles, roots of numbers
-    expr                the elements of a ring, and the variables of its polynomials in order
-    ring                s² + c² = 1 and the normal form; the ring with its derivatives; the Fourier form
+    generators          the variables of a ring's polynomials in order; s² + c² = 1 and the normal form
+    ring                the ring with its derivatives, and its elements
+    fourier             a polynomial in sines and cosines as a sum of those of multiples of angles
     fraction            fractions over a ring
     ring_values         the value of a formula in a ring, its value in floating point, and making a ring
     matrix              matrices, determinants and minors; values put for coordinates
@@ -21,7 +22,7 @@ Arrows run one way, from the first of these files to the last:
     surds               sums of square roots, angles with such sines and cosines, formulas of numbers
     compact             what a textbook would print
 
-To add a kind of generator (a variable of the polynomials), name it in `expr.Generator` and lay it
-out there, find the formulas that need it in `angles` and `ring_plan`, write its relation and its
+To add a kind of generator (a variable of the polynomials), name it in `generators.Generator` and lay it
+out there, find the formulas that need it in `angles` and `ring_plan`, write its relation there and its
 derivative in `ring`, its value in `ring_values`.
 """

@@ -29,8 +29,8 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, nmod_mpoly_ctx
 
-from dynsolve.algebra.expr import Expr, Generator, Pair
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.generators import Generator, Pair
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.notation.tree import Number
 
 # What is positive because of how it is written

@@ -13,8 +13,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring import NoRoom, Ring
+from dynsolve.algebra.ring import Expr, NoRoom, Ring
 from dynsolve.errors import AlgebraError
 
 

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from flint import fmpq
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 
 Exponents = tuple[int, ...]
 Polynomial = dict[Exponents, fmpq]

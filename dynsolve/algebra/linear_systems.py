@@ -29,10 +29,9 @@ from math import gcd, lcm
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled, equal, is_zero
 from dynsolve.algebra.matrix import Matrix, determinant
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 
 # Matrices of fractions: what comes out of a system of equations
 

@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node, names_of
-from dynsolve.algebra.expr import Expr, Pair
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Function, Node, Symbol, walk

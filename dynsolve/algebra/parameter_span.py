@@ -15,10 +15,9 @@ from typing import Any
 from msgspec import Struct
 
 from dynsolve.algebra.compact.terms import Exponents
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled
 from dynsolve.algebra.rationals import fraction, rational_gcd
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 
 Vector = dict[Exponents, Expr]
 """Polynomials in what is known, by the exponents of what is unknown; none of them is 0."""

@@ -16,130 +16,140 @@ and halves where half an angle occurs.
 
 `ring_plan` says what a ring must hold for some formulas, `ring_values` makes the ring,
 and gives the value of a formula in it, and that of an element in numbers.
-
-The relations of a ring, and the normal form modulo them.
-
-    s² + c² = 1,   r² = radicand,   u·p = 1
-
-Generators that a relation eliminates stand first in the lexicographic order, so that
-each relation is a rewriting rule and the remainder of a division by it: s² becomes
-1 - c², r² its radicand, and u·p becomes 1.  A pair (s, c) is there from the start;
-roots and inverses are adjoined one by one while the ring is built.
-
-The Fourier form: a polynomial in sines and cosines as Σ aₙ cos(n·α) + bₙ sin(n·α).
-
-α = (α₁, α₂, …) are basic angles and n are integers, so n·α is an angle such as
-2α₁ - α₂.  Every product of powers of sines and cosines is such a sum, by
-
-    cos α = (e^{iα} + e^{-iα}) / 2,   sin α = (e^{iα} - e^{-iα}) / 2i.
-
-It is unique, so it shows what a polynomial is: s₁c₁ = ½ sin 2α₁, and with α₁ = θ₂,
-α₂ = θ₂ + θ₃ it is the form in which c₂c₂₃ + s₂s₂₃ becomes cos(α₂ - α₁) = c₃.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from dynsolve.algebra.angles import Angle, Atom, names_of
-from dynsolve.algebra.expr import Expr, Pair, dotted, is_sign, lay_out, sine_cosine_pairs
-from dynsolve.algebra.rationals import rational
+from dynsolve.algebra.generators import (
+    Generator,
+    Pair,
+    Relations,
+    dotted,
+    is_sign,
+    lay_out,
+    sine_cosine_pairs,
+)
+from dynsolve.algebra.rationals import fraction, rational
 from dynsolve.algebra.ring_plan import ConstantAngles, RingPlan, minimal_polynomial
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Function, Node, Number
 
-# The relations of a ring, and the normal form modulo them
+Terms = tuple[tuple[float, tuple[tuple[int, int], ...]], ...]
+"""Of each term its coefficient, and its generators with their powers."""
 
 
-class Relations:
-    """The rewriting rules of one ring, each with the index of the generator that it eliminates.
+def terms_of(poly: fmpq_mpoly) -> Terms:
+    """The terms of a polynomial in floating point."""
+    places = [index for index, degree in enumerate(poly.degrees()) if degree > 0]
+    return tuple(
+        (
+            int(coefficient.p) / int(coefficient.q),
+            tuple((index, int(exponents[index])) for index in places if exponents[index]),
+        )
+        for exponents, coefficient in zip(poly.monoms(), poly.coeffs(), strict=True)
+    )
 
-    `radicands` are what stands under the roots, `inverses` what the generators of
-    inverses invert, by the generator's index.
-    """
 
-    def __init__(self, generators: Sequence[fmpq_mpoly], pairs: Sequence[Pair]) -> None:
-        self._generators = generators
-        self._pairs = [(p.sine, generators[p.sine] ** 2 + generators[p.cosine] ** 2 - 1) for p in pairs]
-        self._cosines = [(p.sine, p.cosine) for p in pairs]
-        self._roots: list[tuple[int, int, fmpq_mpoly]] = []
-        self._inverses: list[tuple[int, fmpq_mpoly]] = []
-        self.radicands: dict[int, fmpq_mpoly] = {}
-        self.inverses: dict[int, fmpq_mpoly] = {}
+class Expr:
+    """An element of a ring, in normal form.  Immutable; `==` decides equality exactly."""
 
-    def adjoin_constant(self, index: int, degree: int, minimal: fmpq_mpoly) -> None:
-        """Make a generator a zero of its minimal polynomial of some degree."""
-        self._roots.append((index, degree, minimal))
+    __slots__ = ("_terms", "poly", "ring")
 
-    def adjoin_root(self, index: int, radicand: fmpq_mpoly) -> None:
-        """Make a generator the square root of a polynomial in generators that stand after it."""
-        self.radicands[index] = radicand
-        self._roots.insert(0, (index, 2, self._generators[index] ** 2 - radicand))
+    def __init__(self, ring: Ring, poly: fmpq_mpoly) -> None:
+        self.ring = ring
+        self.poly = poly
+        self._terms: Terms | None = None
 
-    def adjoin_inverse(self, index: int, inverted: fmpq_mpoly) -> None:
-        """Make a generator 1 / a polynomial."""
-        self.inverses[index] = inverted
-        self._inverses.append((index, self._generators[index] * inverted - 1))
+    def __add__(self, other: Expr) -> Expr:
+        return Expr(self.ring, self.poly + other.poly)
 
-    def of(self, places: Iterable[int]) -> Iterator[fmpq_mpoly]:
-        """The relations of some generators, and of those that occur in these."""
-        known = dict((*self._pairs, *((i, poly) for i, _, poly in self._roots), *self._inverses))
-        both = {cosine: sine for sine, cosine in self._cosines}
-        waiting = [both.get(place, place) for place in places]
-        while waiting:
-            poly = known.pop(waiting.pop(), None)
-            if poly is not None:
-                yield poly
-                waiting += [both.get(i, i) for i, degree in enumerate(poly.degrees()) if degree > 0]
+    def __sub__(self, other: Expr) -> Expr:
+        return Expr(self.ring, self.poly - other.poly)
 
-    def reduce(self, poly: fmpq_mpoly) -> fmpq_mpoly:
-        """The normal form of a polynomial."""
-        if not self._pairs and not self._roots and not self._inverses:
-            return poly
-        degrees = poly.degrees()
-        for index, relation in self._pairs:
-            if degrees[index] > 1:
-                poly %= relation
-        poly = self.reduce_roots(poly)
-        if self._inverses:
-            poly = self._without_inverses(poly)
-        return poly
+    def __neg__(self) -> Expr:
+        return Expr(self.ring, -self.poly)
 
-    def reduce_roots(self, poly: fmpq_mpoly) -> fmpq_mpoly:
-        """A polynomial with √3² = 3, and s² + c² as it stands."""
-        for index, degree, relation in self._roots:
-            if poly.degrees()[index] >= degree:
-                poly %= relation
-        return poly
+    def __mul__(self, other: Expr | int | Fraction) -> Expr:
+        if isinstance(other, Expr):
+            return Expr(self.ring, self.ring.reduce(self.poly * other.poly))
+        return Expr(self.ring, self.poly * rational(other))
 
-    def _without_inverses(self, poly: fmpq_mpoly) -> fmpq_mpoly:
-        before = None
-        while poly != before:
-            before = poly
-            degrees = poly.degrees()
-            for index, relation in self._inverses:
-                if degrees[index]:
-                    poly %= relation
-            for index, relation in self._pairs:
-                if degrees[index] > 1:
-                    poly %= relation
-        return poly
+    __rmul__ = __mul__
 
-    def rationalized(self, poly: fmpq_mpoly) -> tuple[Any, Any] | None:
-        """(conjugate, norm) where a square root occurs: 1/(a + b√2) = (a - b√2)/(a² - 2b²)."""
-        degrees = poly.degrees()
-        for index, degree, _ in self._roots:
-            if degree == 2 and degrees[index]:
-                conjugate = poly.compose(
-                    *(-g if i == index else g for i, g in enumerate(self._generators)), ctx=poly.context()
-                )
-                return conjugate, self.reduce(poly * conjugate)
-        return None
+    def __truediv__(self, other: int | Fraction) -> Expr:
+        return Expr(self.ring, self.poly / rational(other))
+
+    def __pow__(self, exponent: int) -> Expr:
+        power = self.ring.one
+        for _ in range(exponent):
+            power = power * self
+        return power
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Expr) and bool(self.poly == other.poly)
+
+    def __hash__(self) -> int:
+        return hash(str(self.poly))
+
+    def __repr__(self) -> str:
+        """The normal form as text, for people who debug."""
+        names = [_text(g) for g in self.ring.generators]
+        terms = []
+        for exponents, coefficient in self.poly.to_dict().items():
+            powers = [f"{names[i]}^{e}" if e > 1 else names[i] for i, e in enumerate(exponents) if e]
+            terms.append("*".join([str(coefficient), *powers]))
+        return f"Expr({' + '.join(terms) or '0'})"
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether it is 0."""
+        return not self.poly
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is a rational number."""
+        return bool(self.poly.is_constant())
+
+    @property
+    def used(self) -> tuple[int, ...]:
+        """The places of the generators that occur."""
+        return tuple(i for i, degree in enumerate(self.poly.degrees()) if degree > 0)
+
+    @property
+    def terms(self) -> Terms:
+        """Its terms in floating point, written once: it is evaluated at many points."""
+        if self._terms is None:
+            self._terms = terms_of(self.poly)
+        return self._terms
+
+    def quotient(self, divisor: Expr) -> Expr | None:
+        """This over a divisor, None where that does not divide it."""
+        quotient, rest = divmod(self.poly, divisor.poly)
+        return None if rest else Expr(self.ring, quotient)
+
+    def __len__(self) -> int:
+        """The number of terms of the normal form."""
+        return len(self.poly)
+
+    @property
+    def number(self) -> Fraction:
+        """Its value where `is_number`."""
+        value = self.poly.leading_coefficient() if self.poly else fmpq(0)
+        return fraction(value)
+
+
+def _text(g: Generator) -> str:
+    if g.kind in ("sin", "cos"):
+        return f"{g.kind}({' + '.join(f'{rate}*{atom}' for atom, rate in g.angle.terms)})"
+    return dotted(g.name, g.dots) or f"{g.kind}{g.index}"
 
 
 MOST_TURNS = 64
@@ -439,77 +449,3 @@ class Ring:
 
 class NoRoom(Exception):
     """The ring needs more generators for inverses than were set aside."""
-
-
-# The Fourier form: a polynomial in sines and cosines as Σ aₙ cos(n·α) + bₙ sin(n·α)
-
-Multiples = tuple[int, ...]
-"""An angle as integer multiples n of the basic angles."""
-
-Powers = tuple[int, ...]
-"""Of a product of powers: those of sin α₁, cos α₁, sin α₂, cos α₂, …"""
-
-TrigFunction = tuple[str, Multiples]
-"""`sin` or `cos`, of the angle n·α."""
-
-FourierForm = dict[Multiples, tuple[Fraction, Fraction]]
-"""{n: (aₙ, bₙ)}; of n and -n the one whose last multiple that is not 0 is positive: θ₃ - θ₂."""
-
-_Exponentials = dict[Multiples, tuple[int, int]]
-"""Σ (x + iy) e^{i n·α}: {n: (x, y)}"""
-
-
-def fourier_form(polynomial: Mapping[Powers, int | Fraction]) -> FourierForm:
-    """The Fourier form of Σ factor · Π sin^a cos^b, given as {exponents: factor}.
-
-    >>> fourier_form({(1, 1): 1})
-    {(2,): (Fraction(0, 1), Fraction(1, 2))}
-    >>> fourier_form({(0, 1, 0, 1): 1, (1, 0, 1, 0): 1})
-    {(-1, 1): (Fraction(1, 1), Fraction(0, 1))}
-    """
-    total: dict[Multiples, list[Fraction]] = {}
-    for exponents, factor in polynomial.items():
-        share = Fraction(factor, 2 ** sum(exponents))
-        for n, (x, y) in _exponentials(exponents).items():
-            entry = total.setdefault(n, [Fraction(0), Fraction(0)])
-            # x + iy at n comes with x - iy at -n; together they are 2x cos(n·α) - 2y sin(n·α).
-            twice = 2 if any(n) else 1
-            entry[0] += twice * x * share
-            entry[1] -= twice * y * share
-    return {n: (a, b) for n, (a, b) in total.items() if a or b}
-
-
-def terms_of(form: FourierForm) -> Iterator[tuple[TrigFunction, Fraction]]:
-    """The terms of a Fourier form, each a sine or cosine with its factor; a constant is that of cos 0."""
-    for n, (a, b) in form.items():
-        if a:
-            yield ("cos", n), a
-        if b:
-            yield ("sin", n), b
-
-
-def positive(n: Multiples) -> tuple[int, Multiples]:
-    """(sign, ±n) with the last multiple that is not 0 positive: θ₃ - θ₂ and not θ₂ - θ₃."""
-    last = next((x for x in reversed(n) if x), 1)
-    return (1, n) if last > 0 else (-1, tuple(-x for x in n))
-
-
-def _exponentials(exponents: Powers) -> _Exponentials:
-    """2^Σexponents Π sin^a cos^b in exponentials, those at `positive` n alone."""
-    product: _Exponentials = {(0,) * (len(exponents) // 2): (1, 0)}
-    for k, exponent in enumerate(exponents):
-        for _ in range(exponent):
-            product = _times(product, k // 2, sine=not k % 2)
-    return {n: value for n, value in product.items() if positive(n)[0] > 0}
-
-
-def _times(product: _Exponentials, j: int, *, sine: bool) -> _Exponentials:
-    """The product with 2 cos αⱼ = z + 1/z, or with 2 sin αⱼ = (z - 1/z)/i, where z = e^{iαⱼ}."""
-    result: _Exponentials = {}
-    for n, (x, y) in product.items():
-        for step in (1, -1):
-            shifted = (*n[:j], n[j] + step, *n[j + 1 :])
-            re, im = (y * step, -x * step) if sine else (x, y)
-            before = result.get(shifted, (0, 0))
-            result[shifted] = (before[0] + re, before[1] + im)
-    return {n: value for n, value in result.items() if value != (0, 0)}

@@ -23,10 +23,10 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, Atom, angle_from_tree, names_of
-from dynsolve.algebra.expr import Expr, Generator, Terms, dotted, terms_of
 from dynsolve.algebra.fraction import RationalExpr, simplified
+from dynsolve.algebra.generators import Generator, dotted
 from dynsolve.algebra.rationals import rational, rational_value
-from dynsolve.algebra.ring import NoRoom, Ring
+from dynsolve.algebra.ring import Expr, NoRoom, Ring, Terms, terms_of
 from dynsolve.algebra.ring_plan import RingPlan, plan_ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import (

@@ -22,8 +22,7 @@ from random import Random
 from typing import Any
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.tree import Function
 

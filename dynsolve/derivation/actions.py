@@ -16,8 +16,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import kinematics
 from dynsolve.derivation.graph import Rule
 from dynsolve.derivation.kinematics import frame_names

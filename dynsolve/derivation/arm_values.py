@@ -10,9 +10,8 @@ from typing import TypeVar
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.newton_euler import (

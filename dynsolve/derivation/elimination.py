@@ -13,9 +13,10 @@ from operator import mul
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.factors import is_positive, ratio, trig_factors
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, follows
+from dynsolve.algebra.ring import Expr
 
 # Gauss's elimination on floating-point numbers, by which the independent checks are made
 

@@ -21,8 +21,8 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import link_frame
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.link_frame import quadratic_energy

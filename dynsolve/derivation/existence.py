@@ -12,10 +12,11 @@ from itertools import product
 from typing import Any
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.fourier import Multiples, fourier_form, positive
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.rationals import rational
-from dynsolve.algebra.ring import Multiples, Ring, fourier_form, positive
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.elimination import ParameterSigns, rank
 
 DEGREES = {(0, 1): 0, (1, 0): 90, (0, -1): 180, (-1, 0): 270}

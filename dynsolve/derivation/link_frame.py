@@ -23,9 +23,8 @@ from functools import partial
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross, hstack
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.graph import Rule
 from dynsolve.derivation.kinematics import dh_matrix, origin, rotation
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot

@@ -21,8 +21,8 @@ from typing import Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate, evaluate_with
 from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.newton_euler import Vector, cross, dot, plus, scaled

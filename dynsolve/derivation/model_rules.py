@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import euler_lagrange, mechanism
 from dynsolve.derivation.graph import Rule
 from dynsolve.derivation.link_frame import inertia_matrix, quadratic_energy

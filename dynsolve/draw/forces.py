@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.draw import paths
 from dynsolve.draw.poses import MARK, Notes, Pose, seen_end_on
 from dynsolve.draw.skeleton import DrawnFrame, RobotNumbers, finite

@@ -16,7 +16,7 @@ from itertools import combinations
 from msgspec.structs import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.mechanism import orientation
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Label, Taken, place

@@ -17,10 +17,9 @@ from random import Random
 from msgspec import Struct
 
 from dynsolve.algebra.angles import names_of
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_sqrt
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.mechanism import angular_jacobian, orientation, position_jacobian
 from dynsolve.draw.skeleton import drawn_length, finite
 from dynsolve.draw.vectors import (

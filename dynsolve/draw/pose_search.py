@@ -25,7 +25,7 @@ from random import Random
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.draw.mass_centers import drawn_bodies, sleeves, with_masses
 from dynsolve.draw.parts import NO_SLEEVES, RADIUS, arrange
 from dynsolve.draw.poses import AXIS, MANY, Choice, Pose, cost_of, taste

@@ -19,7 +19,7 @@ from itertools import combinations, pairwise
 from msgspec import Struct, field
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Taken, Wanted
 from dynsolve.draw.mass_centers import DrawnBody

@@ -23,7 +23,7 @@ from collections.abc import Mapping, Sequence
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.draw.vectors import (
     IDENTITY,

@@ -28,7 +28,7 @@ from itertools import count
 from msgspec import Struct, field
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.euler_lagrange import christoffel_symbols
 from dynsolve.explain.entry_formulas import (
     collected_coriolis_force,

@@ -10,8 +10,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import actions
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Inline, Prose

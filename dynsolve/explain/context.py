@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.euler_lagrange import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms, is_numeric

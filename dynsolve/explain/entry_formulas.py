@@ -11,7 +11,7 @@ from fractions import Fraction
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, times, total

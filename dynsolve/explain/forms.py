@@ -14,12 +14,12 @@ from math import prod
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import trig_factors
 from dynsolve.algebra.fraction import RationalExpr, clear_inverses, is_zero, with_integers
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.explain.forms import is_numeric, leading_names, parallel_coordinates
 from dynsolve.notation.tree import Relation
 from dynsolve.robot.model import Robot

@@ -13,7 +13,7 @@ from operator import itemgetter
 from msgspec.structs import replace
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.kinematics import axis, joint_frame, origin
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say

@@ -19,9 +19,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import names_of
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.explain.writing import agreeing, and_joined
 from dynsolve.notation.build import split_sign
 from dynsolve.notation.characters import split

@@ -7,10 +7,10 @@ from contextlib import suppress
 from fractions import Fraction
 from math import isqrt, lcm, prod
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive, numeric_roots, ratio, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix as Values
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
 from dynsolve.derivation.graph import Derivation, Skipped

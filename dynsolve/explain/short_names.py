@@ -16,8 +16,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.abbreviations import (

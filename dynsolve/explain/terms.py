@@ -17,7 +17,7 @@ from enum import StrEnum
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.christoffel import equal_symbols

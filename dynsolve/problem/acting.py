@@ -11,7 +11,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.notation.tree import Function
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Decoder, Stated

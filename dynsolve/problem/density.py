@@ -13,9 +13,8 @@ from fractions import Fraction
 from msgspec.structs import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import times

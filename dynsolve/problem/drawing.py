@@ -19,9 +19,8 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, ring_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import total

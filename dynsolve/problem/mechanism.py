@@ -12,10 +12,10 @@ from itertools import pairwise
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_sqrt
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import times, total

@@ -17,10 +17,9 @@ from fractions import Fraction
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, needed_angles
 from dynsolve.algebra.rationals import rational_value
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, value_of, with_references, with_symbols
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.text import Name

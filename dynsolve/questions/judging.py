@@ -14,9 +14,9 @@ from typing import Any, ClassVar
 from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Node

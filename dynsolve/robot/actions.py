@@ -25,9 +25,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 from msgspec import Struct
 from msgspec.structs import asdict, astuple, replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.notation.tree import Function, Node
 from dynsolve.robot.units import Dimension
 

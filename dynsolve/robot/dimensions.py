@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from dynsolve.algebra.expr import Expr, Generator, is_sign
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.generators import Generator, is_sign
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.build import summands, total
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Reference, Symbol, walk

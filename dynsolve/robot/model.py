@@ -16,9 +16,8 @@ from fractions import Fraction
 from msgspec import Struct, field
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.notation.tree import Node
 from dynsolve.robot.actions import NOTHING_ACTS, Actions, BodyTurn, GivenModel
 from dynsolve.robot.questions import Questions

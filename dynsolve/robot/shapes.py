@@ -20,8 +20,8 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node, Number, Power, Product, Quotient, Sum, Symbol
 

@@ -6,8 +6,8 @@ import pytest
 
 import dynsolve
 from dynsolve import Solution
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.errors import InputError
 from dynsolve.explain.step import Detail
 from dynsolve.notation.tree import Function, walk

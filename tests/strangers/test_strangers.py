@@ -13,7 +13,7 @@ from msgspec.structs import replace
 import dynsolve
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.compact.proof import Proof
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Formula
 from dynsolve.explain.abbreviations import Abbreviate, Exchange
 from dynsolve.explain.recurring import _Writer

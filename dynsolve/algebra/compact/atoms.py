@@ -16,8 +16,9 @@ from itertools import combinations
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.compact.terms import Monomial, Polynomial, Rational, add_term, multiply
 from dynsolve.algebra.compact.trig_forms import AngleGroup, TrigMonomial
-from dynsolve.algebra.expr import Expr, Generator, is_sign
-from dynsolve.algebra.ring import Ring, TrigFunction
+from dynsolve.algebra.fourier import TrigFunction
+from dynsolve.algebra.generators import Generator, is_sign
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.notation.tree import Function, Node, Number, Symbol, children
 
 # Atoms: the factors of a printed product, and their order

@@ -33,9 +33,8 @@ from dynsolve.algebra.compact.terms import (
     whole_content,
 )
 from dynsolve.algebra.compact.trig_forms import TrigMonomial, TrigPolynomial, angle_groups
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.errors import attempted, warn_left_out
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total

@@ -15,8 +15,8 @@ from random import Random
 from typing import Any
 
 from dynsolve.algebra.angles import angle_node
-from dynsolve.algebra.expr import Expr, Generator, is_sign
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.generators import Generator, is_sign
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import evaluate, value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import times, total

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, TypeVar
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 
 # A polynomial as a dictionary of terms, laid out for collecting
 

@@ -42,9 +42,10 @@ from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, coordinates_in
 from dynsolve.algebra.compact.terms import Exponents, Rational, add_term, exact, primitive
-from dynsolve.algebra.expr import Pair
+from dynsolve.algebra.fourier import FourierForm, Multiples, TrigFunction, fourier_form, positive, terms_of
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.rationals import fraction, rational
-from dynsolve.algebra.ring import FourierForm, Multiples, Ring, TrigFunction, fourier_form, positive, terms_of
+from dynsolve.algebra.ring import Ring
 
 # The forms in which a person may write a trigonometric polynomial in parallel angles
 

@@ -20,9 +20,9 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, cancelled, equal, is_zero
 from dynsolve.algebra.linear_systems import fraction_of
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermDiagnoser, TermSlip, ratio_of
 from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, is_small, mends, parts

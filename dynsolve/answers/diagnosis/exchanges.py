@@ -26,9 +26,9 @@ from itertools import chain, groupby
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.rationals import fraction
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.diagnosis.mends import (
     Exchange,

@@ -16,8 +16,8 @@ from itertools import combinations, permutations
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr, Generator
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.answers.diagnosis.mends import put_polynomials
 from dynsolve.errors import AlgebraError
 

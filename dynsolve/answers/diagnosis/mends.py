@@ -21,8 +21,7 @@ from typing import Any, Protocol
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 
 # An expression as terms that a person would name
 

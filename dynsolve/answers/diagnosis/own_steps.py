@@ -14,9 +14,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.diagnosis.exchanges import ratio_of
 from dynsolve.answers.diagnosis.mends import Redoing
 from dynsolve.answers.diagnosis.slips import SLIPS, slip

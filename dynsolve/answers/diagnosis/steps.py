@@ -16,8 +16,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import AtState, Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.derivation import euler_lagrange, kinematics, link_frame

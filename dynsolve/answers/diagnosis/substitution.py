@@ -8,8 +8,8 @@ from typing import Any
 
 from flint import fmpq
 
-from dynsolve.algebra.expr import Expr, Generator
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, put_polynomials
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.wrong_entry import TermWriter

@@ -18,11 +18,12 @@ from typing import Any
 from msgspec import Struct
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.fraction import as_expr
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.diagnosis.mends import Exchange, is_small, monomial_expr, parts, put_polynomials
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.answer_ring import AnswerRing

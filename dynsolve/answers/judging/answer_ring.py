@@ -22,9 +22,8 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, Contents
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_plan import RingPlan
 from dynsolve.algebra.ring_values import ring_of
 from dynsolve.algebra.sampling import Transfer

@@ -40,10 +40,10 @@ from typing import NoReturn, TypeVar
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.judging.answer_ring import AnswerRing, AnswerRingBuilder
 from dynsolve.answers.judging.evaluate import AnswerEvaluator
 from dynsolve.answers.judging.graph import AnswerGraph

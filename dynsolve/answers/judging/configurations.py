@@ -7,8 +7,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.verdict import ConfigurationAnswer
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms

@@ -22,12 +22,11 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, equal, simplified
 from dynsolve.algebra.linear_systems import rank_parts, same_span
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import half_unit, rational
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, walk, with_children
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.judging.answer_values import AnswerValue, as_value
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS
 from dynsolve.quantities import action_families, families

@@ -20,10 +20,10 @@ from flint.utils.flint_exceptions import FlintError
 from msgspec import Struct, field
 
 from dynsolve.algebra.angles import Angle, Contents, ContentsCollector, angle_from_tree, names_of
-from dynsolve.algebra.expr import Expr, dotted, is_sign
 from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.generators import dotted, is_sign
 from dynsolve.algebra.rationals import half_unit, rational_value
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import Evaluator, Unreduced
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree

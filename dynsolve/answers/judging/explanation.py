@@ -23,10 +23,10 @@ from functools import cached_property
 from itertools import islice
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.judging.entry_comparison import placed, spans, substituted
 from dynsolve.answers.judging.follow_through import (
     Direction,

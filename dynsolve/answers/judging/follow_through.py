@@ -22,9 +22,9 @@ from typing import Any
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.judging.answer_values import as_value
 from dynsolve.answers.judging.graph import MODEL, AnswerGraph, Route
 from dynsolve.answers.judging.key_comparison import KeyComparison

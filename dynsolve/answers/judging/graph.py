@@ -21,9 +21,9 @@ from typing import Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.derivation import euler_lagrange, kinematics
 from dynsolve.derivation.graph import Rule, Skipped

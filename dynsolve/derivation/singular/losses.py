@@ -14,10 +14,10 @@ from itertools import combinations
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import trig_factors, trig_quotient
 from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.matrix import Matrix, determinant, minors, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.singular.zeros import Condition, can_hold, core, follows
 
 Direction = tuple[Expr, ...]

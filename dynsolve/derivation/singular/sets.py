@@ -7,10 +7,10 @@ from itertools import combinations
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive, squares, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix, minors, parts, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import conditions, without_ends
 from dynsolve.derivation.singular.losses import Loss, loss, lost_everywhere

@@ -27,10 +27,10 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from msgspec import Struct
 
 from dynsolve.algebra.angles import names_of
-from dynsolve.algebra.expr import Expr, Pair
 from dynsolve.algebra.factors import is_positive, trig_quotient
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 
 # Whether equations can hold together, and what follows from them, by Buchberger's algorithm
 

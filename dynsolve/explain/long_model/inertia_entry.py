@@ -9,7 +9,7 @@ from itertools import chain
 from msgspec import Struct
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.kinematics import dh_matrix, joint_frame, linear_jacobian, origin, rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain, pairwise
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.kinematics import axis, joint_frame
 from dynsolve.document import Prose, Reference

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from dynsolve.algebra import matrix
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

@@ -16,8 +16,8 @@ from flint import fmpq_mpoly
 from msgspec import Struct
 
 from dynsolve.algebra.compact.terms import Monomial, Rational
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say

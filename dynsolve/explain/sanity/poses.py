@@ -9,9 +9,8 @@ from itertools import chain
 from math import isqrt
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say

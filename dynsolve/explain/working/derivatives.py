@@ -12,7 +12,7 @@ from math import prod
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

@@ -17,9 +17,9 @@ from flint import fmpq_mpoly
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
-from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say

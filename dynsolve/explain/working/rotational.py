@@ -13,8 +13,8 @@ from itertools import combinations_with_replacement
 from msgspec import Struct
 
 from dynsolve.algebra.compact.collect import matrix_factor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context

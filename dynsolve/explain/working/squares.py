@@ -21,10 +21,10 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import angle_node
-from dynsolve.algebra.expr import Expr, Generator, Pair
+from dynsolve.algebra.generators import Generator, Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say

@@ -26,7 +26,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import (
     FractionMatrix,
     adjugate,
@@ -37,6 +36,7 @@ from dynsolve.algebra.linear_systems import (
     tidy,
 )
 from dynsolve.algebra.matrix import Matrix, determinant, vstack, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation import kinematics
 from dynsolve.derivation.graph import Rule, Skipped

@@ -30,9 +30,10 @@ from random import Random
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, follows, independent, opposite, simplified
 from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.robot.actions import Candidate

@@ -18,10 +18,10 @@ from collections.abc import Iterable
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
 from dynsolve.questions.parameters.derive import minimal_parameters
 from dynsolve.robot.model import Robot

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.ring import Expr
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Values

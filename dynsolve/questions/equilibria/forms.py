@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 from dynsolve.algebra.angles import angle_node
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_positive
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.elimination import turn_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative

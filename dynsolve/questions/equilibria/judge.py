@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.notation.tree import Node, names_in

@@ -49,9 +49,9 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations, islice
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of, inverse_times, tidy
 from dynsolve.algebra.matrix import AtState, Matrix, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.graph import Skipped

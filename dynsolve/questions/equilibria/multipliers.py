@@ -16,7 +16,6 @@ from math import prod
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import halves
 from dynsolve.algebra.fraction import RationalExpr, cancelled, multiply
 from dynsolve.algebra.linear_systems import (
@@ -29,7 +28,7 @@ from dynsolve.algebra.linear_systems import (
     rank_parts,
 )
 from dynsolve.algebra.matrix import Matrix, determinant, minors
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import DEGREES, quarter_turn

@@ -42,11 +42,12 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr, Pair
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
 from dynsolve.derivation.existence import conditions, without_ends

@@ -24,9 +24,9 @@ from itertools import product
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix, inverse_times, nullspace
 from dynsolve.algebra.matrix import Matrix, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import FOR_EVERY_Q

@@ -23,8 +23,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 
 # The ring in which a task is solved for its coordinates, and which of these are still unknown
 

@@ -7,8 +7,8 @@ from math import inf, prod
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_nonnegative, is_positive
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.document import Prose, Table
 from dynsolve.document.sentences import opened, say

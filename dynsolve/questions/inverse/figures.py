@@ -11,8 +11,8 @@ from __future__ import annotations
 from itertools import product
 from math import cos, pi, sin
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_nonnegative
+from dynsolve.algebra.ring import Expr
 from dynsolve.document.figures import Figure, FigureAngle, FigureLine, LineKind, Place
 from dynsolve.notation.build import cost, negated, split_sign, total
 from dynsolve.notation.template import formula

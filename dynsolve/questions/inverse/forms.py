@@ -12,10 +12,10 @@ from math import gcd, lcm
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_nonnegative
 from dynsolve.algebra.fraction import RationalExpr, cancelled
 from dynsolve.algebra.matrix import Matrix as Values
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Condition as Equality
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.derivation.graph import Skipped

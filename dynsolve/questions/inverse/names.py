@@ -11,8 +11,8 @@ from collections.abc import Set as AbstractSet
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.questions.inverse.solving import Definition
 
 POINTS = ("c", "p", "b", "e", "h", "k", "s", "w", "A", "B", "E", "F")

@@ -28,9 +28,8 @@ from itertools import combinations_with_replacement
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.kinematics import base_transform
 from dynsolve.derivation.search_ring import search_ring

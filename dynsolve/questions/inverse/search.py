@@ -19,8 +19,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import ENOUGH, Sample, Transfer, numbered, samples
 from dynsolve.derivation.elimination import rank, shortest_step

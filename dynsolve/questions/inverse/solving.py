@@ -20,9 +20,8 @@ from itertools import chain, islice, product
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import ENOUGH, samples
 from dynsolve.derivation.reached import angle_rows, near, same_configuration

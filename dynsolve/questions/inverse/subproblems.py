@@ -24,8 +24,8 @@ from typing import Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import is_nonnegative, is_positive
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.existence import fourier_parts
 from dynsolve.questions.inverse.equations import Equation, Unknowns
 

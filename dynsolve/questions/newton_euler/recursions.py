@@ -15,8 +15,8 @@ from collections.abc import Iterable, Sequence
 
 from msgspec import Struct
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import link_frame
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.derivation.link_frame import accelerations, velocities

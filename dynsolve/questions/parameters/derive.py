@@ -16,8 +16,8 @@ from functools import partial
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.terms import Exponents
-from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.fraction import RationalExpr, add, cancelled, multiply
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.linear_systems import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.parameter_span import (
@@ -30,7 +30,7 @@ from dynsolve.algebra.parameter_span import (
     shortened,
 )
 from dynsolve.algebra.rationals import fraction
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import accelerations
 from dynsolve.errors import AlgebraError

@@ -12,12 +12,11 @@ from flint import fmpq
 from msgspec import Struct, field
 
 from dynsolve.algebra.compact.terms import Exponents, primitive
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import with_symbols
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import accelerations

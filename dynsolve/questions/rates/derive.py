@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import (
     FractionMatrix,
     adjugate,
@@ -17,6 +16,7 @@ from dynsolve.algebra.linear_systems import (
     rangespace,
 )
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.robot.model import Robot

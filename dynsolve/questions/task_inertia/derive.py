@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.linear_systems import FractionMatrix, part, quotient
 from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.questions.equilibria.linearization import MOST_PRODUCTS, TOO_LARGE
 from dynsolve.questions.forward_dynamics.derive import SINGULAR as SINGULAR_INERTIA

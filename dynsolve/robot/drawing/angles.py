@@ -16,8 +16,7 @@ from math import acos, atan2, degrees, exp
 from random import Random
 
 from dynsolve.algebra.angles import Angle, Atom, names_of
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.errors import AlgebraError
 

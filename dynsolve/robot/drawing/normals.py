@@ -31,9 +31,8 @@ from itertools import pairwise
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Number
 from dynsolve.robot.drawing.angles import angle_between, direction_angles, sign

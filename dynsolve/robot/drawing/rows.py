@@ -23,8 +23,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.algebra.ring import Expr
 from dynsolve.robot.drawing.angles import angle_of
 from dynsolve.robot.drawing.normals import (
     Drawing,

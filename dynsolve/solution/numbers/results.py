@@ -12,10 +12,10 @@ from msgspec import Struct
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled, is_zero
 from dynsolve.algebra.linear_systems import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError, Finding
 from dynsolve.explain.forms import Forms, entry_of, is_numeric, leading_names

@@ -17,10 +17,10 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational, rational_value
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.notation.printing import significant
 from dynsolve.notation.tree import (

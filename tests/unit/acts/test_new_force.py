@@ -37,7 +37,7 @@ KEY = Key(
 ''',
     "act": '''"""Springs of constant torque: -M x."""
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.problem.acting import linear
 from dynsolve.robot.actions import Parameter, Stored

@@ -7,7 +7,6 @@ from random import Random
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, add, cancelled, equal, multiply
 from dynsolve.algebra.linear_systems import (
     FractionMatrix,
@@ -20,6 +19,7 @@ from dynsolve.algebra.linear_systems import (
     same_span,
 )
 from dynsolve.algebra.matrix import Matrix, determinant, minors
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Symbol

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dynsolve.algebra.angles import Angle, Contents, ContentsCollector, coordinates_in, integer_basis
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fourier import FourierForm, fourier_form, positive, terms_of
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal, is_zero, simplified
-from dynsolve.algebra.ring import FourierForm, Ring, fourier_form, positive, terms_of
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.text import read

@@ -5,9 +5,8 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.factors import leading, squares, trig_factors, trig_quotient
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.notation.text import read
 

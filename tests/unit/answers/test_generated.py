@@ -7,8 +7,8 @@ from functools import lru_cache
 
 import pytest
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.diagnosis.mends import parts
 from dynsolve.answers.diagnosis.own_steps import ChangedDerivation
 from dynsolve.answers.judging.graph import AnswerGraph

@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 import dynsolve
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.derivation.rules import derive

@@ -8,7 +8,7 @@ from math import pi
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import build_ring, evaluate
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import conditions

@@ -124,7 +124,7 @@ def body(kind: str, axis: str, density: str, more: str = "") -> Body:
 
 
 def number(value: object) -> float:
-    from dynsolve.algebra.expr import Expr
+    from dynsolve.algebra.ring import Expr
 
     assert isinstance(value, Expr)
     names = [g.name for g in value.ring.generators]

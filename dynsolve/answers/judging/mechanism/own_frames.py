@@ -31,9 +31,8 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, needed_angles
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.answers.judging.mechanism.tables import (
     COLUMNS,

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.compact.trig_forms import ConstantForms, TrigForm, TrigPolynomial, trig_forms
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms

@@ -6,8 +6,8 @@ from itertools import product
 
 import pytest
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.graph import AnswerGraph

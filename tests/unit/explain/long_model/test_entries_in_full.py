@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import cross
+from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.kinematics import axis, origin, rotation
 from dynsolve.explain.abbreviations import Abbreviated

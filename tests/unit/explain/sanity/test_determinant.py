@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.notation.unicode import to_unicode
 from tests.support import solved
 from tests.unit.explain.told import said, step

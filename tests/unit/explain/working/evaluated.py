@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from functools import reduce
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Product, Relation, Sum, Transpose, walk

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 import dynsolve
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Cross, Relation
