@@ -33,7 +33,7 @@ from dynsolve.algebra.angles import Angle, angle_from_tree
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix, needed_angles
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.algebra.ring_values import build_ring, value_of
+from dynsolve.algebra.ring_values import build_ring, value_of, with_references
 from dynsolve.answers.judging.mechanism.tables import (
     COLUMNS,
     Agreement,
@@ -172,7 +172,7 @@ class OwnPlaces:
         trees = [restated(self.form(value), self.counts) for value in self._key_values()]
         trees += [cell for row in self.table for cell in row.constants[1:3]]
         trees += [function for act in key.actions.acts for function in act.functions(key)]
-        trees += self._asked_trees({}) + self._asked_trees(self.counts)
+        trees += [*map(Symbol, key.inputs), *self._asked_trees({}), *self._asked_trees(self.counts)]
         turns = [
             Turn(self.theta(i), alpha, row.variable == 0)
             for i, (row, (_, alpha)) in enumerate(zip(self.table, self.angles, strict=True))
@@ -184,7 +184,9 @@ class OwnPlaces:
         ring = build_ring(coordinates, trees, angles, preferred)
         states = [restated_state(key.questions.state, counts).by_symbol for counts in ({}, self.counts)]
         needed = [angle for state in states for angle in needed_angles(ring, state)]
-        return build_ring(coordinates, trees, [*angles, *needed], preferred) if needed else ring
+        ring = build_ring(coordinates, trees, [*angles, *needed], preferred) if needed else ring
+        references = key.ring.plan.references
+        return with_references(ring, references) if references else ring
 
     def _key_values(self) -> Iterator[Expr]:
         """Everything of the key that the ring must hold, but the task."""
@@ -461,7 +463,7 @@ class _Own:
             actions=replace(key.actions, acts=tuple(act.with_values(moved) for act in key.actions.acts)),
             base_rotation=world.R,
             base_position=world.o,
-            parameters=tuple(name for name in self.ring.parameters if name != "pi"),
+            parameters=tuple(name for name in self.ring.parameters if name not in ("pi", *self.key.inputs)),
         )
         return replace(
             own, questions=self._questions(own, seen, {} if sense.is_literal else self.places.counts)

@@ -64,6 +64,14 @@ def test_what_follows_is_right_in_the_students_own_frames(answers: dict[str, Tex
     assert report.first_wrong == ""
 
 
+def test_forces_and_reference_rates_that_an_answer_may_hold_are_there_too() -> None:
+    """The key of the accelerations holds τ as symbols, that of Y_r the rates of a reference."""
+    arm = ARM.replace("D, g, P", "D, qdd_forward, Yr, a")
+    answers = {name: HAND_INS["from elsewhere"][name] for name in ("DH", "H2", "D")}
+    report = checker(arm)(submission(answers))
+    assert {one.name: one.verdict for one in report.answers if one.given} == dict.fromkeys(answers, "correct")
+
+
 def test_without_the_table_they_are_wrong() -> None:
     answers = {name: value for name, value in HAND_INS["from elsewhere"].items() if name != "DH"}
     verdicts = {a.name: a.verdict for a in checker(ARM)(submission(answers)).answers if a.given}
