@@ -35,6 +35,7 @@ from __future__ import annotations
 import os
 import pickle
 import signal
+import traceback
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cached_property
@@ -109,7 +110,7 @@ def general_formulas(submission: Submission, asked: Collection[str], named: Quan
 
 def needed(named: Quantities, name: str, references: Iterable[str]) -> list[str]:
     """What a formula of an answer needs: what stands in it, but for forces that are its inputs."""
-    forces = (families.TAU, families.FORCE) if name in families.HOLD_FORCES else ()
+    forces = (families.TAU, families.FORCE) if families.holds_forces(name) else ()
     return [other for other in references if named[other].family not in forces]
 
 
@@ -127,6 +128,8 @@ def is_given(named: Quantities, name: str, given: Collection[str]) -> bool:
 
 BY_PARTS = "judged by its parts"
 BY_MIRROR = "judged as the entry that it mirrors: D is symmetric"
+
+_ROWS_OF_J = {"Jv": range(1, 4), "Jw": range(4, 7)}
 
 Answers = Mapping[str, JudgedAnswer]
 
@@ -156,19 +159,24 @@ def _incomplete(graph: AnswerGraph, name: str, answers: Answers) -> Iterator[str
 
 
 def _within_whole(graph: AnswerGraph, base: JudgedAnswer, answers: Answers) -> JudgedAnswer | None:
-    """An entry as it stands in the matrix, or as the one that it mirrors in D."""
+    """An entry as it stands in the matrix, or as the one that it mirrors in D; J_v and J_ω as rows of J."""
     name, entry = graph.quantities.entry_of(base.name)
+    rows = _ROWS_OF_J.get(base.name, ())
     mirrored = answers.get(graph.quantities.mirrored(base.name))
     if mirrored is not None and mirrored.given:
         return replace(mirrored, name=base.name, of=base.of, given=False, notes=(BY_MIRROR,))
-    whole = answers.get(name)
+    whole = answers.get("J" if rows else name)
     if whole is None or not whole.given:
         return None
     place = tuple(i + 1 for i in entry)
-    found = next((e for e in whole.entries if place in (e.index, (*e.index, place[1]))), None)
+    own = [e for e in whole.entries if e.index[0] in rows or place in (e.index, (*e.index, *place[1:2]))]
+    verdict = worst([e.verdict for e in own]) if own else whole.verdict
+    found = next((e for e in own if e.verdict is verdict), None)
+    block = tuple(replace(e, index=(e.index[0] - rows[0] + 1, *e.index[1:])) for e in own) if rows else ()
     return replace(
-        base, verdict=found.verdict if found else whole.verdict, label=whole.label, place=whole.place,
-        notes=(f"an entry of {whole.name}",), follows_from=found.follows_from if found else (),
+        base, verdict=verdict, label=whole.label, place=whole.place, entries=block,
+        notes=(f"{'rows' if rows else 'an entry'} of {whole.name}",),
+        follows_from=found.follows_from if found else (),
         diagnosis=found.diagnosis if found else whole.diagnosis, fault=whole.fault,
         expected=whole.expected, difference=found.difference if found else None,
     )  # fmt: skip
@@ -546,6 +554,7 @@ def _run(work: Callable[[], Any], writing: int, seconds: float) -> None:
         except MemoryError:
             os._exit(1)
         except Exception as error:  # noqa: BLE001  told to the parent, who raises it
+            error.add_note(traceback.format_exc())
             data = pickle.dumps((False, error))
         with os.fdopen(writing, "wb") as pipe:
             pipe.write(data)

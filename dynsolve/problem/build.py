@@ -19,7 +19,7 @@ from dynsolve.problem.questions import named_point, with_questions
 from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, PlaceBuilder, evaluate, mass_value, tensor_value
 from dynsolve.problem.yaml_nodes import Faults
-from dynsolve.quantities.families import HOLD_FORCES
+from dynsolve.quantities.families import holds_forces
 from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.questions import reference
@@ -36,7 +36,7 @@ def build_robot(
 
     `asked` are the answers asked for that a derivation has only where they are, `written` its `values`.
     """
-    inputs = tuple(q.force for q in parsed.coordinates) if asked & HOLD_FORCES else ()
+    inputs = tuple(q.force for q in parsed.coordinates) if any(map(holds_forces, asked)) else ()
     references = tuple(reference(q.name) for q in parsed.coordinates) if "Yr" in asked else ()
     values = evaluate(faults, parsed, written, inputs, references)
     if values is None:

@@ -64,7 +64,7 @@ from dynsolve.robot.model import Robot
 
 def with_inputs(robot: Robot, named: Quantities, name: str, node: Node) -> Node:
     """The tree of the answer `name`, forces and multipliers being inputs in those that hold them."""
-    if name in families.HOLD_FORCES:
+    if families.holds_forces(name):
         return _with_forces(robot, named, node)
     if robot.questions.constraints and named[name].family in (families.TAU, families.FORCE):
         return _with_multipliers(robot, named, node)

@@ -68,7 +68,7 @@ __all__ = [
     "P_BODY", "KV", "KW", "K_BODY", "P", "K", "L",
     "DLDQD", "DDT", "DLDQ", "FORCE", "TAU",
     "D", "CHRISTOFFEL", "C_SYMBOL", "C", "G", "CQD",
-    "FAMILIES", "HOLD_FORCES",
+    "FAMILIES", "holds_forces",
 ]  # fmt: skip
 
 
@@ -95,5 +95,9 @@ FAMILIES: tuple[Family, ...] = (
     *_asked_for(_STAGES[_BODIES:]),
 )
 
-HOLD_FORCES = frozenset(family.name for family in FAMILIES if family.holds_forces)
-"""The names of the results that hold the generalized forces by their names."""
+_HOLD_FORCES = frozenset(family.name for family in FAMILIES if family.holds_forces)
+
+
+def holds_forces(name: str) -> bool:
+    """Whether a result, or an entry of it, holds the generalized forces by their names: lambda, lambda2."""
+    return name.rstrip("0123456789") in _HOLD_FORCES

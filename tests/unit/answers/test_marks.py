@@ -16,6 +16,7 @@ from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.owners import Owners
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType
+from tests.unit.answers.hands import checker, submission
 
 F = Fraction
 COORDINATES = (Coordinate("theta1", JointType.REVOLUTE, 1), Coordinate("d2", JointType.PRISMATIC, 2))
@@ -227,3 +228,12 @@ def test_what_is_right_earns_no_less_than_what_is_not(answers: list[JudgedAnswer
     before = sum((m.marks for m in mark(answers, QUANTITIES, policy)), F(0))
     better = [replace(a, verdict=Verdict.CORRECT, entries=()) for a in answers]
     assert sum((m.marks for m in mark(better, QUANTITIES, policy)), F(0)) >= before
+
+
+def test_the_parts_of_a_jacobian_are_its_rows_where_it_stands_whole() -> None:
+    arm = "dh: [{theta: q1*, a: l1}, {d: d2*, alpha: 0}]\nfind: [Jv, Jw]\nmarks: {Jv: 6, Jw: 6}\n"
+    rows = [["-l1*sin(q1)", "0"], ["l1*cos(q1)", "0"], ["0", "1"], ["0", "0"], ["0", "1"], ["1", "0"]]
+    found = {one.name: one for one in checker(arm)(submission({"J": rows})).answers}
+    assert (found["Jv"].verdict, found["Jw"].verdict) == ("correct", "wrong")
+    assert [(e.index, e.verdict) for e in found["Jw"].entries if e.verdict == "wrong"] == [((2, 2), "wrong")]
+    assert (found["Jv"].marks, found["Jw"].marks) == (6, 5)

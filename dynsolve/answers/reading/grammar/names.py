@@ -23,7 +23,7 @@ from dynsolve.answers.reading.vocabulary import ZERO_LEVELS, Meaning, is_running
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.quantities import families
-from dynsolve.quantities.families import HOLD_FORCES
+from dynsolve.quantities.families import holds_forces
 from dynsolve.quantities.letters import key
 from dynsolve.robot.questions import reference
 
@@ -32,7 +32,6 @@ from dynsolve.robot.questions import reference
 _ANGLES = ("theta", "phi", "varphi", "th")
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
-_HOLDS_FORCES = re.compile(rf"(?:{'|'.join(sorted(HOLD_FORCES))})[0-9]*")
 _UNIT_VECTORS = "ijk"
 _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
 _SPELLED_RATES = {"qdot": 1, "dq": 1, "qd": 1, "qddot": 2, "ddq": 2, "qdd": 2}
@@ -79,7 +78,7 @@ def letter(reader: Reader, form: Form, name: str) -> Value | None:
 
 def _held_forces(reader: Reader, form: Form, name: str) -> Value | None:
     """τ of the joints, in an answer that says which forces hold the arm."""
-    if reader.naming or not _HOLDS_FORCES.fullmatch(reader.owner):
+    if reader.naming or not holds_forces(reader.owner):
         return None
     forces = reader.vocabulary.driving_force(name) or ("tau" if name == "u" else "")
     if not forces:

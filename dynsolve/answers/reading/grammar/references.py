@@ -48,7 +48,7 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
     names = vocabulary.named(name)
     if name in OWN_LETTERS and not reader.naming and "vectors" not in reader.options:
         return None
-    if name == "tau" and "driving" in reader.options and reader.owner in families.HOLD_FORCES:
+    if name == "tau" and "driving" in reader.options and families.holds_forces(reader.owner):
         names = (vocabulary.driving_force(name) or name,)
     if form.script and name.startswith("I"):
         names = tuple(n for n in names if vocabulary.quantities[n].family is families.I)

@@ -89,3 +89,18 @@ def test_in_a_report(tmp_path: Path) -> None:
     found = checked(tmp_path, BLADE, equations, "report.md")
     names = ("f1", "f2", "tau3", "tau")
     assert {name: str(found[name].verdict) for name in names} == dict.fromkeys(names, "correct")
+
+
+def test_multipliers_one_by_one_hold_the_forces_as_their_vector_does(tmp_path: Path) -> None:
+    vector = dynsolve.solve(dynsolve.load(_written(tmp_path, WHEEL))).to_json()["results"]["lambda"]
+    answers = {f"lambda{k}": text for k, text in enumerate(vector, 1)}
+    assert any("tau" in text for text in vector)
+    judged = answered(tmp_path, WHEEL, answers)
+    assert {judged[name].verdict for name in answers} == {"correct"}
+    assert judged["lambda"].verdict == "correct"
+
+
+def _written(folder: Path, problem: str) -> Path:
+    file = folder / "wheel.yaml"
+    file.write_text(problem, encoding="utf-8")
+    return file
