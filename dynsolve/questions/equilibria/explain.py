@@ -123,11 +123,12 @@ def _equilibria(context: Context) -> Iterator[Step]:
         what="With the constraints" if constrained else "Combined",
         which="of the parameters" if found.may_be_others else factors,
     )
-    lines = (Line(heading, rows),) if is_new else ()
+    is_never = any(row.is_number for row in found.rows)  # then it stands for the others, whatever they are
+    lines = (Line(heading, rows),) if is_new and not is_never else ()
     notes: list[Prose] = []
     if not cases:
         never = "No configuration makes all of them 0{where}." if found.is_whole else _NEVER_HELD
-        of_free = [say(never, where=where)]
+        of_free = [] if is_never else [say(never, where=where)]
         notes.append(say("There is no equilibrium{where}.", where=where))
     elif not cases[0]:
         of_free = [say("Nothing is left to be 0{where}.", where=where)]

@@ -64,3 +64,16 @@ def test_a_state_is_told_once_in_a_section_and_without_rates_at_rest() -> None:
     told = " ".join(text(f"{STATED}find: [Q, tau_static, qd, nullspace]\n").split())
     assert told.count("The state is") == 2
     assert "There is only one force. The state is q₁ = 30°, q₂ = 0. " in told
+
+
+def test_a_number_that_is_never_0_stands_for_no_equation() -> None:
+    """A block on a wedge, held together by a rod: x + s = c, and only gravity along the wedge is left."""
+    told = text(
+        "gravity: [0, -g, 0]\n"
+        "model:\n"
+        "  coordinates: {x: prismatic, s: prismatic}\n"
+        "  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + s*cos(beta), -s*sin(beta), 0]}]\n"
+        "constraints: [x + s - c]\nfind: [equilibria]\n"
+    )
+    assert "1 = 0" not in told and "x + s = 0" not in told
+    assert "Where sin(β) = 0, the equilibria are where x + s - c = 0." in " ".join(told.split())
