@@ -53,7 +53,7 @@ from dynsolve.robot.model import Robot
 # The verdict of one answer that was given
 
 ROUNDED = "rounded"
-NOT_FROM_OWN = "not_from_own"
+NOT_FROM_OWN = "right, though your own earlier answers lead elsewhere"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's, with which Ḋ - 2C is {}"
 FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"

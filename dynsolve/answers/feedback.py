@@ -49,7 +49,6 @@ _SAID = {
 
 _NOTES = {
     "rounded": "a decimal rounds the exact value",
-    "not_from_own": "right, though your own earlier answers lead elsewhere",
     "incomplete": "right; there are further branches",
     "in_degrees": "its angles were read as degrees; write 90deg",
 }

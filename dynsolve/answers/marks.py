@@ -32,6 +32,7 @@ from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.problem.model import Problem
+from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import Quantities
 
 # How verdicts become marks: the shares, the caps and the rounding that a course decides on
@@ -377,7 +378,9 @@ class _Substance:
         if whole == "C" and entry:
             return self.hand_in.graph.key("Cqd")[entry[0], 0]
         target = self.hand_in.compare.target(name)
-        if target.node not in self.hand_in.answer_ring.rules:
+        quantity = self.hand_in.graph.quantities.get(name)
+        is_formed = quantity is not None and quantity.family.kind in FORMED
+        if not is_formed or target.node not in self.hand_in.answer_ring.rules:
             return None
         key = target.of(self.hand_in.graph.key(target.node))
         return key if isinstance(key, Matrix | Expr) else None

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import time
+from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from dynsolve.answers import judge
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.verdict import Report, Submission
+from dynsolve.derivation.rules import derive
+from dynsolve.problem import read_problem
 from tests.unit.answers.hands import answer, checker
 
 G2 = "m2*lc2*g*cos(q1 + q2)"
@@ -22,8 +26,9 @@ def test_an_error_of_a_child_is_raised() -> None:
     def fail() -> None:
         raise ValueError("of the child")
 
-    with pytest.raises(ValueError, match="of the child"):
+    with pytest.raises(ValueError, match="of the child") as raised:
         judge.limited(fail, 2)
+    assert "in fail" in raised.value.__notes__[0]
 
 
 def test_memory_has_a_limit() -> None:
@@ -65,3 +70,35 @@ def test_a_report_comes_back_as_it_was_made() -> None:
     report = judge.check_within(checker("planar-2r"), hand)
     direct = checker("planar-2r")(hand)
     assert report == direct
+
+
+PENDULUM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1, shape: point, center: tip}]
+find: [g1, D, equilibria]
+"""
+
+
+@pytest.mark.parametrize("name", ["D", "equilibria"])
+def test_what_the_key_costs_is_not_counted_on_an_answer(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is asked for takes more than an answer may, and another answer is right."""
+    problem = read_problem(PENDULUM)
+    derived = derive(problem.robot)
+    rule = derived.rules[name]
+
+    def slowly(*values: Any) -> Any:
+        start = time.process_time()
+        while time.process_time() - start < 1:
+            pass
+        return rule.compute(*values)
+
+    derived.rules[name] = replace(rule, compute=slowly)
+    monkeypatch.setattr(judge, "SECONDS", 0.25)
+    hand = Submission("", "", "", (answer("g1", "m*g*l*cos(q1)", 0),))
+    report = judge.check_within(Checker(problem, derived), hand)
+    assert {a.name: str(a.verdict) for a in report.answers} == {
+        "g1": "correct",
+        "D": "missing",
+        "equilibria": "missing",
+    }

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 from msgspec.structs import replace
 
+from dynsolve.answers.answer_verdict import NOT_FROM_OWN
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.marks import Policy, mark
 from dynsolve.answers.verdict import Report
@@ -146,7 +147,7 @@ $$\begin{{bmatrix}} I_{{1,zz}} + {two["D"]} m_2 L_2^2 & 0 \\ 0 & m_2 \end{{bmatr
 def test_a_right_tau_beside_a_wrong_D_is_noted(tau: Text | None) -> None:
     torques: dict[str, Text] = {"tau": tau} if tau else {"tau1": TAU1, "tau2": TAU2}
     found = {a.name: a for a in judge(ELBOW, {"D": TWICE_D22, "C": C, "g": G, **torques}).answers}
-    noted = [name for name, a in found.items() if "not_from_own" in a.notes]
+    noted = [name for name, a in found.items() if NOT_FROM_OWN in a.notes]
     assert noted == (["tau"] if tau else ["tau2"])
 
 
