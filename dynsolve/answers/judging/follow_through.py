@@ -285,6 +285,7 @@ class Direction:
         self.values = FollowThrough(graph, students)
         self._without: dict[tuple[frozenset[str], bool], FollowThrough] = {}
         self._barred: dict[str, frozenset[str]] = {}
+        self._leans: dict[str, frozenset[str]] = {}
 
     @cached_property
     def forces(self) -> frozenset[str]:
@@ -307,6 +308,9 @@ class Direction:
         written = self._written.get(node, _NEVER)
         return frozenset(o for o in self._other_side(node) if self._written.get(o, _NEVER) > written)
 
+    def _wrong_later(self, node: str) -> frozenset[str]:
+        return frozenset(other for other in self._later(node) if not self.students[other].correct)
+
     def is_assembled(self) -> bool:
         """Whether D, C or g was written before any torque."""
         torques = [self._written[node] for node in self.forces if node in self._written]
@@ -322,12 +326,11 @@ class Direction:
         leads to τ.
         """
         judged = judged or node
-        doubtful = {name for other in self._later(judged) for name in self.students[other].names}
-        for value in self._all(node, frozenset()):
-            if value.used & doubtful and self._bars(judged):
-                yield from self._all(node, self._bars(judged))
-                return
-            yield value
+        leaning, later = self._leaning(judged), self._wrong_later(judged)
+        yield from self._all(node, leaning | later)
+        doubtful = {name for other in later for name in self.students[other].names}
+        if later - self._bars(judged):
+            yield from (v for v in self._all(node, leaning | self._bars(judged)) if v.used & doubtful)
 
     def touched(self, node: str) -> bool:
         """Whether an answer that is not correct lies before a node."""
@@ -363,10 +366,27 @@ class Direction:
         τ and its components are one here, since they lead to each other.
         """
         if node not in self._barred:
-            itself = self.forces if node in self.forces else frozenset({node})
+            itself = self._with_components(node)
             self._barred[node] = frozenset(
                 other
-                for other in self._later(node)
-                if not self.students[other].correct and not self._explain(other, self._all(other, itself))
+                for other in self._wrong_later(node)
+                if not self._explain(other, self._all(other, itself))
             )
         return self._barred[node]
+
+    def _with_components(self, node: str) -> frozenset[str]:
+        return self.forces if node in self.forces else frozenset({node})
+
+    def _leaning(self, node: str) -> frozenset[str]:
+        """What was written before a node and is explained by the node alone: it does not explain the node."""
+        if node not in self._leans:
+            itself = self._with_components(node)
+            self._leans[node] = frozenset(
+                other
+                for other in self._other_side(node)
+                if not self.students[other].correct
+                and itself & (self._wrong_later(other) - self._bars(other))
+                and not self._explain(other, self._all(other, self._wrong_later(other)))
+                and self._explain(other, self._all(other, self._bars(other)))
+            )
+        return self._leans[node]

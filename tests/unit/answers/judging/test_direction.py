@@ -12,6 +12,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.answer_verdict import NOT_FROM_OWN
 from dynsolve.answers.verdict import Answer, Place, Report, Submission
 from dynsolve.derivation import euler_lagrange
+from dynsolve.derivation.link_frame import velocities
 from tests.unit.answers.hands import checker, key, problem, verdicts
 from tests.unit.answers.test_generated import forms, graph, spoilt
 
@@ -137,3 +138,47 @@ def test_what_goes_over_the_bound_of_work_leads_nowhere(monkeypatch: pytest.Monk
     tau = key("planar-2r")["tau"]
     report = hand_in("planar-2r", {"P1": key("planar-2r")["P2"], "tau": tau.scale(tau.ring.constant(2))})
     assert verdicts(report) == {**verdicts(report), "P1": "wrong", "tau": "wrong"}
+
+
+def sources(report: Report) -> dict[str, set[str]]:
+    """What each answer, or any entry of it, follows from."""
+    return {
+        a.name: {*a.follows_from, *(name for entry in a.entries for name in entry.follows_from)}
+        for a in report.answers
+    }
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("stem", STEMS)
+def test_nothing_follows_from_what_follows_from_it(stem: str, seed: int) -> None:
+    """A slip in K or D, from which all the rest is derived, in any order and with τ in one or in parts."""
+    draw = random.Random(seed)
+    g = graph(stem)
+    D = symmetric_slip(g.key("D"), draw)
+    rates = velocities(problem(stem).robot)
+    K = (rates.T @ D @ rates).entries[0] * euler_lagrange.HALF
+    gravity = spoilt(g.key("g"), draw) if seed % 3 else g.key("g")
+    Cqd = g.routes("Cqd")[1].compute(D)
+    tau = assembled(stem, D, Cqd, gravity or g.key("g"))
+    values = {"D": D, "Cqd": Cqd, "g": gravity or g.key("g")}
+    values |= {"tau": tau} if seed % 2 else {f"tau{k + 1}": e for k, e in enumerate(tau.entries)}
+    order = draw.sample(sorted(values), len(values)) if seed % 4 else list(values)
+    report = hand_in(stem, {"K": K, **{name: values[name] for name in order}})
+    assert verdicts(report)["D"] == "follows"
+    left = sources(report)
+    while left:
+        grounded = [name for name, used in left.items() if not used & left.keys()]
+        assert grounded, left
+        for name in grounded:
+            del left[name]
+
+
+def test_what_follows_from_the_energy_is_not_said_to_follow_from_tau() -> None:
+    """K is wrong, and D, C, g and τ are made of it and written in this order."""
+    stem = "planar-2r"
+    g = graph(stem)
+    D = g.key("D").scale(g.key("D").ring.constant(2))
+    Cqd = g.routes("Cqd")[1].compute(D)
+    K = g.key("K") * 2
+    report = hand_in(stem, {"K": K, "D": D, "Cqd": Cqd, "tau": assembled(stem, D, Cqd, g.key("g"))})
+    assert [sources(report)[name] for name in ("D", "Cqd")] == [{"K"}, {"D"}]
