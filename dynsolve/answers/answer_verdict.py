@@ -15,9 +15,9 @@ The verdict of what a student says of matrices: whether each can be an inertia m
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 
 from msgspec.structs import replace
 
@@ -334,6 +334,10 @@ def judged_set(
     found = key.verdict(answer)
     if found.is_right:
         return replace(base, verdict=Verdict.CORRECT, notes=found.notes)
+    for values, used in _own_values(explanations, key[answer.name].made_of):
+        if key[answer.name].verdict_with(answer.alternatives, values).is_right:
+            sources = in_order(explanations.hand_in.graph, used)
+            return replace(base, verdict=Verdict.FOLLOWS, follows_from=sources)
     if zero := key[answer.name].vanishing:
         graph = explanations.hand_in.graph
         for own in explanations.own_values(zero):
@@ -343,6 +347,21 @@ def judged_set(
             return replace(base, fault=MAY_FOLLOW.format(" and ".join(sources)))
     fault = told(key.fault(answer.name, found.code), number=str(found.number), where=found.where)
     return replace(base, verdict=Verdict.WRONG, diagnosis=(fault,))
+
+
+def _own_values(
+    explanations: Explanations, names: Sequence[str]
+) -> Iterator[tuple[dict[str, Matrix], frozenset[str]]]:
+    """The student's own values of some results, or of one or more of them beside the key's of the others."""
+    choices = [
+        [None, *(own for own in explanations.own_values(name) if isinstance(own.value, Matrix))]
+        for name in names
+    ]
+    for chosen in product(*choices):
+        own = {name: one for name, one in zip(names, chosen, strict=True) if one is not None}
+        if own:
+            used = frozenset().union(*(one.used for one in own.values()))
+            yield {name: one.value for name, one in own.items()}, used
 
 
 # The verdict of what a student says of matrices: whether each can be an inertia matrix

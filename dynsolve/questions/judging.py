@@ -84,11 +84,13 @@ class Judged(Struct, frozen=True):
 class SetKey(ABC):
     """The key of a set: alternatives, each of formulas that hold together.
 
+    `made_of` are results that a student's own values may stand for, see `verdict_with`;
     `vanishing` is the result that is 0 on the set, where there is one; `names` are what may stand in it
     beside coordinates and parameters.
     """
 
     faults: ClassVar[Mapping[str, Fault]] = {}
+    made_of: ClassVar[Sequence[str]] = ()
 
     def __init__(self, judged: Judged, name: str) -> None:
         self.judged, self.name = judged, name
@@ -99,6 +101,10 @@ class SetKey(ABC):
     @abstractmethod
     def verdict(self, given: Alternatives) -> SetVerdict:
         """Whether a set is that of the key."""
+
+    def verdict_with(self, given: Alternatives, own: Mapping[str, Any]) -> SetVerdict:
+        """The verdict where own values stand for some of what the set is made of."""
+        raise NotImplementedError
 
     @property
     def is_skipped(self) -> bool:

@@ -12,6 +12,7 @@ from functools import cached_property
 from itertools import islice
 from typing import Any
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.fraction import FractionRows as Rows
 from dynsolve.algebra.fraction import RationalExpr, multiply, same, summed
 from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
@@ -19,6 +20,8 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.elimination import solved
+from dynsolve.notation.tree import Matrix as MatrixTree
+from dynsolve.notation.tree import Node
 from dynsolve.questions.constraints.check import ConstrainedStates, constrained_names
 from dynsolve.questions.judging import (
     RIGHT,
@@ -53,6 +56,7 @@ class ReducedKey(SetKey):
         Fault("motions_missing", "an equation of motion", "Every equation holds, and some are missing.",
               "With the constraints there are as many equations as coordinates."),
     )  # fmt: skip
+    made_of = ("tau", "Ac")
 
     def __init__(self, judged: Judged, name: str) -> None:
         super().__init__(judged, name)
@@ -70,12 +74,27 @@ class ReducedKey(SetKey):
 
     def verdict(self, given: Alternatives) -> SetVerdict:
         """Whether each equation holds, and they are enough."""
-        theirs = nodes_of(given)
-        for number, node in enumerate(theirs, 1):
-            if not self._states.hold(node):
-                return SetVerdict(False, "motion_differs", number)
-        enough = bool(theirs) and self._states.are_enough(theirs)
-        return RIGHT if enough else SetVerdict(False, "motions_missing")
+        return _verdict(nodes_of(given), self._states)
+
+    def verdict_with(self, given: Alternatives, own: Mapping[str, Any]) -> SetVerdict:
+        """The same with equations of motion, or a matrix of the constraints, of the student's own."""
+        values = dict(own)
+        if "Ac" in own:
+            values["Ac_dot"] = own["Ac"].map(own["Ac"].ring.time_derivative)
+        forms = {name: self.forms(name) for name in constrained_names(self.robot)}
+        for name, value in values.items():
+            form = Compactor(value.ring).form
+            forms[name] = MatrixTree(tuple(tuple(map(form, row)) for row in value.rows))
+        states = ConstrainedStates(self.robot, forms, self.judged.numbers)
+        return _verdict(nodes_of(given), states) if states.all else SetVerdict(False, "motion_differs")
+
+
+def _verdict(theirs: Sequence[Node], states: ConstrainedStates) -> SetVerdict:
+    for number, node in enumerate(theirs, 1):
+        if not states.hold(node):
+            return SetVerdict(False, "motion_differs", number)
+    enough = bool(theirs) and states.are_enough(theirs)
+    return RIGHT if enough else SetVerdict(False, "motions_missing")
 
 
 KEYS = {"reduced": ReducedKey}

@@ -98,3 +98,27 @@ def test_the_check_finds_an_equation_that_is_missing(kept: slice) -> None:
 def test_the_hint_gives_the_matrices_and_not_the_equations() -> None:
     hint = str(dynsolve.solve(BLADE).hint("constraints"))
     assert "The equations without the multipliers" in hint and "Row by row" not in hint
+
+
+@pytest.mark.parametrize(
+    ("answers", "verdict", "sources"),
+    [
+        ({"K": "m*(x'^2 + y'^2) + J*phi'^2/2",
+          "reduced": f"[{ALONG.replace('m*', '2*m*')}, J*phi'' = tau3]"}, "follows", ("K",)),
+        ({"K": "m*(x'^2 + y'^2) + J*phi'^2/2", "reduced": f"[{ALONG.replace('m*', '3*m*')}, J*phi'' = tau3]"},
+         "wrong", ()),
+        ({"Ac": "[[sin(phi), cos(phi), 0]]",
+          "reduced": "[m*(x''*cos(phi) - y''*sin(phi)) = f1*cos(phi) - f2*sin(phi), J*phi'' = tau3]"},
+         "follows", ("Ac",)),
+    ],
+)  # fmt: skip
+def test_they_follow_from_an_own_energy_or_matrix_of_the_constraint(
+    answers: dict[str, str], verdict: str, sources: tuple[str, ...], tmp_path: Path
+) -> None:
+    problem = BLADE.replace("[reduced]", "[K, Ac, reduced]")
+    (tmp_path / "problem.yaml").write_text(problem, encoding="utf-8")
+    written = "".join(f"  {name}: {text}\n" for name, text in answers.items())
+    (tmp_path / "answer.yaml").write_text(f"answers:\n{written}", encoding="utf-8")
+    judged = dynsolve.check(tmp_path / "problem.yaml", tmp_path / "answer.yaml").answers
+    found = next(a for a in judged if a.name == "reduced")
+    assert (str(found.verdict), found.follows_from) == (verdict, sources)
