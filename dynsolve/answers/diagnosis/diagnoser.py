@@ -23,7 +23,14 @@ from msgspec.structs import replace
 from dynsolve.algebra.fraction import RationalExpr, as_expr, cancelled, equal, is_zero
 from dynsolve.algebra.linear_systems import fraction_of
 from dynsolve.algebra.ring import Expr
-from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermDiagnoser, TermSlip, ratio_of
+from dynsolve.answers.diagnosis.exchanges import (
+    HEAVY,
+    Exchanges,
+    TermDiagnoser,
+    TermSlip,
+    multiplied,
+    ratio_of,
+)
 from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, is_small, mends, parts
 from dynsolve.answers.diagnosis.own_steps import OF_THE_MATRIX, DerivationSlips, MatrixDiagnoser, OwnSteps
@@ -315,7 +322,7 @@ class Diagnoser:
             term, called = self.words.of(expected), case.wrong.called
             told = slip("sign", term=term) if one_term else slip("sign_all", yours=called)
         else:
-            told = slip("factor_all", yours=case.wrong.called, part=self.words.number(ratio))
+            told = multiplied(self.words, case.wrong.called, ratio)
         yield self._told((mend,), self._refined(told, case.wrong))
 
     def _another_model(self, case: Case) -> Iterator[Explanation]:

@@ -256,6 +256,17 @@ class OnePlace:
         return _holds(form(mend.have), form(mend.written)) and _holds(form(mend.want), form(mend.wanted))
 
 
+NEAR, COARSE = Fraction(1, 50), 20
+"""A ratio as near to 1, with larger numbers than a factor has, is that of a rounded number."""
+
+
+def multiplied(words: TermWriter, called: str, ratio: Fraction) -> Diagnosis:
+    """What is said of an answer that is `ratio` times what it should be, which is not -1."""
+    if abs(ratio - 1) <= NEAR and max(ratio.numerator, ratio.denominator) > COARSE:
+        return slip("rounded_all", yours=called, part=f"{float(abs(ratio - 1)) * 100:.2g}")
+    return slip("factor_all", yours=called, part=words.number(ratio))
+
+
 def ratio_of(a: Expr, b: Expr) -> Fraction | None:
     """r where a = r b, None where there is no such number."""
     if a.is_zero or b.is_zero or len(a) != len(b):

@@ -17,7 +17,7 @@ from typing import Any
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
-from dynsolve.answers.diagnosis.exchanges import ratio_of
+from dynsolve.answers.diagnosis.exchanges import multiplied, ratio_of
 from dynsolve.answers.diagnosis.mends import Redoing
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
 from dynsolve.answers.diagnosis.steps import variants
@@ -284,7 +284,7 @@ class MatrixDiagnoser:
                 told = (
                     slip("sign_all", yours="Your answer")
                     if ratio == -1
-                    else slip("factor_all", yours="Your answer", part=self.words.number(ratio))
+                    else multiplied(self.words, "Your answer", ratio)
                 )
                 yield right.scale(self.ring.constant(ratio)), right, told
 

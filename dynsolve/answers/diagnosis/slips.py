@@ -39,6 +39,8 @@ _SLIPS = (
          "Look for a ½ or a 2 that was lost or gained."),
     Slip("factor_all", "a factor such as ½", "{yours} is {part} times what it should be.",
          "Look for a ½ or a 2 that was lost or gained."),
+    Slip("rounded_all", "a rounded number", "{yours} is right but for a number that is {part} % off.",
+         "Look where a number was rounded or copied, and keep more digits until the end."),
     Slip("missing_term", "a missing term", "The term {term} is missing.",
          "Count the contributions: every body and every joint gives its own."),
     Slip("terms_missing", "missing terms", "{yours} missing.",

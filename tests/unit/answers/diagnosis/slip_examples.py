@@ -64,6 +64,7 @@ EXAMPLES: dict[str, Example] = {
         " + m1*g*lc1*sin(q1) + m2*g*(l1*sin(q1)+lc2*sin(q1+q2))",
     ),
     "factor": Example(IN3140, "tau1", "(I1zz + m2*L2^2)*theta1_ddot + m2*L2*L2_dot*theta1_dot"),
+    "rounded_all": Example(IN3140, "Kw1", "0.497*I1zz*theta1_dot^2"),
     "factor_all": Example(IN3140, "Kw1", "I1zz*theta1_dot^2"),
     "missing_term": Example(PLANAR_2R, "d11", "m1*lc1^2 + m2*(l1^2 + lc2^2) + I1 + I2"),
     "terms_missing": Example(PLANAR_2R, "d11", "I1 + m2*l1^2"),
