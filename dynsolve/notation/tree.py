@@ -292,17 +292,20 @@ def walk(*nodes: Node) -> Iterator[Node]:
         pending += _READERS[type(node)](node)[::-1]
 
 
-def has_part(node: Node, test: Callable[[Node], bool]) -> bool:
-    """Whether a test holds for a formula or a part of it; a part that recurs is asked once."""
-    pending, asked = [node], set()
+def walk_once(*nodes: Node) -> Iterator[Node]:
+    """The same, in which a tree that several parts share is met once."""
+    pending, met = list(reversed(nodes)), set[int]()
     while pending:
-        part = pending.pop()
-        if id(part) not in asked:
-            if test(part):
-                return True
-            asked.add(id(part))
-            pending += _READERS[type(part)](part)
-    return False
+        node = pending.pop()
+        if id(node) not in met:
+            yield node
+            met.add(id(node))
+            pending += _READERS[type(node)](node)[::-1]
+
+
+def has_part(node: Node, test: Callable[[Node], bool]) -> bool:
+    """Whether a test holds for a formula or a part of it."""
+    return any(map(test, walk_once(node)))
 
 
 def names_in(*nodes: Node) -> set[str]:

@@ -46,6 +46,7 @@ from dynsolve.notation.tree import (
     equation,
     mapped,
     walk,
+    walk_once,
 )
 from dynsolve.notation.unicode import to_unicode
 
@@ -150,7 +151,8 @@ def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
 
 def doubled_angles(*nodes: Node) -> Iterator[Relation]:
     """What cos(2θ) and sin(2θ) stand for, where they do in trees: c² - s² = cos(2θ), 2 s c = sin(2θ)."""
-    for part in walk(*nodes):
+    functions = dict.fromkeys(part for part in walk_once(*nodes) if isinstance(part, Function))
+    for part in functions:
         match part:
             case Function("sin" | "cos" as name, Product((Number(2, 1), angle))):
                 yield equation(formula(_TWICE[name], A=angle), part)
