@@ -297,6 +297,8 @@ class Compactor:
         split: dict[Exponents, Terms] = {}
         for e, f in terms.items():
             split.setdefault(e[:width], {})[e[width:]] = f
+        if all(len(part) < SMALLEST_SQUARE for part in split.values()):
+            return None
         parts = []
         for exponents, part in split.items():
             sign, trig = self._atoms.basic_trig_monomial(exponents, g)
