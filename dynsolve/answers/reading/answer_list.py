@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from dynsolve.answers.reading.by_content import MotionEquation
 from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.grammar.brackets import SYMMETRIC_NOTE
 from dynsolve.answers.reading.left_side import EXPECTED, RightSide, is_abstract, is_name, read_right_side
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.matrix_parts import (
@@ -166,6 +167,7 @@ class AnswerList(Struct, dict=True):
         node = self._of_task(with_own_entries(self.vocabulary, name, node))
         of_task = (part.quantity for part in walk(node) if isinstance(part, Reference))
         note = "" if display.plain and "row" in note else note
+        notes = [one for one in found.notes if one != SYMMETRIC_NOTE or _is_symmetric(node)]
         return Answer(
             name=name,
             label=origin.label,
@@ -173,7 +175,7 @@ class AnswerList(Struct, dict=True):
             place=display.locate(start, end - start),
             text=shown(display.text[start:end]),
             read_as=self.printer.text(node),
-            notes=(*found.notes, note) if note else found.notes,
+            notes=(*notes, note) if note else tuple(notes),
             alternatives=tuple(other for other, _, _ in fits[1:]),
             references=tuple(dict.fromkeys((*found.references, *of_task))),
             free=found.free,
@@ -427,3 +429,7 @@ class AnswerList(Struct, dict=True):
         given = {answer.name for answer in read if answer.occurrence[0] not in self.in_case}
         within = self.vocabulary.quantities.within
         return {part for name in given for part in within(name)} if with_parts else given
+
+
+def _is_symmetric(node: Node) -> bool:
+    return isinstance(node, Matrix) and node.rows == tuple(zip(*node.rows, strict=False))

@@ -6,6 +6,7 @@ import pytest
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
+from dynsolve.answers.reading.grammar.brackets import SYMMETRIC_NOTE
 from dynsolve.answers.reading.report_text import FREE
 from dynsolve.problem import read_problem
 from tests.unit.answers.reading.submissions import report, shown
@@ -161,3 +162,16 @@ def test_a_long_equation_of_motion_as_programs_print_it(line: str) -> None:
     problem = read_problem(free.replace("[friction, tau]", "[tau]"))
     found = read_submission(problem, line, "a.txt")
     assert [answer.name for answer in found.answers] == ["tau1"]
+
+
+def test_a_mark_in_a_symmetric_matrix_is_noted_on_that_matrix_alone() -> None:
+    """D has a dot for an entry; the vectors beside it in the equation have none."""
+    equation = (
+        r"$$\begin{bmatrix} m + m_p & m_p d_p\cos q_2 \\ \cdot & m_p d_p^2 \end{bmatrix}"
+        r"\begin{bmatrix} \ddot q_1 \\ \ddot q_2 \end{bmatrix}"
+        r" + \begin{bmatrix} -m_p d_p\sin q_2 \dot q_2^2 \\ 0 \end{bmatrix}"
+        r" + \begin{bmatrix} 0 \\ m_p g_0 d_p\sin q_2 \end{bmatrix} = \begin{bmatrix} F \\ 0 \end{bmatrix}$$"
+    )
+    answers = report(equation, stem="crane").answers
+    assert {answer.name for answer in answers} > {"D", "g"}
+    assert {answer.name for answer in answers if SYMMETRIC_NOTE in answer.notes} == {"D"}
