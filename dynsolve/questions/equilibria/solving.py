@@ -220,7 +220,7 @@ class Curvature(Struct, frozen=True):
             return Point(values, Stability.STABLE, neutral)
         moves = any(sign.ring.depends_on_coordinates(sign) for sign in (*left, *nonzero))
         if any(sign.is_number for sign in left):
-            return Point(values, Stability.UNDECIDED, neutral)
+            return Point(values, Stability.UNDECIDED, neutral, is_open=not _never_falls(minor, rest, signs))
         if moves and max(map(len, (*left, *nonzero))) > MOST_SHOWN_TERMS:
             return Point(values, Stability.UNDECIDED, neutral, is_open=True)
         conditions = tuple(map(Bound, dict.fromkeys(left)))
@@ -230,13 +230,24 @@ class Curvature(Struct, frozen=True):
         return Point(values, Stability.UNDECIDED, neutral, conditions, nonzero, falls)
 
 
-def _falls(minor: Callable[[tuple[int, ...]], Expr], rest: Sequence[int], signs: ParameterSigns) -> bool:
+Minor = Callable[[tuple[int, ...]], Expr]
+"""The principal minor of some rows."""
+
+
+def _falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
     """Whether the energy surely falls in some direction: a principal minor is negative."""
-    return any(
-        signs.is_positive(-minor(chosen))
-        for size in range(1, len(rest) + 1)
-        for chosen in combinations(rest, size)
-    )
+    return any(signs.is_positive(-minor(chosen)) for chosen in _principal(rest))
+
+
+def _never_falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
+    """Whether it surely falls in none, to second order: no principal minor is negative anywhere."""
+    minors = map(minor, _principal(rest))
+    return all(one.is_zero or signs.is_positive(signs.open_part(one)) for one in minors)
+
+
+def _principal(rest: Sequence[int]) -> Iterator[tuple[int, ...]]:
+    """The rows of the principal minors."""
+    return (chosen for size in range(1, len(rest) + 1) for chosen in combinations(rest, size))
 
 
 def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:

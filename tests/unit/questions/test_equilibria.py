@@ -533,3 +533,14 @@ find: [equilibria]
     above, below = dynsolve.solve(crank).to_json()["results"]["equilibria_stability"][0]
     assert (above["stability"], below["stability"]) == ("unstable", "undecided")
     assert below["stable_if"] == ["l > r"] and "unstable_if" not in below
+
+
+def test_second_derivatives_do_not_decide_only_where_no_minor_is_negative() -> None:
+    """A bead on a pendulum: in case 1 ∂²P/∂q₁² = 0, and the determinant is -(m g c₁)², which does decide."""
+    told = dynsolve.solve(
+        "gravity: [0, -g, 0]\n"
+        "dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: q2*}]\n"
+        "masses: [{mass: M, link: 1, shape: point, center: [0, 0, b]}, {mass: m, link: 2}]\n"
+        "springs: [{stiffness: k, of: q2, rest: b0}]\nfind: [equilibria]\n"
+    ).to_markdown()
+    assert "case 1: not told here" in told and "do not decide" not in told
