@@ -36,6 +36,10 @@ _LONGEST_NAME = 6.0
 """After a member that is no wider, as d_12 = d_21, the next one may stand on its line, in em."""
 
 _LONGEST_LEFT = 0.3
+"""The part of the room that a left side may take beside which the members of a chain stand."""
+
+_WIDEST_LEVEL = 0.5
+"""The same where equations are level with each other."""
 
 
 class Line(Struct, frozen=True):
@@ -162,10 +166,13 @@ class Typesetter:
         return [line for node in nodes for line in self._level(_chained(node))]
 
     def _level(self, chain: Relation) -> Iterator[Line]:
-        """The lines of a = b ≈ ..., level after a."""
+        """The lines of a = b ≈ ..., level after a, where that leaves room for b."""
         name, *rest = chain.parts
         width = self.ruler.width(name)
         room = self.room - width
+        if rest and width > _WIDEST_LEVEL * self.room:
+            yield from self._chain(chain, Formula(chain))
+            return
         if not rest:
             yield Line("", self.notation.text(name), width=width)
         before = self.notation.text(name)

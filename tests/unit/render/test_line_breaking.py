@@ -194,3 +194,12 @@ def test_names_of_a_chain_stand_together_on_as_few_lines_as_hold_them() -> None:
     lines = [line.alone for line in setter(12.0).equations([equation(*names)])]
     assert len(lines) <= 3
     assert sum(line.count("=") for line in lines) == 11
+
+
+def test_an_equation_among_others_whose_left_side_is_wide_is_broken_on_both_sides() -> None:
+    node = equation(read(LONG).tree, read(LONG).tree)
+    ruler = Ruler()
+    found = setter(20).equations([node])
+    assert len(found) > 4
+    assert all(ruler.width(node) > 20 >= line.width for line in found)
+    assert sum(line.right.startswith("{} =") for line in found) == 1
