@@ -204,15 +204,27 @@ def summary_blocks(
     if model is None and not (others or forces):
         return
     yield Heading(TITLE, 2, closing=True)
+    names = (
+        None if short is None or not short.at_symbols else _Names(robot, by_id, short, tuple(_nodes(others)))
+    )
     if model is not None and is_short:
-        yield from _model(robot, model, by_id, detail, short)
+        yield from _model(robot, model, by_id, detail, names)
     elif model is not None:
         yield from _long_model(model, by_id, detail, sections)
-    elif forces:
-        if short is not None and short.at_symbols:
-            yield from _names(robot, by_id, short, [], [step.result[0] for step in forces])
-        yield from _rows(robot, forces)
+    else:
+        yield from names.told([], [step.result[0] for step in forces]) if names else ()
+        yield from _rows(robot, forces) if forces else ()
     yield from others
+
+
+def _nodes(blocks: Iterable[Block]) -> Iterator[Node]:
+    """What is displayed in blocks."""
+    for block in blocks:
+        match block:
+            case Formula(node):
+                yield node
+            case Equations(nodes):
+                yield from nodes
 
 
 def in_model(robot: Robot) -> frozenset[str]:
@@ -221,7 +233,7 @@ def in_model(robot: Robot) -> frozenset[str]:
 
 
 def _model(
-    robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail, short: Abbreviated | None
+    robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail, names: _Names | None
 ) -> Iterator[Block]:
     """The equation of motion in letters and in matrices, and row by row; the names in it."""
     if detail is Detail.FULL:
@@ -230,9 +242,9 @@ def _model(
     yield Formula(model.formula, source=model.source if detail > Detail.RESULTS else "")
     own = [by_id[name] for name in _MATRICES if name in by_id]
     forces = _forces(robot, by_id)
-    if short is not None and short.at_symbols:
+    if names is not None:
         rows = [node for line in model.lines for node in line.formulas]
-        yield from _names(robot, by_id, short, own, rows or [step.result[0] for step in forces])
+        yield from names.told(own, rows or [step.result[0] for step in forces])
     matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
     what = "With the matrices" if model.result else "The matrices"
     yield Text((what, f" of the {machine(robot)}", Reference(_MATRICES, ", "), ":"))
@@ -259,38 +271,46 @@ def _rows(robot: Robot, forces: Sequence[Step]) -> Iterator[Block]:
     yield Equations(tuple(step.result[0] for step in forces))
 
 
-def _names(
-    robot: Robot,
-    by_id: Mapping[str, Step],
-    short: Abbreviated,
-    matrices: Sequence[Step],
-    rows: Sequence[Node],
-) -> Iterator[Block]:
-    """What the names in the matrices and in the rows of the forces stand for, where there are any."""
-    from dynsolve.explain.named_steps import labels_of_names
+class _Names(Struct):
+    """What the names in a summary stand for; `others` are its formulas beside the model and the forces."""
 
-    def used(nodes: Iterable[Node]) -> set[Node]:
-        return set(walk(*nodes)) & short.symbols
+    robot: Robot
+    by_id: Mapping[str, Step]
+    short: Abbreviated
+    others: Sequence[Node]
 
-    of_matrices = {step.id: used(step.result[:1]) for step in matrices}
-    met = used(rows).union(*of_matrices.values())
-    for one in reversed(short.sums):
-        met |= used([one.meaning]) if one.name in met else set()
-    if not met:
-        return
-    with_names = [quantities(robot)[name].letter(robot) for name, found in of_matrices.items() if found]
-    where: list[Node | str] = [*with_names, *["the rows below"] * bool(used(rows))]
-    below: Prose = ("In ", *listed(where))
-    defined = Reference(labels_of_names(list(by_id.values()), short), ", by ")
-    told = sorted(
-        (one for one in short.sums if one.name in met), key=lambda one: (len(one.name.name), one.name.name)
-    )
-    meanings = tuple(equation(one.name, one.meaning) for one in told)
-    if short.single is not None and len(meanings) == 1:
-        yield Text((*below, ", ", *meanings, defined, "."))
-    else:
-        yield Text((*below, defined, ":"))
-        yield Equations(meanings)
+    def told(self, matrices: Sequence[Step], rows: Sequence[Node]) -> Iterator[Block]:
+        """The names in some matrices, in the rows of the forces and in what else there is."""
+        from dynsolve.explain.named_steps import labels_of_names
+
+        of_matrices = {step.id: self._used(step.result[:1]) for step in matrices}
+        of_rows, of_others = self._used(rows), self._used(self.others)
+        met = of_rows.union(of_others, *of_matrices.values())
+        for one in reversed(self.short.sums):
+            met |= self._used([one.meaning]) if one.name in met else set()
+        if not met:
+            return
+        known = quantities(self.robot)
+        where: list[Node | str] = [
+            known[name].letter(self.robot) for name, found in of_matrices.items() if found
+        ]
+        if of_rows or of_others:
+            where.append("the results below" if of_others else "the rows below")
+        below: Prose = ("In ", *listed(where))
+        defined = Reference(labels_of_names(list(self.by_id.values()), self.short), ", by ")
+        told = sorted(
+            (one for one in self.short.sums if one.name in met),
+            key=lambda one: (len(one.name.name), one.name.name),
+        )
+        meanings = tuple(equation(one.name, one.meaning) for one in told)
+        if self.short.single is not None and len(meanings) == 1:
+            yield Text((*below, ", ", *meanings, defined, "."))
+        else:
+            yield Text((*below, defined, ":"))
+            yield Equations(meanings)
+
+    def _used(self, nodes: Iterable[Node]) -> set[Node]:
+        return set(walk(*nodes)) & self.short.symbols
 
 
 def _long_model(

@@ -376,3 +376,13 @@ masses:
     assert shown.count("cos(2q₂)") > 1
     assert shown.index("cos(2q₂)") == shown.index(told) + len(told) - len("cos(2q₂)")
     assert "collected with" not in in_one_line(ARM)
+
+
+def test_names_in_a_summary_without_the_model_are_told_there() -> None:
+    problem = (
+        "dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, a: a3}]\n"
+        "masses: [{mass: m2, link: 2}, {mass: m3, link: 3}]\nfind: [D, Cqd]\n"
+    )
+    summary = page(problem).partition("Summary")[2]
+    assert set("σ₁ σ₂ σ₃".split()) <= set(re.findall(r"σ.", summary))
+    assert re.search(r"In the results below.*:\n\n    σ₁ = .*\n    σ₂ = .*\n    σ₃ = ", summary)
