@@ -244,10 +244,8 @@ def _places(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
         for name in _terms_of(joint.d):
             yield Role.LENGTH, name, _along_z(robot, joint, name)
         yield from _untold(Role.ANGLE, names_of(joint.theta), names_of(joint.alpha))
-    in_world = Meaning("{coordinates} of o{before} in the world", before=0)
-    for axis, entry in zip(AXES, robot.base_position.entries, strict=True):
-        for name in _alone(entry):
-            yield Role.BASE, name, replace(in_world, axes=(axis,))
+    for name, words, axis in _coordinates(robot.base_position):
+        yield Role.BASE, name, Meaning(f"{words} of o{{before}} in the world", before=0, axes=(axis,))
     yield from _untold(Role.TURN, names_in_trees(*(angle for _, angle in robot.base_turns)))
     for body in robot.bodies:
         yield from _mass(body)
@@ -396,6 +394,7 @@ def _inertia(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
 def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
     near = _from_near_end(robot, body.link, body.center)
+    coordinates = list(_coordinates(body.center))
     link, before = body.link, robot.joints[body.link - 1].parent
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
         if _is_distance(body.center, name):
@@ -405,11 +404,20 @@ def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
             words = "distance from o{before} to the mass centre of body {body}"
             yield Role.CENTER, name, Meaning(words, link, body.name, before)
         else:
-            words = "{coordinates} of the mass centre of body {body}, in frame {link}"
-            alone = (axis for axis, entry in zip(AXES, body.center.entries, strict=True) if _is(entry, name))
-            yield from ((Role.CENTER, name, Meaning(words, link, body.name, axes=(axis,))) for axis in alone)
+            where = "of the mass centre of body {body}, in frame {link}"
+            for of, words, axis in coordinates:
+                if of == name:
+                    yield Role.CENTER, name, Meaning(f"{words} {where}", link, body.name, axes=(axis,))
             in_near = () if near is None else chain.from_iterable(map(_alone, near.entries))
             yield from _untold(Role.CENTER, [name] if name in set(in_near) else [])
+
+
+def _coordinates(place: Matrix) -> Iterator[tuple[str, str, str]]:
+    """(parameter, what of its coordinate it is, axis) where it is a coordinate of a place or its negative."""
+    for axis, entry in zip(AXES, place.entries, strict=True):
+        for name in _alone(entry):
+            is_own = entry == entry.ring.symbol(name)
+            yield name, "{coordinates}" if is_own else "minus {coordinates}", axis
 
 
 def _from_near_end(robot: Robot, link: int, place: Matrix) -> Matrix | None:

@@ -67,6 +67,8 @@ BODIES = [
     ("{mass: m, link: 1, center: [c, 0, 0]}", "c", "distance from 𝐨₁ to the mass centre of body 1"),
     ("{mass: m, link: 1, center: [x1, y1, 0]}", "x1 y1",
      "coordinates x and y of the mass centre of body 1, in frame 1"),
+    ("{mass: m, link: 1, center: [-x1, y1, 0]}", "x1",
+     "minus coordinate x of the mass centre of body 1, in frame 1"),
     ("{mass: m, link: 1, center: tip, inertia: {xx: A, zz: B}}", "A",
      "moment of inertia of body 1 about axis x through its mass centre"),
     ("{mass: m, link: 1, center: tip, inertia: {xx: A, yy: A}}", "A",
