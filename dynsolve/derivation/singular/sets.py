@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import combinations
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import combinations, product
 
 from msgspec import Struct, field
 
@@ -34,6 +34,9 @@ MOST_WORK = 3000
 MOST_CORE_WORK = 30_000
 """Nor is a core whose minors may come to more."""
 
+
+MOST_TURNS = 4
+"""With more angles at half turns these are not told apart."""
 
 MOST_SPECIAL_TERMS = 8
 """Of special parameters with more terms it is only said that there may be some."""
@@ -163,7 +166,8 @@ def zeros_of_any(sets: Iterable[Sequence[Expr]], special: Special | None = None)
     """The same where the expressions of any of several sets are all 0."""
     cases = _Cases(special)
     every = (one for values in sets for one in cases.of(tuple(values), ()))
-    found = list(dict.fromkeys(map(cases.without_repeated, every)))
+    turned = (turned for one in every for turned in _at_quarter_turns(one))
+    found = list(dict.fromkeys(map(cases.without_repeated, turned)))
     if any(sum(len(condition.expr) for condition in one) > MOST_CONDITION_TERMS for one in found):
         raise TooLong
     for one in list(found):
@@ -275,6 +279,39 @@ def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
 def _may_vanish(factor: Expr) -> bool:
     """Whether a factor is 0 at some configuration, as far as its form shows."""
     return factor.ring.depends_on_coordinates(factor) and not is_positive(factor) and not is_positive(-factor)
+
+
+def _at_quarter_turns(one: Alternative) -> list[Alternative]:
+    """sin q = 0 as q = 0 and q = π, of every angle, where that decides about all other conditions."""
+    turns = {
+        condition: (known, other)
+        for condition in one
+        for pair in condition.expr.ring.pairs
+        for known, other in ((pair.sine, pair.cosine), (pair.cosine, pair.sine))
+        if condition.expr == condition.expr.ring.generator(known)
+    }
+    rest = [condition.expr for condition in one if condition not in turns]
+    found = []
+    for signs in product((1, -1), repeat=len(turns)) if rest and len(turns) <= MOST_TURNS else ():
+        numbers = {known: 0 for known, _ in turns.values()}
+        numbers |= {other: sign for (_, other), sign in zip(turns.values(), signs, strict=True)}
+        left = [with_numbers(value, numbers) for value in rest]
+        if not all(value.is_zero or is_positive(value) or is_positive(-value) for value in left):
+            return [one]
+        if all(value.is_zero for value in left):
+            ends = ((rest[0].ring, other, numbers[other]) for _, other in turns.values())
+            found.append(tuple(Condition(ring.generator(k) - ring.one * sign) for ring, k, sign in ends))
+    return found or [one]
+
+
+def with_numbers(value: Expr, numbers: Mapping[int, int]) -> Expr:
+    """A value with numbers for some generators, by their places."""
+    ring = value.ring
+    images = [
+        (ring.constant(numbers[g.index]) if g.index in numbers else ring.generator(g.index)).poly
+        for g in ring.generators
+    ]
+    return Expr(ring, ring.reduce(value.poly.compose(*images, ctx=ring.ctx)))
 
 
 def _merged(alternatives: Sequence[Alternative]) -> list[Alternative]:

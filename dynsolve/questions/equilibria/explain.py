@@ -94,6 +94,8 @@ _AT_REST = (
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
+_NO_MULTIPLIERS = "there is no $𝛌$, and no equilibrium."
+_MAY_BE_DEPENDENT = "the rows of $𝐀_c$ may be dependent; there need then be no $𝛌$, and no equilibrium."
 _GIVEN = "Let all parameters be positive{these}. "
 
 
@@ -115,7 +117,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     own = set() if constrained else {sign * force for force in balanced.entries for sign in (1, -1)}
     is_new = not is_said and not own.issuperset(found.rows)  # else nothing was combined
     of_free: list[Prose] = []
-    special = [shown.comparison(one.factor, "≠") for one in found.special]
+    special = [shown.comparison(one.factor, "≠") for one in found.special if not one.is_of_rank]
     where = say(" where {special}", special=listed(special)) if special else ""
     factors = say("that are not 0{where}" if special else "that are never 0", where=where)
     heading = say(
@@ -137,7 +139,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         of_free = [*_arbitrary(robot, cases)]
         notes += shown.existence("equilibria", found.exist)
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
-    notes += [_special(shown, one) for one in found.special]
+    notes += [note for one in found.special for note in _special(shown, one)]
     if found.may_be_others:
         notes.append(("For special values of the parameters there may be others.",))
     notes += _without_multipliers(shown, found)
@@ -183,7 +185,7 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
     for number, sets in enumerate(shown.excluded, 1):
         place = f" in case {number}" if len(shown.excluded) > 1 else ""
         for one in sets:
-            yield say(f"Where{place} {{where}}, there is no $𝛌$, and no equilibrium.", where=vanishing(one))
+            yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}", where=vanishing(one))
     if found.may_be_dependent:
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
 
@@ -248,9 +250,19 @@ def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
     return as_row(listed([equation(letter[k], values.rows[k][0], Number(0)) for k in rows]))
 
 
-def _special(shown: EquilibriaForms, case: SpecialCase) -> Prose:
+def _special(shown: EquilibriaForms, case: SpecialCase) -> Iterator[Prose]:
     """What is an equilibrium for parameters of which a factor is 0."""
     where = shown.comparison(case.factor, "=")
+    if not case.is_of_rank:
+        yield _of_special_forces(shown, case, where)
+    elif not case.excluded:
+        yield say(f"Where {{where}}, {_MAY_BE_DEPENDENT}", where=where)
+    for one in shown.special_exceptions(case):
+        zero = [equation(value, Number(0)) for value in one]
+        yield say(f"Where {{where}}, {_NO_MULTIPLIERS}", where=as_row(listed([where, *zero])))
+
+
+def _of_special_forces(shown: EquilibriaForms, case: SpecialCase, where: Node) -> Prose:
     if case.forces is None:
         return say("Where {where}, there may be others.", where=where)
     forces = shown.special_forces(case)

@@ -8,6 +8,7 @@ from typing import Any
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
 from dynsolve.notation.python import PythonPrinter
+from dynsolve.notation.tree import Node
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Values
 from dynsolve.questions.export import Export, alternatives, existence, inequalities, plain_inequality, skipped
@@ -45,10 +46,7 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
     yield "equilibria_stability", [[told(point) for point in points] for points in found.points]
     yield from existence("equilibria", shown, printer, found.exist)
     if any(found.excluded):
-        yield (
-            "equilibria_except",
-            [[[f"{printer.text(e)} = 0" for e in one] for one in sets] for sets in shown.excluded],
-        )
+        yield "equilibria_except", [_sets(sets, printer) for sets in shown.excluded]
     if found.special:
         yield "equilibria_special", [_special(one, shown, printer) for one in found.special]
     if found.may_be_others:
@@ -59,9 +57,15 @@ def _nonzero(shown: EquilibriaForms, printer: PythonPrinter, factor: Expr) -> st
     return plain_inequality(shown.comparison(factor, "≠"), printer)
 
 
+def _sets(sets: Sequence[Sequence[Node]], printer: PythonPrinter) -> list[list[str]]:
+    return [[f"{printer.text(value)} = 0" for value in one] for one in sets]
+
+
 def _special(one: SpecialCase, shown: EquilibriaForms, printer: PythonPrinter) -> dict[str, Any]:
     """Parameters for which the equilibria are others, and what these are there, as `equilibria` has them."""
     where = {"where": plain_inequality(shown.comparison(one.factor, "="), printer)}
+    if one.excluded:
+        return {**where, "equilibria_except": _sets(shown.special_exceptions(one), printer)}
     if one.forces is None:
         return where
     forces = shown.special_forces(one)

@@ -50,6 +50,10 @@ class EquilibriaForms(SetForms):
         angle = Function("tan", angle_node(turn.pair.angle, ring.names))
         return equation(angle, above if below == Number(1) else Quotient(above, below)) if sign else None
 
+    def special_exceptions(self, case: SpecialCase) -> tuple[tuple[Node, ...], ...]:
+        """The sets that are no equilibria for special parameters."""
+        return tuple(tuple(map(self.condition, one)) for one in case.excluded)
+
     def special_forces(self, case: SpecialCase) -> tuple[Node, ...] | None:
         """What must be 0 for special parameters, without what never is; None where it cannot be."""
         assert case.forces is not None

@@ -16,7 +16,7 @@ from math import prod
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.factors import halves
+from dynsolve.algebra.factors import halves, is_positive
 from dynsolve.algebra.fraction import RationalExpr, cancelled, multiply
 from dynsolve.algebra.linear_systems import (
     FractionMatrix,
@@ -120,6 +120,14 @@ class Multipliers(Struct, frozen=True):
         A, g = (Matrix.of(there.target, (map(there, row) for row in one.rows)) for one in (self.A, self.g))
         return Multipliers(A, g, tuple(map(there, self.h)))
 
+    def where_zero(self, factor: Expr) -> Multipliers:
+        """The same for parameters of which a factor is 0."""
+
+        def rest(value: Expr) -> Expr:
+            return remainder(value, factor)
+
+        return Multipliers(self.A.map(rest), self.g.map(rest), tuple(map(rest, self.h)))
+
     @property
     def rank(self) -> int:
         """That of A_c almost everywhere."""
@@ -182,10 +190,11 @@ class Multipliers(Struct, frozen=True):
             return whole
         dependent = tuple(minors(self.A, rank))
         full = [one for one in found if not lies_in(_values(one), dependent, special)]
-        lost = [common_zeros((*dependent, *_values(one)), special) for one in full]
+        least = common_zeros((*dependent, *self.h), special)
+        lost = [_within(least, _values(one), special) for one in full]
         if len(full) == len(found) and not any(lost):
             return whole
-        less = common_zeros((*self.zeros(rank - 1), *dependent), special)
+        less = _within(least, self.zeros(rank - 1), special)
         rest = self.settled(less, rank - 1, special)
         covered = [_values(one) for one, but in rest.pairs if not but]
         excluded = [
@@ -200,6 +209,13 @@ class Multipliers(Struct, frozen=True):
         ]
         return Settled((*full, *(one for one, _ in new)), (*excluded, *(but for _, but in new)))
 
+    def holds_everywhere(self, rank: int, signs: ParameterSigns) -> bool:
+        """Whether all parameters have multipliers wherever `zeros(rank)` are 0, as far as is found."""
+        special = Special(signs)
+        with suppress(TooLong):
+            return self._holds_where_dependent(rank, special) and special.is_empty
+        return False
+
     def _holds_where_dependent(self, rank: int, special: Special) -> bool:
         """Whether forces are held wherever the rows of A_c, of this rank elsewhere, are dependent."""
         dependent, exactly = (*minors(self.A, rank), *self.h), Special(special.signs)
@@ -207,8 +223,28 @@ class Multipliers(Struct, frozen=True):
         return (holds and exactly.is_empty) or not common_zeros(dependent, special)
 
 
+def remainder(value: Expr, factor: Expr) -> Expr:
+    """What is left of a value where a factor is 0."""
+    return Expr(value.ring, value.ring.reduce(divmod(value.poly, factor.poly)[1]))
+
+
 def _values(alternative: Alternative) -> tuple[Expr, ...]:
     return tuple(condition.expr for condition in alternative)
+
+
+def _within(sets: Sequence[Alternative], values: Sequence[Expr], special: Special) -> tuple[Alternative, ...]:
+    """Where in the sets values are 0."""
+    found = []
+    for one in sets:
+        left, known = values, _values(one)
+        for condition in one:
+            left = [condition.reduced(value) for value in left]
+        exactly = Special(special.signs)
+        if lies_in(known, values, exactly) and exactly.is_empty:
+            found.append(known)
+        elif not any(is_positive(sign * value) for value in left for sign in (1, -1)):
+            found.append((*known, *values))
+    return zeros_of_any(found, special)
 
 
 # Equations with half angles: where one gives an angle by others, that is put in

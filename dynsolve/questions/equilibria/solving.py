@@ -33,7 +33,7 @@ Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import StrEnum
 from functools import partial
 from itertools import combinations, product
@@ -53,9 +53,9 @@ from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
 from dynsolve.derivation.existence import conditions, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
+from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.questions.equilibria.multipliers import Along, Multipliers, Settled
+from dynsolve.questions.equilibria.multipliers import Along, Multipliers, Settled, remainder
 from dynsolve.questions.parameters.derive import generators
 from dynsolve.robot.model import Robot
 
@@ -257,7 +257,7 @@ def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
     if not turning or len(turning) > MOST_TURNING or any(degrees[index] > 1 for index in turning):
         return False
     return all(
-        signs.is_positive(_composed(value, dict(zip(turning, ends, strict=True))))
+        signs.is_positive(with_numbers(value, dict(zip(turning, ends, strict=True))))
         for ends in product((1, -1), repeat=len(turning))
     )
 
@@ -327,17 +327,7 @@ def _put(matrix: Matrix, values: Values) -> Matrix:
     numbers = {pair.sine: sine for pair, sine, _ in values} | {
         pair.cosine: cosine for pair, _, cosine in values
     }
-    return matrix.map(lambda entry: _composed(entry, numbers))
-
-
-def _composed(value: Expr, numbers: Mapping[int, int]) -> Expr:
-    """A value with numbers for some generators."""
-    ring = value.ring
-    images = [
-        (ring.constant(numbers[g.index]) if g.index in numbers else ring.generator(g.index)).poly
-        for g in ring.generators
-    ]
-    return Expr(ring, ring.reduce(value.poly.compose(*images, ctx=ring.ctx)))
+    return matrix.map(lambda entry: with_numbers(entry, numbers))
 
 
 MOST_TERMS = 200
@@ -355,12 +345,16 @@ TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 class SpecialCase(Struct, frozen=True):
     """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0.
 
-    `exist` is what the parameters must satisfy for that; without forces it is not known what is one.
+    `exist` is what the parameters must satisfy for that; without forces it is not known what is one.  Where
+    only the rank of A_c is another, the equilibria are those for all parameters without the sets that are
+    `excluded`, if these are known.
     """
 
     factor: Expr
     forces: tuple[Expr, ...] | None
     exist: tuple[Bound, ...] = ()
+    is_of_rank: bool = False
+    excluded: tuple[Alternative, ...] = ()
 
 
 class Equilibria(Struct, frozen=True):
@@ -434,12 +428,16 @@ def equilibria(
     except TooLong:
         return Skipped(TOO_LONG)
     settled: Settled | None = Settled(alternatives, tuple(() for _ in alternatives), True)
+    of_rank = Special(signs)
     if constrained:
         try:
-            settled = constrained.settled(alternatives, constrained.rank, special)
-            alternatives = settled.alternatives
+            settled = constrained.settled(alternatives, constrained.rank, of_rank)
         except TooLong:
             settled = None
+    if settled is None or settled.alternatives != alternatives:
+        special.join(of_rank)
+        of_rank = Special(signs)
+        alternatives = settled.alternatives if settled else alternatives
     excluded = dict(settled.pairs) if settled else {}
     found = {
         one: exist
@@ -456,35 +454,61 @@ def equilibria(
         second = Matrix.of(ring, slopes)
         for condition in (condition for one in found for condition in one):
             special.add(condition.multiplier(second.entries))
-        curvature = Curvature(second, signs.beside(nonzero=special.factors), may_be_held, constrained)
+        nonzero = (*special.factors, *of_rank.factors)
+        curvature = Curvature(second, signs.beside(nonzero=nonzero), may_be_held, constrained)
         points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
-    is_whole = settled is not None and settled.is_whole
     short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
+    cases = [_special_case(factor, [*map(there, wanted)], constrained, signs) for factor in short]
+    if settled and constrained:
+        moved = (factor for factor in of_rank.factors if factor not in special.factors)
+        cases += filter(None, (_of_rank(factor, constrained, settled, signs) for factor in moved))
     return Equilibria(
         left,
         tuple(found),
         points,
         tuple(without_ends(exist, short, signs) for exist in found.values()),
-        tuple(_special_case(factor, map(there, wanted) if is_whole else None, signs) for factor in short),
-        special.is_open or len(short) < len(special.factors),
+        tuple(cases),
+        special.is_open or of_rank.is_open or len(short) < len(special.factors),
         tuple(excluded.get(one, ()) for one in found),
         settled is None or settled.is_whole,
         settled is None,
     )
 
 
-def _special_case(factor: Expr, forces: Iterable[Expr] | None, signs: ParameterSigns) -> SpecialCase:
-    if forces is None:
+def _special_case(
+    factor: Expr, zeros: Sequence[Expr], held: Multipliers | None, signs: ParameterSigns
+) -> SpecialCase:
+    """What is known where a factor is 0; nothing where with this the rows of A_c may be dependent."""
+    if held and not held.where_zero(factor).holds_everywhere(held.rank, signs):
         return SpecialCase(factor, None)
-    left = _modulo(factor, forces)
+    left = _modulo(factor, zeros)
     exist = conditions(left, signs)
     return SpecialCase(factor, (factor.ring.one,)) if exist is None else SpecialCase(factor, left, exist)
 
 
+def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: ParameterSigns) -> SpecialCase | None:
+    """What has no multipliers where a factor is 0, beside what never has; None where that is nothing."""
+    special = Special(signs)
+    conditions = (tuple(one.expr for one in case) for case in settled.alternatives)
+    case = [tuple(Condition(remainder(value, factor)) for value in values) for values in conditions]
+    try:
+        found = held.where_zero(factor).settled(case, held.rank, special)
+    except TooLong:
+        return SpecialCase(factor, None, is_of_rank=True)
+    if found.alternatives != tuple(case) or not special.is_empty:
+        return SpecialCase(factor, None, is_of_rank=True)
+    more = [
+        one
+        for without, known in zip(found.excluded, settled.excluded, strict=True)
+        for one in without
+        if one not in known
+    ]
+    return SpecialCase(factor, None, (), True, tuple(dict.fromkeys(more))) if more else None
+
+
 def _modulo(factor: Expr, forces: Iterable[Expr]) -> tuple[Expr, ...]:
     """What is left of forces where a factor is 0, without those that are 0, too."""
-    ring = factor.ring
-    rests = (Expr(ring, ring.reduce(divmod(force.poly, factor.poly)[1])) for force in forces)
+    rests = (remainder(force, factor) for force in forces)
     return tuple(dict.fromkeys(rest for rest in rests if not rest.is_zero))
 
 

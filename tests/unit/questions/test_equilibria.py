@@ -385,6 +385,31 @@ def test_where_a_constraint_holds_nothing_is_taken_out_of_what_is_not_solved_for
         assert all(abs(evaluate(one.expr, at)) < 1e-9 for one in (*curve, *point))
 
 
+REACH = """
+gravity: [0, -g, 0]
+dh:
+  - {theta: q1*, a: l1}
+  - {theta: q2*, a: l2}
+masses:
+  - {mass: m1, link: 1}
+  - {mass: m2, link: 2}
+constraints: [tip.x - l1]
+find: [equilibria]
+"""
+
+
+def test_where_lengths_let_the_rows_be_dependent_what_is_none_is_told() -> None:
+    """By hand: with l₂ = 2 l₁ the arm may fold back on x = l₁, where A_c is 0, and g is not."""
+    solution = dynsolve.solve(REACH)
+    results = solution.to_json()["results"]
+    folded = [["1 + cos(q1) = 0", "1 + cos(q2) = 0"]]
+    assert results["equilibria_special"] == [{"where": "2*l1 = l2", "equilibria_except": folded}]
+    (step,) = (step for step in solution.steps if step.id == "equilibria")
+    assert len(step.notes) == 1 and "no equilibrium" in str(step.notes)
+    results = dynsolve.solve(REACH.replace("a: l2", "a: 2*l1")).to_json()["results"]
+    assert results["equilibria_except"] == [folded] and "equilibria_special" not in results
+
+
 def test_a_cusp_holds_nothing() -> None:
     """y² = x³: where gᵀ and the row of A_c are dependent, that row is 0, and g is not."""
     cusp = """
