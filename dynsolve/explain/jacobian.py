@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import groupby, pairwise
+from itertools import chain, groupby, pairwise
 from operator import itemgetter
 
 from msgspec.structs import replace
@@ -72,9 +72,9 @@ def steps(context: Context) -> Iterator[Step]:
     """Axes and origins, a column a coordinate, and J."""
     yield _axes(context)
     whole = _whole(context)
-    group = Group("J", whole.title, whole.why, whole.formula, whole.source)
+    group = Group("J", whole.title, whole.why, whole.formula, whole.source, _leading_to(_used(context)))
     for q in context.robot.coordinates:
-        yield replace(_column(context, q), normal=Part.WORKING | Part.CONCLUDING, group=group)
+        yield replace(_column(context, q), normal=Part.WORKING, group=group)
     yield replace(whole, group=group)
 
 
@@ -207,18 +207,33 @@ def _column(context: Context, q: Coordinate) -> Step:
         why = " turns a rotor alone and moves no link" if drives else f" does not move {context.end}"
         return replace(step, why=(Symbol(q.name), why, ": its column is zero."))
     linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
-    joint = _plain_joint(context, k)
-    used: list[Identity] = []
-    if joint and joint.type is not JointType.PRISMATIC and context.is_short:
-        used = used_in_cross(context, joint, point)
     return replace(
         step,
-        why=(Symbol(q.name), *_column_why(context, q, joint)),
+        why=(Symbol(q.name), *_column_why(context, q, _plain_joint(context, k))),
         formula=equation(name, column(*in_letters)),
         working=column_shown(context, joints_moved(context, k, last), point, in_letters[0], linear),
-        concluding=("With ", *said(used), ":") if used else (),
+        concluding=_leading_to(_used_in_column(context, k)),
         result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
     )
+
+
+def _used_in_column(context: Context, k: int) -> list[Identity]:
+    """The identities by which the column of coordinate k (from 0) becomes what is printed."""
+    joint = _plain_joint(context, k)
+    if not joint or joint.type is JointType.PRISMATIC or not context.is_short:
+        return []
+    return used_in_cross(context, joint, end_of(context))
+
+
+def _used(context: Context) -> list[Identity]:
+    """Those of all columns, each once."""
+    each = (_used_in_column(context, k) for k in range(context.robot.n))
+    return list(dict.fromkeys(chain.from_iterable(each)))
+
+
+def _leading_to(used: Sequence[Identity]) -> Prose:
+    """What leads to a result by identities."""
+    return ("With ", *said(used), ":") if used else ()
 
 
 def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:

@@ -33,7 +33,8 @@ class Detail(IntEnum):
 class Group(Struct, frozen=True):
     """Steps that are alike or lead to one thing: in full a section of its own, else one step.
 
-    `why` is said in place of what the steps say one by one, and `formula` stands in place of theirs.
+    `why` is said in place of what the steps say one by one, and `formula` stands in place of theirs;
+    `concluding` leads to the result of the last one.
     """
 
     id: str
@@ -41,6 +42,7 @@ class Group(Struct, frozen=True):
     why: Prose = ()
     formula: Node | None = None
     source: str = ""
+    concluding: Prose = ()
 
 
 class Part(Flag):

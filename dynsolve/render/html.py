@@ -40,7 +40,7 @@ from dynsolve.render.line_breaking import (
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.prose import typographic, visible
 from dynsolve.render.terminal_boxes import entry_equations, holds_matrix
-from dynsolve.render.typesetting import listed
+from dynsolve.render.typesetting import fitting, listed
 
 PHONE = 16.5
 """What fits a phone beside a number, in em."""
@@ -426,8 +426,10 @@ class _Page(MarkupPage):
     # -- displayed formulas ------------------------------------------------------------------------
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        if formula.optional and self.widest(formula.node) > PAGE:
+        found = fitting(formula, lambda node: self.widest(node) <= PAGE)
+        if found is None:
             return
+        formula = found
         label = formula.label
         kind = "result" if label else "law" if formula.source else "work"
         is_wide = self.ruler.width(formula.node) > PHONE and self.widest(formula.node) > PHONE

@@ -30,7 +30,7 @@ from dynsolve.render.terminal_boxes import (
     matrix_width,
     pieces,
 )
-from dynsolve.render.typesetting import listed
+from dynsolve.render.typesetting import fitting, listed
 
 # Line breaks for a terminal: sums break at their signs, prose between its words
 
@@ -152,13 +152,16 @@ def _set_in_boxes(formula: Formula, printer: UnicodePrinter, room: int) -> list[
     boxes = [beside([TextBox.of(lead), piece]) for lead, piece in groups if isinstance(piece, TextBox)]
     if len(boxes) == len(groups) and sum(box.width for box in boxes) <= room:
         return list(beside(boxes).lines)
-    if formula.optional and len(boxes) < len(groups):
-        return []
     if formula.otherwise and any(
         isinstance(piece, Matrix) and not _is_alone(piece, formula.node) for _, piece in groups
     ):
         found = [set_formula(each, printer, room) for each in formula.otherwise]
         return [line for lines in found for line in (*lines, "")][:-1]
+    fitted = fitting(formula, lambda node: _fits(node, printer, room))
+    if fitted is None:
+        return []
+    if fitted is not formula:
+        return _set_in_boxes(fitted, printer, room)
     if isinstance(formula.node, Row) and len(parts := list(listed(formula.node))) > 1:
         return _set_several(parts, formula, printer, room)
     members = list(_members(groups))
@@ -194,6 +197,11 @@ def _set_several(parts: Sequence[Node], formula: Formula, printer: UnicodePrinte
             lines += [*_flushed(row), *others, last + comma]
             row = TextBox.of("")
     return lines + _flushed(row)
+
+
+def _fits(node: Node, printer: UnicodePrinter, room: int) -> bool:
+    """Whether no matrix is too wide."""
+    return all(isinstance(piece, TextBox) for _, piece in _grouped(node, printer, room))
 
 
 def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:

@@ -12,7 +12,7 @@ are lists of equations.  One under another they would leave most of a page empty
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import ceil
 
 from msgspec import Struct
@@ -20,7 +20,7 @@ from msgspec.structs import replace
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
-from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
 from dynsolve.render.line_breaking import FACTOR_BREAK, FormulaSplitter, Notation, Piece, lines
 from dynsolve.render.terminal_boxes import entry_equations, holds_matrix
 
@@ -73,11 +73,13 @@ class Typesetter:
         """The lines of a formula; none where it is optional and its matrices do not fit."""
         if self.ruler.width(formula.node) <= self.room:
             return [Line("", self.notation.text(formula.node))]
-        if formula.optional and holds_matrix(formula.node):
-            widest = max(piece.width for piece in self.splitter.pieces(formula.node))
-            if widest > self.room - INDENT:
-                return []
-        return list(self._parts(formula.node, formula))
+        found = fitting(formula, self._fits)
+        return [] if found is None else list(self._parts(found.node, found))
+
+    def _fits(self, node: Node) -> bool:
+        """Whether no matrix is too wide."""
+        widest = max(piece.width for piece in self.splitter.pieces(node))
+        return not holds_matrix(node) or widest <= self.room - INDENT
 
     def _parts(self, node: Node, formula: Formula) -> Iterator[Line]:
         """Formulas that stand side by side with commas: as many on a line as fit, a wide one on its own."""
@@ -216,6 +218,25 @@ def _on_own_lines(members: Sequence[list[Piece]], room: float) -> list[list[Piec
 def _chained(node: Node) -> Relation:
     """A chain of equations; a formula that is none is a chain of one."""
     return node if isinstance(node, Relation) else Relation((node,), ())
+
+
+def fitting(formula: Formula, fits: Callable[[Node], bool]) -> Formula | None:
+    """A formula without the members of a chain of which a matrix does not fit; None where it is left out.
+
+    A matrix that is a member stays, to be listed entry by entry, but not in an optional formula.
+    """
+    node = formula.node
+    if fits(node):
+        return formula
+    if isinstance(node, Relation) and set(node.signs) == {"="}:
+        left, *members = node.parts
+        is_listed = not formula.optional
+        kept = [part for part in members if fits(part) or (is_listed and isinstance(part, Matrix))]
+        if kept == members:
+            return formula
+        if kept:
+            return replace(formula, node=equation(left, *kept))
+    return None if formula.optional else formula
 
 
 def listed(row: Row) -> Iterator[Node]:

@@ -123,7 +123,7 @@ class Shown(Struct):
         """An item as one step."""
         if self.detail is Detail.FULL:
             return tuple(self.whole(item.steps[0]))
-        return tuple(condensed(list(self.worked(item)), self.style))
+        return tuple(condensed(list(led_to(self.worked(item))), self.style))
 
     # -- full --------------------------------------------------------------------------------------
 
@@ -134,7 +134,7 @@ class Shown(Struct):
 
     def whole(self, step: Step) -> Iterator[Block]:
         """A step with all that it has."""
-        yield from step_blocks(self.referring(self.telling(step)), self.used(step), self.drawn)
+        yield from led_to(step_blocks(self.referring(self.telling(step)), self.used(step), self.drawn))
         self.earlier.add(step)
 
     def telling(self, step: Step) -> Step:
@@ -168,6 +168,8 @@ class Shown(Struct):
             if step.detail < Detail.FULL:
                 shown = normal(self.referring(self.telling(step)), group)
                 shown = replace(shown, source="") if group and step.source in sources else shown
+                if group and group.concluding and step is item.steps[-1]:
+                    shown = replace(shown, concluding=group.concluding)
                 yield from step_blocks(shown, (), self.drawn)
                 sources |= {step.source} if shown.formula is not None else set()
             self.earlier.add(step)
@@ -293,6 +295,17 @@ def _with_uses(blocks: tuple[Block, ...], labels: tuple[str, ...]) -> Iterator[B
         case (*rest,):
             yield Uses(labels)
     yield from rest
+
+
+def led_to(blocks: Iterable[Block]) -> Iterator[Block]:
+    """The blocks, of which a formula that words lead to is never left out: they would lead to nothing."""
+    before: Block | None = None
+    for block in blocks:
+        is_led_to = isinstance(before, Text | Uses) and leads_on(before.parts)
+        if isinstance(block, Formula) and is_led_to:
+            block = replace(block, optional=False)
+        yield block
+        before = block
 
 
 # -- several formulas as one display ---------------------------------------------------------------

@@ -160,6 +160,17 @@ def test_no_line_of_a_solution_runs_over_and_no_matrix_is_text(stem: str, column
     shown = [line.text for line in render(document(stem), columns, solved(stem).style)]
     assert not [text for text in shown if width(text) > columns]
     assert not [text for text in shown if "[[" in text]
+    following = zip(shown, shown[1:], shown[2:], strict=False)  # words lead to a display
+    alone = [text for text, gap, after in following if text[-1:] == ":" and not gap and after[:1] > " "]
+    assert not alone
+
+
+def test_of_a_chain_the_member_that_does_not_fit_is_left_out() -> None:
+    long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
+    product = Product((matrix(f"{long}, x"), matrix("a", "b")))
+    node = equation(Letter("v"), product, matrix("c", "d"))
+    assert lines(Formula(node)) == lines(Formula(node, optional=True))
+    assert lines(Formula(node)) == lines(Formula(equation(Letter("v"), matrix("c", "d"))))
 
 
 def test_a_transposed_matrix_that_is_too_wide_is_written_row_after_row() -> None:
