@@ -166,7 +166,7 @@ class ParameterSigns(Struct, frozen=True):
         for factor, times in factors:
             sign = self._sign(factor)
             if sign or times % 2 or factor not in self.nonzero:
-                left = left * (ring.constant(sign) if sign else factor) ** times
+                left = left * (ring.constant(sign) if sign else factor) ** (2 - times % 2)
         return left
 
     def even_factors(self, value: Expr) -> list[Expr]:

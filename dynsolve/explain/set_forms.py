@@ -21,7 +21,7 @@ from dynsolve.errors import AlgebraError
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.writing import as_row, listed, side_by_side
-from dynsolve.notation.build import cost, split_sign, times
+from dynsolve.notation.build import cost, split_sign, times, total
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import (
     Matrix,
@@ -76,12 +76,24 @@ class SetForms(Inequalities):
         forms = [self._whole(expr)]
         with suppress(AlgebraError):  # the robot's own ring, with sums of angles, has not every angle
             forms.append(self._whole(Transfer(expr.ring, self.robot.ring)(expr)))
+        if condition.linear is not None and len(condition.linear[0]) > 1:
+            forms.insert(0, self._solvable(*condition.linear))
         return min(forms, key=cost)
+
+    def _solvable(self, factor: Expr, unknown: Expr, rest: Expr) -> Node:
+        """(k - m w²) q₃ - k d₀, where that is 0: what is unknown beside all that stands in front of it."""
+        form, whole = self.compactor(factor.ring).form, self._denominator(factor, rest)
+        shown, signed = self._signed(factor * whole)
+        rest = rest * (whole if signed == factor * whole else -whole)
+        return total([times(1, [(shown, 1), (form(unknown), 1)]), *([] if rest.is_zero else [form(rest)])])
 
     def _whole(self, expr: Expr) -> Node:
         """What is 0 where an expression is, without a number in front of it."""
-        whole = 1 if is_numeric(self.robot) else lcm(*(int(c.q) for c in expr.poly.coeffs()))
-        return without_number(self._signed(expr * whole)[0])
+        return without_number(self._signed(expr * self._denominator(expr))[0])
+
+    def _denominator(self, *parts: Expr) -> int:
+        """What makes all coefficients whole, but where the file has decimals."""
+        return 1 if is_numeric(self.robot) else lcm(*(int(c.q) for part in parts for c in part.poly.coeffs()))
 
     def vanishing(self, value: Expr) -> Node:
         """What is 0 where an expression is, without the factors that never are."""

@@ -697,21 +697,22 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In these equilibria|In case #>: "
+    "<At {}|In every configuration|In these equilibria|In case #>[, where {}]: "
     "<stable|not stable> where {}, <stable|not stable> where {}[, ...].",
 )
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
     at = 1 if s.words[0].startswith("At") else 0
     kinds = [word for word in s.words[1:] if word.endswith("stable")]
+    *inside, first, second = (node for node in s.formulas[at:] if not isinstance(node, Symbol))
     found = [
-        _stable_there(m, s, s.formulas[:at], kind, (condition,))
-        for kind, condition in zip(kinds, s.formulas[at : at + 2], strict=True)
+        _stable_there(m, s, s.formulas[:at], kind, (*inside, condition))
+        for kind, condition in zip(kinds, (first, second), strict=True)
     ]
     return any(found) and all(map(all, found))
 
 
 @says(
-    "<At {}|In every configuration|In these equilibria|In case #>: <stable> where {&}"
+    "<At {}|In every configuration|In these equilibria|In case #>[, where {}]: <stable> where {&}"
     "[, not stable where one of these inequalities is reversed][, ...].",
 )
 def _stable_where_all(m: Mechanism, s: Sentence) -> bool:

@@ -50,11 +50,13 @@ class Special(Struct, dict=True):
     """Polynomials in parameters that are divided out, or multiplied by: where one is 0 nothing is said.
 
     `factors` are the irreducible ones that may be 0, by `signs`; `is_open` where there may be others.
+    `never` has what is not 0 where conditions hold, so that these, which one might choose, are no case.
     """
 
     signs: ParameterSigns
     factors: dict[Expr, None] = field(default_factory=dict)
     is_open: bool = False
+    never: dict[tuple[Alternative, Expr], None] = field(default_factory=dict)
 
     @property
     def is_empty(self) -> bool:
@@ -200,6 +202,8 @@ class _Cases(Struct, dict=True):
             return
         choices = [[factor for factor, _ in trig_factors(value) if _may_vanish(factor)] for value in left]
         chosen = min(choices, key=_effort)
+        if not chosen and self.special is not None:
+            self.special.never[held, left[choices.index(chosen)]] = None
         self._divided(left[choices.index(chosen)])
         for factor in chosen:
             condition, parts = Condition(factor), squares(factor)

@@ -31,6 +31,7 @@ from dynsolve.algebra.factors import is_positive, trig_quotient
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.derivation.elimination import turn_of
 
 # Whether equations can hold together, and what follows from them, by Buchberger's algorithm
 
@@ -210,7 +211,18 @@ class Condition(Struct, frozen=True, dict=True):
     def _remainder(self, other: Expr) -> Expr:
         """Another expression less a multiple of this one, where that is shorter."""
         rest = Expr(other.ring, other.ring.reduce(divmod(other.poly, self.expr.poly)[1]))
-        return rest if len(rest) < len(other) else other
+        shortest = min((rest, *self._less_terms(other)), key=len)
+        return shortest if len(shortest) < len(other) else other
+
+    def _less_terms(self, other: Expr) -> Iterator[Expr]:
+        """Another expression less multiples of this one, in each of which a term is gone."""
+        ring = other.ring
+        mine = self.expr.poly.to_dict().items()
+        for key, factor in other.poly.to_dict().items():
+            for own, divisor in mine:
+                powers = tuple(int(a) - int(b) for a, b in zip(key, own, strict=True))
+                if min(powers, default=0) >= 0:
+                    yield other - Expr(ring, ring.ctx.from_dict({powers: factor / divisor})) * self.expr
 
     def _divides(self, other: Expr) -> bool:
         return trig_quotient(other, self.expr) is not None
@@ -229,6 +241,17 @@ class Condition(Struct, frozen=True, dict=True):
     def keeps_values(self) -> bool:
         """Whether expressions that are reduced keep their values, and get no factor."""
         return not self._length or self._length[0][1] == self.expr.ring.one
+
+    @property
+    def linear(self) -> tuple[Expr, Expr, Expr] | None:
+        """(m, x, n) where the condition is m x + n = 0, with x a length, or the one sine or cosine in it."""
+        ring, turn = self.expr.ring, turn_of(self.expr)
+        for index, factor, rest in self._length:
+            return factor, ring.generator(index), rest
+        if turn is None or not turn.is_one_sided:
+            return None
+        x = ring.generator(turn.pair.cosine if turn.sine.is_zero else turn.pair.sine)
+        return turn.cosine + turn.sine, x, turn.rest
 
     @cached_property
     def _turn(self) -> list[tuple[Pair, int | None, int | None]]:

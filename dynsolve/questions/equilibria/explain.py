@@ -136,7 +136,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         of_free = [say("Nothing is left to be 0{where}.", where=where)]
         notes.append(say("Every configuration is an equilibrium{where}.", where=where))
     else:
-        of_free = [*_arbitrary(robot, cases)]
+        of_free = [*_never(shown, found), *_arbitrary(robot, cases)]
         notes += shown.existence("equilibria", found.exist)
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
     notes += [note for one in found.special for note in _special(shown, one)]
@@ -188,6 +188,14 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
             yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}", where=vanishing(one))
     if found.may_be_dependent:
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
+
+
+def _never(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
+    """Why choices of factors are no case."""
+    for held, value in found.never:
+        if held:
+            where, what = vanishing(tuple(map(shown.condition, held))), shown.vanishing(value)
+            yield say("Where {where}, {what} is not 0.", where=where, what=what)
 
 
 def _arbitrary(robot: Robot, cases: Sequence[tuple[Node, ...]]) -> Iterator[Prose]:
@@ -384,6 +392,9 @@ def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Pros
     steady = dict(context.robot.questions.model.steady)
     names = [context.robot.coordinates[k].name for k in point.neutral]
     free = listed([Symbol(name) for name in names if name not in steady])
+    if point.inside:
+        inside = side_by_side([*map(shown.inequality, point.inside)])
+        place = say("{place}, where {inside}", place=place, inside=inside)
     along = say(", but for {free}, along which nothing changes", free=free) if free and point.is_told else ""
     if point.drifts:
         along = (", but for motions along the equilibria, in which nothing changes",)

@@ -37,7 +37,8 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
         return inequalities(shown, printer, bounds)
 
     def told(point: Point) -> dict[str, Any]:
-        needed = [*written(point.conditions), *(_nonzero(shown, printer, factor) for factor in point.nonzero)]
+        bounds = (*point.inside, *point.conditions)
+        needed = [*written(bounds), *(_nonzero(shown, printer, factor) for factor in point.nonzero)]
         conditions = {"stable_if": needed} if needed else {}
         if point.falls:
             conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])

@@ -93,8 +93,9 @@ class Point(Struct, frozen=True):
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
     sides are equal nothing is said, nor where one of `nonzero` is 0.  Coordinates stand in conditions
-    where their values are not known; `is_open` says that these are too long to be told.  `along` is what
-    constraints leave of the second derivatives.
+    where their values are not known; `is_open` says that these are too long to be told.  All this is so
+    where the case is there and none of its bounds, `inside`, is an equality.  `along` is what constraints
+    leave of the second derivatives.
     """
 
     values: Values
@@ -105,6 +106,7 @@ class Point(Struct, frozen=True):
     falls: bool = False
     is_open: bool = False
     drifts: bool = False
+    inside: tuple[Bound, ...] = ()
     along: Along | None = None
 
     @property
@@ -131,10 +133,12 @@ class Curvature(Struct, frozen=True):
         known = {point.values: point for point in self._points(alternative, inside)}
         for point in self._points(alternative, exists):
             told = known.get(point.values, point)
-            if told == point or told.stability is not Stability.STABLE:
+            if told == point or not told.is_told or told.stability is Stability.UNSTABLE:
                 yield point
-            else:  # where a bound is an equality nothing is known
+            elif told.stability is Stability.STABLE:  # where a bound is an equality nothing is known
                 yield replace(point, conditions=tuple(inside), nonzero=(), falls=False, is_open=False)
+            else:
+                yield replace(told, inside=tuple(inside))
 
     def _points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         if 2 ** len(alternative) > MOST_POINTS:
@@ -363,7 +367,8 @@ class Equilibria(Struct, frozen=True):
     `exist` is what the parameters must satisfy for each to be there.  All this is so where none of the
     `special` is; where there `may_be_others`, that are not told, for general parameters.  With constraints
     each is without the sets that are `excluded`, and further sets on which there are no multipliers are left
-    out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.
+    out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.  `never` has conditions
+    that are no case, and what is not 0 where they hold.
     """
 
     rows: tuple[Expr, ...]
@@ -375,6 +380,7 @@ class Equilibria(Struct, frozen=True):
     excluded: tuple[tuple[Alternative, ...], ...] = ()
     is_whole: bool = True
     may_be_dependent: bool = False
+    never: tuple[tuple[Alternative, Expr], ...] = ()
 
 
 def _kept_turning(robot: Robot) -> set[int]:
@@ -472,7 +478,14 @@ def equilibria(
         tuple(excluded.get(one, ()) for one in found),
         settled is None or settled.is_whole,
         settled is None,
+        (*special.never, *(_never(one, signs) for one in alternatives if one not in found)),
     )
+
+
+def _never(alternative: Alternative, signs: ParameterSigns) -> tuple[Alternative, Expr]:
+    """What is not 0 in an alternative where its other conditions hold."""
+    value = next((one for one in alternative if conditions([one.expr], signs) is None), alternative[-1])
+    return tuple(one for one in alternative if one is not value), value.expr
 
 
 def _special_case(

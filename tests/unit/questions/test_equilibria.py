@@ -15,7 +15,8 @@ from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.rules import derive
 from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import Special, common_zeros
+from dynsolve.derivation.singular.sets import Special
+from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Function, Number, Product, Quotient, Relation, Symbol, equation, walk
@@ -369,14 +370,15 @@ def test_where_a_constraint_holds_nothing_is_taken_out_of_what_is_not_solved_for
     values, there = derive(robot), Transfer(robot.ring, search_ring(robot.ring, (), {}))
     held = multipliers(robot, values["g"], values["Ac"], values["hc"]).moved(there)
     special = Special(ParameterSigns())
-    whole = held.settled(common_zeros(held.zeros(1), special), 1, special)
-    ((curve, without),) = whole.pairs
+    whole = held.settled([tuple(map(Condition, held.zeros(1)))], 1, special)
+    (curve, without), *_ = whole.pairs
     names, poses = [q.name for q in robot.coordinates], [(0.0, pi), (pi, pi)]
     (point,) = without
     for q1, q2 in poses:
         at = {
             "l": 0.7,
             "m1": 1.3,
+            "g": 9.8,
             "m2": 0.4,
             "lc1": 0.3,
             "lc2": 0.6,

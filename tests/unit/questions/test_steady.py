@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 
 import dynsolve
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 
 ARM = """
 gravity: [0, 0, -g]
@@ -30,6 +32,15 @@ model:
   bodies: [{mass: m, at: [x*cos(phi) - y*sin(phi), x*sin(phi) + y*cos(phi), 0]}]
 springs: [{stiffness: k, of: x}, {stiffness: k, of: y}]
 steady: {phi: W}
+find: [equilibria]
+"""
+TILTED = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2* + 90deg, alpha: 90deg}, {d: q3*}]
+masses: [{mass: m, link: 3, center: origin}]
+springs: [{stiffness: k, of: q3, rest: r}]
+assume: [k*r > m*g]
+steady: {q1: W}
 find: [equilibria]
 """
 SPRING = """
@@ -69,7 +80,7 @@ def test_what_is_assumed_decides(assumed: str, count: int, hanging: str) -> None
 def test_a_slider_leaves_the_spring_where_it_turns_too_fast() -> None:
     """k (q2 - r) = m 2² q2, stable where k > 4m (by hand)."""
     found = equilibria(SLIDER)
-    assert found[""] == [["4*m*q2 - k*(q2 - r) = 0"]]
+    assert found[""] == [["(4*m - k)*q2 + k*r = 0"]]
     point = {"stability": "undecided", "stable_if": ["k > 4*m"], "unstable_if": ["4*m > k"]}
     assert found["_stability"] == [[point]]
 
@@ -117,3 +128,21 @@ def test_the_step_and_the_hint_say_what_is_assumed_and_what_the_motion_leaves() 
     assert "Let all parameters be positive, and " in str(why)
     hint = str(solution.hint("equilibria"))
     assert "The rates that are constant stay" in hint and "The inverse of D" not in hint
+
+
+def test_where_conditions_shorten_each_other_what_they_need_is_seen() -> None:
+    """q3 = k r/(k - m W²) and sin q2 = -g/(W² q3), stable where that is a pull outwards (by hand)."""
+    found = equilibria(TILTED)
+    tilted = ["(m*W**2 - k)*q3 + k*r = 0", "k*(g + r*W**2*sin(q2)) - m*g*W**2 = 0"]
+    assert found[""][0] == tilted
+    assert found["_exist"] == [["W**2*(m*g + k*r) >= g*k"], []]
+    assert found["_stability"][0] == [
+        {"stability": "undecided", "stable_if": ["W**2*(m*g + k*r) > g*k", "k > m*W**2"],
+         "unstable_if": ["m*W**2 > k"]},
+    ]  # fmt: skip
+
+
+def test_why_a_factor_is_no_case_is_said() -> None:
+    shown = " ".join(report(dynsolve.solve(TILTED), Format.TEXT).decode().split())
+    assert "Where q₃ = 0, m g s₂ - k r is not 0." in shown
+    assert "In case 1, where W² (m g + k r) > g k: stable where k > m W², not stable where k < m W²." in shown
