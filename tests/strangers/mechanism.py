@@ -103,11 +103,15 @@ class Mechanism:
         return Point({tree.Symbol(name): Value(number, abs(number)) for name, number in names.items()})
 
     def changes(self, what: Callable[[Point], Any], names: tuple[str, ...]) -> bool:
-        """Whether a value changes where the coordinates with these names do, all else being the same."""
+        """Whether a value changes where the coordinates with these names do, all else being the same.
+
+        Each by as much of its own: what depends on a difference alone changes, too.
+        """
         for seed in range(2):
             here = self.point(seed=seed)
             for factor in (0.37, -1.3):
-                there = self.point({name: here.names[name] + factor for name in names}, seed)
+                moved = {name: here.names[name] + factor / place for place, name in enumerate(names, 1)}
+                there = self.point(moved, seed)
                 if not near(what(here), what(there)):
                     return True
         return False
