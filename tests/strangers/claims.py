@@ -690,6 +690,16 @@ def _not_cyclic(m: Mechanism, s: Sentence) -> bool:
     return m.changes(lambda p: m.result("tau", p)[others], (q,))
 
 
+@says("The given state is no equilibrium: <gravity|gravity and springs|the given forces> move[s] #, which no ...")
+def _unbalanced(m: Mechanism, s: Sentence) -> bool:
+    at = {q: m.value(of, m.point()) for q, _, of in m.solution.robot.questions.model.linearize}
+    rates = {f"{q}'": 0.0 for q in m.coordinates}
+    p = m.point(at | rates)
+    k = m.coordinates.index(s.words[-1])
+    forces = m.result("g", p) - (m.result("Q", p) if m.solution.robot.questions.loads else 0)
+    return k in m.solution.robot.actions.passive and not near(forces[k], 0)
+
+
 @says("In case #: <stable|not stable>.")
 def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
     step = next(told for told in sentences(m.document.blocks) if told.text == "It is 0 in these cases:")

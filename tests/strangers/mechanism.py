@@ -309,7 +309,7 @@ class Mechanism:
     ) -> Point | None:
         """A state in which `off` is 0, by Newton's method."""
         here = start or self.point(seed=seed)
-        for _ in range(15):
+        for _ in range(40):
             slopes = np.transpose([self.slope(off, here, seed, {q: 1.0}) for q in free])
             change = np.linalg.lstsq(slopes, off(here), rcond=1e-9)[0]
             here = self.point(
