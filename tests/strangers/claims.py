@@ -695,7 +695,7 @@ def _unbalanced(m: Mechanism, s: Sentence) -> bool:
     at = {q: m.value(of, m.point()) for q, _, of in m.solution.robot.questions.model.linearize}
     rates = {f"{q}'": 0.0 for q in m.coordinates}
     p = m.point(at | rates)
-    k = m.coordinates.index(s.words[-1])
+    k = [to_unicode(Symbol(q)) for q in m.coordinates].index(s.words[-1])
     forces = m.result("g", p) - (m.result("Q", p) if m.solution.robot.questions.loads else 0)
     return k in m.solution.robot.actions.passive and not near(forces[k], 0)
 

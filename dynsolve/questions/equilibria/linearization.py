@@ -130,7 +130,8 @@ def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, *acting: Matrix) -> L
     if name:
         by = "gravity and springs move" if robot.actions.stored else "gravity moves"
         by = "the given forces move" if robot.questions.loads else by
-        return Skipped(f"the given state is no equilibrium: {by} {name}, which no motor holds")
+        moved = to_unicode(Symbol(name))
+        return Skipped(f"the given state is no equilibrium: {by} {moved}, which no motor holds")
     below = Matrix(
         robot.ring,
         tuple(

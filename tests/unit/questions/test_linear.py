@@ -60,7 +60,7 @@ def test_linearization_is_that_of_sympy() -> None:
 
 def test_no_equilibrium_is_told() -> None:
     found = results(ARM.replace("q1: 60deg, q2: 30deg", "q1: 60deg, q2: 0"))
-    why = "the given state is no equilibrium: gravity moves q2, which no motor holds"
+    why = "the given state is no equilibrium: gravity moves q₂, which no motor holds"
     assert found["linear_A"] == {"skipped": why}
 
 
