@@ -349,7 +349,7 @@ def _momentum_of_rates(m: Mechanism, s: Sentence) -> bool:
 @says(
     "{} is constant, so every Christoffel symbol is zero.",
     "{} is constant, and {}: nothing is left to be checked.",
-    "{} is[ then] constant, and {}.",
+    "{} is constant, and {}.",
     "{} is constant: of all that joint # moves, it is the ....",
 )
 def _constant(m: Mechanism, s: Sentence) -> bool:
@@ -690,7 +690,7 @@ def _not_cyclic(m: Mechanism, s: Sentence) -> bool:
     return m.changes(lambda p: m.result("tau", p)[others], (q,))
 
 
-@says("The given state is no equilibrium: <gravity|gravity and springs|the given forces> move[s] #, which no ...")
+@says("The given state is no equilibrium: <gravity|gravity and springs|the given forces> move[s] #, ...")
 def _unbalanced(m: Mechanism, s: Sentence) -> bool:
     at = {q: m.value(of, m.point()) for q, _, of in m.solution.robot.questions.model.linearize}
     rates = {f"{q}'": 0.0 for q in m.coordinates}
@@ -756,11 +756,12 @@ def _is_diagonal(m: Mechanism, s: Sentence) -> bool:
     return all(near(matrix, np.diag(np.diag(matrix))) for matrix in matrices)
 
 
-@says("Where {}, {} is diagonal in every configuration: ...")
+@says("Where {}, {} is diagonal in every configuration[, <and> the same in all, so that {}]: ...")
 def _decoupled(m: Mechanism, s: Sentence) -> bool:
     point = m.where(s.formulas[0])
     D = [m.result("D", m.point(point.names | pose)) for pose in ({}, *m.right_angles())]
-    return all(near(matrix, np.diag(np.diag(matrix))) for matrix in D)
+    is_diagonal = all(near(matrix, np.diag(np.diag(matrix))) for matrix in D)
+    return is_diagonal and (not s.words[0] or all(near(matrix, D[0]) for matrix in D))
 
 
 @says("Fewer than # entr<y|ies> <is|are> not enough: ...")

@@ -306,10 +306,10 @@ def decoupled_step(context: Context) -> Step | None:
         map(ring.depends_on_coordinates, diagonal)
     )
     told = say(
-        "Where {relation}, $𝐃$ is diagonal in every configuration: no coordinate is coupled with another by "
-        "its acceleration.{constant}",
+        "Where {relation}, $𝐃$ is diagonal in every configuration{constant}: no coordinate is coupled with "
+        "another by its acceleration.",
         relation=equation(*sides),
-        constant=say(" $𝐃$ is then constant, and $𝐂 = 𝟎$.") if is_told else "",
+        constant=say(", and the same in all, so that $𝐂 = 𝟎$") if is_told else "",
     )
     return Step(
         id="decoupled",
