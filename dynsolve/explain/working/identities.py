@@ -131,7 +131,9 @@ def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
 
     One of the ring is put for each angle; none where these are too few, or nothing is exchanged.
     """
-    angles = list(dict.fromkeys(angle for tree in (before, after) for angle in _angles(tree) if angle.terms))
+    angles = list(
+        dict.fromkeys(angle for tree in (before, after) for angle in angles_in(tree) if angle.terms)
+    )
     if len(angles) > len(ring.pairs) or {pair.angle for pair in ring.pairs}.issuperset(angles):
         return []
     stand_in = dict(zip(angles, ring.pairs, strict=False))
@@ -165,10 +167,10 @@ def pythagoras(angle: Node) -> Identity:
     return Identity("", found)
 
 
-def _angles(node: Node) -> dict[Angle, set[str]]:
+def angles_in(*nodes: Node) -> dict[Angle, set[str]]:
     """The angles whose sines and cosines occur, and which of both."""
     found: dict[Angle, set[str]] = {}
-    for part in walk(node):
+    for part in walk(*nodes):
         match part:
             case Function("sin" | "cos" as name, argument):
                 found.setdefault(angle_from_tree(argument), set()).add(name)
@@ -177,8 +179,8 @@ def _angles(node: Node) -> dict[Angle, set[str]]:
 
 def _additions(ring: Ring, before: Node, after: Node) -> Iterator[Identity]:
     """The addition theorems by which new angles come about: each is A + B or A - B of old ones."""
-    old = list(_angles(before))
-    for angle, names in _angles(after).items():
+    old = list(angles_in(before))
+    for angle, names in angles_in(after).items():
         if angle in old or -angle in old:
             continue
         found = ((a, b, sign) for sign in (-1, 1) for a in old for b in old if a + b * sign == angle)

@@ -38,6 +38,7 @@ from dynsolve.explain.working.identities import (
     Tactic,
     Way,
     Words,
+    angles_in,
     are_alike,
     chain,
     collected,
@@ -48,7 +49,7 @@ from dynsolve.explain.working.identities import (
 )
 from dynsolve.explain.writing import block_of, listed, sum_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,
@@ -133,7 +134,7 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     """From the sum of the squares of v to K_v, along the axes of the first frame in which they come apart.
 
     Those along the base's axes are of use where they are shown before.  Where the squares come apart in no
-    frame, they are multiplied out where that makes the fewest terms.
+    frame, they are multiplied out where they are shortest.
     """
     velocity = context.values[f"v{body.name}"]
     if velocity.is_zero or body.mass.is_zero:
@@ -150,8 +151,16 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
         way = _from_components(context, body, along)
         if way is not None:
             return _begun_along(context, body, i, way)
-    i, along = min(each, key=lambda pair: sum(len(x) * (len(x) + 1) for x in pair[1].entries))
+    i, along = min(each, key=lambda pair: _length_along(context, velocity, pair[1]))
     return _begun_along(context, body, i, _squared(context, body, along))
+
+
+def _length_along(context: Context, velocity: Matrix, along: Matrix) -> int:
+    """The operations of the lines in which squares along some axes are multiplied out."""
+    components = [x for x in along.entries if not x.is_zero]
+    turned = components if along != velocity else []
+    shown = [*map(context.show, turned), *(whole for _, whole, _ in _by_rates(context, components))]
+    return sum(map(cost, shown))
 
 
 def _as_shown(context: Context, body: Body) -> Node | None:
@@ -336,12 +345,15 @@ def without_signs(node: Node) -> Node:
 def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | None:
     """The squares multiplied out, and the brackets worked out.
 
-    None where a bracket holds rates too, or there are many.
+    None where a bracket holds rates too, or there are many, and where the squares are in other angles than
+    those of the ring, in which they are multiplied out here: s₃² c₁² is none of what (a s₃)² has.
     """
     ring = context.robot.ring
     alone, together = _separate(ring, components)
     if not together:
         return []
+    if not {pair.angle for pair in ring.pairs}.issuperset(angles_in(*map(context.show, together))):
+        return None
     poly = sum((x.poly * x.poly for x in together), start=ring.zero.poly)
     found = groups(context.forms, poly)
     if found is None:

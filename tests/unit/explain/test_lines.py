@@ -21,3 +21,25 @@ def test_what_columns_of_the_jacobian_use_is_told_before_the_jacobian() -> None:
     displays = [part.split("\n\n")[0] for part in led]
     assert any("𝐉_v =" in each for each in displays)
     assert not any("𝐨₃ - 𝐨₂" in each for each in displays)
+
+
+TILTED = """
+dh:
+  - {theta: q1*, a: b, alpha: beta}
+  - {d: q2*, alpha: -beta}
+  - {theta: q3*, a: l}
+masses: [{mass: m, link: 3, center: tip, shape: point}]
+find: [K]
+"""
+
+
+def test_squares_are_multiplied_out_in_the_angles_that_they_have() -> None:
+    _, squares = page(TILTED).split("The squares of its entries:")
+    squares, *_ = squares.split("K_ω")
+    assert "s₃" in squares and "s₁₃" not in squares
+
+
+def test_squares_are_worked_out_along_axes_where_they_are_short() -> None:
+    slide = "dh: [{theta: q1*, a: a, alpha: 90deg}, {d: q2* + d0, alpha: -90deg}, {theta: q3*, a: l}]\n"
+    shown = page(slide + "masses: [{mass: m, link: 3, center: [-u, w, 0], inertia: {zz: I}}]\nfind: [K]\n")
+    assert "(𝐑₂⁰)ᵀ 𝐯₁" in shown
