@@ -239,7 +239,7 @@ def closing_step(context: Context) -> Step:
         id=ID,
         title="The dynamical model",
         why=_meanings(context),
-        formula=equations_of_motion(context),
+        formula=equation(moving_side(context, in_full=True), driving_side(context)),
         source=spong("7.3"),
         lines=_shortest_row(context) if context.is_in_letters else _rows_in_names(context),
         result=result,
@@ -306,9 +306,10 @@ def driving_row(robot: Robot, q: Coordinate) -> Node:
     return sum_of([letters.force(q), *outside, *held])
 
 
-def moving_side(context: Context) -> Sum:
-    """D q̈ + C q̇ + g, and friction."""
-    side = formula("𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝛕_f + 𝐠" if context.robot.actions.resisting else "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠")
+def moving_side(context: Context, in_full: bool = False) -> Sum:
+    """D q̈ + C q̇ + g, and friction; without C q̇ where that is 0, if not `in_full`."""
+    turned = " + 𝐂 𝐪̇" if in_full or not context.values["Cqd"].is_zero else ""
+    side = formula(f"𝐃 𝐪̈{turned}{' + 𝛕_f' * bool(context.robot.actions.resisting)} + 𝐠")
     assert isinstance(side, Sum)
     return side
 

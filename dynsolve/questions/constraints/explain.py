@@ -9,12 +9,15 @@ from collections.abc import Iterator
 
 from dynsolve.algebra.linear_systems import adjugate, nullspace, quotient
 from dynsolve.algebra.matrix import determinant
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.sanity.determinant import sign_of
+from dynsolve.explain.set_forms import SetForms, without_number
 from dynsolve.explain.step import Detail, Line, Step, not_derived
 from dynsolve.explain.terms import (
     acting_side,
@@ -24,12 +27,21 @@ from dynsolve.explain.terms import (
     moving_side,
     with_force_letters,
 )
-from dynsolve.explain.writing import is_small, mls, scalar
+from dynsolve.explain.writing import is_small, listed, mls, scalar
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import ZERO, Node, Parenthesized, Sum, column, equation, mapped
+from dynsolve.notation.tree import (
+    ZERO,
+    Node,
+    Number,
+    Parenthesized,
+    Sum,
+    column,
+    equation,
+    mapped,
+)
 from dynsolve.quantities import letters
 from dynsolve.questions.constraints.derive import bordered, holonomic
-from dynsolve.questions.forward_dynamics.derive import Reduced
+from dynsolve.questions.forward_dynamics.derive import Reduced, acting_names
 from dynsolve.questions.forward_dynamics.explain import inverse_of_inertia
 from dynsolve.questions.task.explain import with_letters
 
@@ -55,9 +67,7 @@ def steps(context: Context) -> Iterator[Step]:
         yield Step(
             id="Ac_dot",
             title="Its rate",
-            why=say(
-                "The constraint differentiated once more: {kept}. Every entry by the chain rule.", kept=_KEPT
-            ),
+            why=say("$𝐀_c 𝐪̇ = 𝟎$ differentiated: {kept}. Every entry by the chain rule.", kept=_KEPT),
             formula=formula("𝐀̇_c = d/dt 𝐀_c"),
             source=mls("6.1.2"),
             result=(formula("𝐀̇_c = {rate}", rate=context.form("Ac_dot")),),
@@ -103,8 +113,8 @@ def _matrix(context: Context) -> Step:
     return Step(
         id="Ac",
         title="The constraint matrix",
-        why=say(f"{of_functions * slopes}{of_rates}$𝐀_c 𝐪̇ = 𝟎$."),
-        formula=formula("𝐀_c = ∂𝐡/∂𝐪" if slopes and not has_rates else "𝐀_c 𝐪̇ = 𝟎"),
+        why=say(f"{of_functions * slopes}{of_rates}{'' if has_rates else '$𝐀_c 𝐪̇ = 𝟎$.'}"),
+        formula=formula("𝐀_c 𝐪̇ = 𝟎" if has_rates else "𝐀_c = ∂𝐡/∂𝐪"),
         source=mls("6.1.1"),
         result=(equation(letters.A_C, context.form("Ac")),),
         uses=("hc",) if slopes else (),
@@ -128,6 +138,8 @@ def _multipliers(context: Context) -> Step:
     explicit = formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting)
     together = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] [𝐪̈; 𝛌] = [{acting}; -𝐀̇_c 𝐪̇]", acting=acting)
     concluding = "Put in, and cancelled:" if is_regular else "Solved for the multipliers:"
+    if not is_regular and not sign_of(context, _determinant_of_both(context)):
+        concluding = "Solved for the multipliers, where the determinant of the matrix is not 0:"
     if not is_regular:
         solved = say(
             "$𝐃$ has no inverse: its determinant is 0. So these equations and {kept} are solved together.",
@@ -153,19 +165,25 @@ def _multipliers(context: Context) -> Step:
 
 
 def _both(context: Context) -> Iterator[Line]:
-    """The matrix of both systems, where it can be read."""
-    shown = context.show(bordered(context.values["Ac"], context.values["D"]))
+    """The determinant of the matrix of both systems, where it can be read."""
+    shown = SetForms(context.robot, context.values).product(_determinant_of_both(context))
     if is_small(shown):
-        matrix = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] = {shown}", shown=shown)
-        yield Line(("The matrix, whose determinant is not 0:",), (matrix,), is_kept=True)
+        yield Line(
+            ("The determinant of the matrix:",), (formula("det [𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] = {shown}", shown=shown),)
+        )
+
+
+def _determinant_of_both(context: Context) -> Expr:
+    return determinant(bordered(context.values["Ac"], context.values["D"]))
 
 
 def _rates(context: Context) -> Iterator[Line]:
     """C q̇ and the rate of the constraint along q̇, where they can be read."""
     rate = context.values["Ac_dot"] @ velocities(context.robot)
-    turned = _ZERO if context.values["Cqd"].is_zero else context.forms("Cqd")
+    turned = context.values["Cqd"]
     along = _ZERO if rate.is_zero else context.show(rate)
-    nodes = [formula("𝐂 𝐪̇ = {turned}", turned=turned)] if is_small(turned) else []
+    is_told = not turned.is_zero and is_small(context.forms("Cqd"))
+    nodes = [formula("𝐂 𝐪̇ = {turned}", turned=context.forms("Cqd"))] if is_told else []
     nodes += [formula("𝐀̇_c 𝐪̇ = {along}", along=scalar(along))] if is_small(along) else []
     if nodes:
         yield Line(("The terms of the rates:",), tuple(nodes), is_kept=True)
@@ -193,8 +211,10 @@ def _reduced(context: Context) -> Iterator[Step]:
     right = driving_side(context, constrained=False)
     free, rows = formula("𝐙 = {shown}", shown=context.show(Z)), _free_rows(context, found)
     led = "Row by row" if len(rows) > 1 else "Multiplied out"
-    if rows and found.is_shorter:
-        led += f", without terms that are 0 by the constraint{'s' * (len(context.values['Ac'].rows) > 1)}"
+    zeros, is_divided = [], False
+    if rows:
+        zeros = [equation(without_number(context.show(zero)), Number(0)) for zero in found.zeros]
+        is_divided = any(shared != shared.ring.one for shared in found.divided)
     yield Step(
         id="reduced",
         title="The equations without the multipliers",
@@ -208,10 +228,17 @@ def _reduced(context: Context) -> Iterator[Step]:
             right=Parenthesized(right) if isinstance(right, Sum) else right,
         ),
         source=mls("6.1.3"),
-        lines=(Line(("The free rates:",), (free,)),) if rows else (),
-        concluding=(f"{led}:",) if rows else (),
+        lines=(Line(("The free rates:",), (free,), is_kept=True),) if rows else (),
+        concluding=say(
+            "{led}{zeros}{divided}:",
+            led=led,
+            zeros=say(", with {zeros}", zeros=listed(zeros)) if zeros else "",
+            divided=", divided by what both sides share" if is_divided else "",
+        )
+        if rows
+        else (),
         result=rows or (free,),
-        uses=("Ac",),
+        uses=("Ac", "D", *acting_names(context.robot)),
     )
 
 

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import product
 
 from msgspec import Struct
 
@@ -91,11 +90,16 @@ MOST_TERMS = 400
 
 
 class Reduced(Struct, frozen=True):
-    """Z, n×(n-c), and (left, right) of each equation; whether terms that constraints make 0 were left out."""
+    """Z, n×(n-c), and (left, right) of each equation.
+
+    `zeros` are products that constraints make 0, and that were put in; an equation is divided by what both
+    sides share, its entry in `divided`.
+    """
 
     free: Matrix
     equations: tuple[tuple[Expr, Expr], ...]
-    is_shorter: bool
+    zeros: tuple[Expr, ...]
+    divided: tuple[Expr, ...]
 
 
 def reduced(
@@ -113,36 +117,23 @@ def reduced(
     driving = driving_forces(robot)
     for Q in loads:
         driving = driving + Q
-    whole = (Z.T @ forces).entries
-    left = [without_zeros(value, kept) for value in whole]
-    return Reduced(Z, tuple(zip(left, (Z.T @ driving).entries, strict=True)), tuple(left) != whole)
+    products = [zero for zero in kept if len(zero) == 1]
+    used: dict[Expr, None] = {}
+    equations, divided = [], []
+    for whole, right in zip((Z.T @ forces).entries, (Z.T @ driving).entries, strict=True):
+        left = whole
+        for zero in products:
+            rest = divmod(left.poly, zero.poly)[1]
+            used |= {zero: None} if rest != left.poly else {}
+            left = Expr(left.ring, rest)
+        shared = left.ring.one if right.is_zero else Expr(left.ring, left.poly.gcd(right.poly))
+        equations.append((_divided(left, shared), _divided(right, shared)))
+        divided.append(shared)
+    return Reduced(Z, tuple(equations), tuple(used), tuple(divided))
 
 
-def without_zeros(value: Expr, zeros: Sequence[Expr]) -> Expr:
-    """A value less multiples of what is 0, as long as terms fall away and none is new.
-
-    >>> from dynsolve.algebra.ring_values import build_ring
-    >>> from dynsolve.notation.tree import Symbol
-    >>> ring = build_ring([], [Symbol("a"), Symbol("b"), Symbol("m")])
-    >>> a, b, m = map(ring.symbol, "abm")
-    >>> without_zeros(m * a - m * b + a * a, [a - b])
-    Expr(1*a^2)
-    """
-    while (shorter := next(_shorter(value, zeros), None)) is not None:
-        value = shorter
-    return value
-
-
-def _shorter(value: Expr, zeros: Sequence[Expr]) -> Iterator[Expr]:
-    terms = value.poly.to_dict()
-    for zero in zeros:
-        for (lead, number), (exponents, factor) in product(zero.poly.to_dict().items(), terms.items()):
-            rest = tuple(have - need for have, need in zip(exponents, lead, strict=True))
-            if min(rest, default=0) < 0:
-                continue
-            found = value - Expr(value.ring, value.ring.ctx.from_dict({rest: factor / number})) * zero
-            if len(found) < len(terms) and found.poly.to_dict().keys() <= terms.keys():
-                yield found
+def _divided(value: Expr, factor: Expr) -> Expr:
+    return Expr(value.ring, divmod(value.poly, factor.poly)[0])
 
 
 # Forward dynamics, put back

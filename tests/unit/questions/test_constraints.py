@@ -9,10 +9,14 @@ import sympy
 
 import dynsolve
 from dynsolve.errors import ProblemError, VerificationError
+from dynsolve.explain.context import style_of
 from dynsolve.notation.tree import Matrix, Negative
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem.reader import find
 from dynsolve.questions.constraints.check import verify_constraints
+from dynsolve.render.files import Format
+from dynsolve.solution.leading import leading
+from dynsolve.solution.reports import report
 from tests.support import numbers
 
 ELBOW = """
@@ -133,7 +137,29 @@ def test_what_the_constraint_makes_zero_stands_in_no_equation() -> None:
     """2m r ṙ φ̇, where r is held (by hand)."""
     rows, told = reduced_rows(HOOP)
     assert rows == ["m r² φ̈ + m g r sin(φ) = 0"]
-    assert "without terms that are 0 by the constraint" in told
+    assert "Multiplied out, with " in told and "0 by" not in told
+
+
+SLIDE = """
+model:
+  coordinates: {x: prismatic, q: revolute}
+  L: m*x'^2/2 + m*l*x'*q'*cos(q) + (m*l^2 + J)*q'^2/2
+constraints: [x - r*q]
+find: [reduced]
+"""
+
+
+def test_an_equation_is_not_half_put_in() -> None:
+    """r times the first equation and the second (by hand), with no ẍ = r q̈ in some of the terms."""
+    rows, told = reduced_rows(SLIDE)
+    assert rows == ["m (r + l cos(q)) ẍ + (m (l² + l r cos(q)) + J) q̈ - m l r sin(q) q̇² = r f₁ + τ₂"]
+    assert told == "('Multiplied out:',)"
+
+
+def test_what_stands_in_the_equations_without_multipliers_is_shown_before() -> None:
+    solution = dynsolve.solve(SLIDE)
+    told = [step.id for step in leading(solution, solution.steps)]
+    assert {"D", "C", "g", "Ac"} <= set(told[: told.index("reduced")])
 
 
 RAMP = """
@@ -151,6 +177,39 @@ masses: [{mass: m, link: 1}]
 constraints: [tip.y]
 find: [D, Cqd, g, Ac, Ac_dot, lambda]
 """
+
+
+FIVE_BAR = """
+gravity: none
+dh:
+  - {theta: q1*, a: l1}
+  - {theta: q2*, a: l2}
+  - {from: 0, a: c}
+  - {from: 3, theta: q3*, a: l1}
+  - {from: 4, theta: q4*, a: l2}
+points: {A: {link: 2}, B: {link: 5}}
+masses: [{mass: m, link: 1}, {mass: m, link: 4}]
+constraints: [A.x - B.x, A.y - B.y]
+passive: [q2, q4]
+find: [D, tau, Ac, lambda, reduced]
+"""
+
+
+def test_where_both_systems_have_no_solution_is_told() -> None:
+    """By hand: with the distal links in line their masses' motion does not fix the multipliers."""
+    solution = dynsolve.solve(FIVE_BAR)
+    steps = {step.id: step for step in solution.steps}
+    told = str(steps["lambda"].concluding)
+    assert "where the determinant of the matrix is not 0" in told
+    (size,) = steps["lambda"].lines[-1].formulas
+    assert "c₃₄ - c₁₂ s₃₄)²" in to_unicode(size, style_of(solution.robot))
+    assert "𝐂" not in to_unicode(steps["lambda"].formula)
+    assert "m l₁² q̈₁ = τ₁" in unicodedata.normalize("NFC", to_unicode(steps["reduced"].result[1]))
+
+
+def test_the_free_rates_are_shown_however_wide() -> None:
+    text = report(dynsolve.solve(FIVE_BAR), Format.TEXT).decode()
+    assert "Z₁₁ = " in text[text.index("The free rates:") :]
 
 
 @pytest.mark.parametrize("text", [RAMP, SLOT])
