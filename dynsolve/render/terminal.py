@@ -18,7 +18,7 @@ from msgspec.structs import replace
 
 from dynsolve.document import Document, Equations, Fold, Formula, Heading, Picture, Prose, Table, Text
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Letter, Matrix, Node, Relation, Row
+from dynsolve.notation.tree import Letter, Matrix, Node, Relation, Row, equation, mapped, walk
 from dynsolve.notation.unicode import UnicodePrinter, printable, width
 from dynsolve.render.page import Page
 from dynsolve.render.terminal_boxes import (
@@ -152,9 +152,10 @@ def _set_in_boxes(formula: Formula, printer: UnicodePrinter, room: int) -> list[
     boxes = [beside([TextBox.of(lead), piece]) for lead, piece in groups if isinstance(piece, TextBox)]
     if len(boxes) == len(groups) and sum(box.width for box in boxes) <= room:
         return list(beside(boxes).lines)
-    if formula.otherwise and any(
-        isinstance(piece, Matrix) and not _is_alone(piece, formula.node) for _, piece in groups
-    ):
+    within = [
+        piece for _, piece in groups if isinstance(piece, Matrix) and not _is_alone(piece, formula.node)
+    ]
+    if formula.otherwise and within:
         found = [set_formula(each, printer, room) for each in formula.otherwise]
         return [line for lines in found for line in (*lines, "")][:-1]
     fitted = fitting(formula, lambda node: _fits(node, printer, room))
@@ -162,6 +163,10 @@ def _set_in_boxes(formula: Formula, printer: UnicodePrinter, room: int) -> list[
         return []
     if fitted is not formula:
         return _set_in_boxes(fitted, printer, room)
+    if within:
+        apart = [Formula(node) for node in _named_apart(formula.node, within)]
+        found = [set_formula(each, printer, room) for each in apart]
+        return [line for lines in found for line in (*lines, "")][:-1]
     if isinstance(formula.node, Row) and len(parts := list(listed(formula.node))) > 1:
         return _set_several(parts, formula, printer, room)
     members = list(_members(groups))
@@ -223,6 +228,32 @@ def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:
 def _is_alone(matrix: Matrix, node: Node) -> bool:
     """Whether a matrix is a side of an equation, so that its entries may be listed in its place."""
     return matrix in (node.parts if isinstance(node, Relation) else (node,))
+
+
+def _named_apart(node: Node, matrices: Sequence[Matrix]) -> Iterator[Node]:
+    """A formula with letters for matrices in it, and what these are; one that says the letter is not new."""
+    own = iter("MNSW")
+    names: dict[Node, Node] = {
+        matrix: _counterpart(node, matrix) or Letter(next(own), style="bold") for matrix in matrices
+    }
+    told = mapped(node, lambda part: names.get(part, part))
+    if not isinstance(told, Relation) or len(set(told.parts)) > 1:
+        yield told
+    yield from (equation(name, matrix) for matrix, name in names.items())
+
+
+def _counterpart(node: Node, matrix: Matrix) -> Node | None:
+    """A with which one side of an equation is as another with the matrix, as in det A = det [...]."""
+    if isinstance(node, Relation):
+        for letter in (part for part in walk(node) if isinstance(part, Letter)):
+            sides = [_put(letter, matrix, side) for side in node.parts]
+            if len(set(sides)) < len(sides):
+                return letter
+    return None
+
+
+def _put(letter: Letter, matrix: Matrix, node: Node) -> Node:
+    return mapped(node, lambda part: letter if part == matrix else part)
 
 
 def _width(member: Sequence[Group], room: int) -> int:

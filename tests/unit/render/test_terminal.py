@@ -7,6 +7,7 @@ import pytest
 from dynsolve.document import Document, Fold, Formula, Heading, List, Note, Table, Text
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.template import formula
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     ZERO,
@@ -222,3 +223,13 @@ def test_zeros_without_a_letter_are_told_in_words() -> None:
     assert texts(D) == ["D₁₁ = a", "D₁₂ = D₂₁ = D₂₂ = 0"]
     assert texts(Sum((D, Negative(D)))) == ["(D - D)₁₁ = a", "every other entry = 0"]
     assert texts(Sum((D, Negative(D))), Matrix(((ZERO,), (ZERO,)))) == ["(D - D)₁ = (D - D)₂ = 0"]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [("det (𝐀 𝐁) = det {wide}", ["det (A B) = det M", "M₁₁ = "]), ("det 𝐀 = det {wide}", ["A₁₁ = "])],
+)
+def test_a_wide_matrix_within_a_formula_is_named_apart(text: str, told: list[str]) -> None:
+    wide = matrix("abcdefgh + ijklmnop, 0", "0, abcdefgh - ijklmnop")
+    shown = [line for line in lines(Formula(formula(text, wide=wide)), columns=44) if line.strip()]
+    assert all(line.strip().startswith(start) for line, start in zip(shown, told, strict=False))
