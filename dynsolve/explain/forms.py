@@ -32,7 +32,7 @@ from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.geometry import Turn, parallel_groups
+from dynsolve.robot.geometry import Turn, parallel_groups, turned_otherwise
 from dynsolve.robot.model import Convention, JointType, Robot
 
 LONG = 300
@@ -291,7 +291,8 @@ def is_numeric(robot: Robot) -> bool:
 def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
     """The names whose angles add up: coordinates that turn about parallel axes, constant angles beside them.
 
-    Without joints all coordinates that turn.  A constant angle is with the joints before what it stands in.
+    Without joints all coordinates that turn.  A constant angle is with the joints before what it stands in,
+    but not where it turns about another axis.
     """
     if not robot.has_table:
         turning = frozenset(q.name for q in robot.coordinates if q.type is JointType.REVOLUTE)
@@ -299,9 +300,10 @@ def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
     turns = [
         Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
     ]
-    runs = parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)
+    modified = robot.convention is Convention.MODIFIED
+    runs = parallel_groups(turns, robot.ring.names, modified)
     if len(runs) == 1:
-        return [runs[0] | _constant_angles(robot)]
+        return [runs[0] | _constant_angles(robot) - turned_otherwise(turns, modified)]
     placed = [(body.link, body.center) for body in robot.bodies]
     placed += [(point.link, point.position) for point in robot.questions.points]
     for link, place in placed:

@@ -34,6 +34,7 @@ from dynsolve.robot.model import Axes, AxesKind, Convention, Joint, Robot, path_
 
 _TOLERANCE = 1e-9
 
+Column = tuple[float, ...]
 Rotation = tuple[tuple[float, float, float], ...]
 
 
@@ -73,6 +74,31 @@ def parallel_groups(
         frozenset(name for angle in run for name in names_of(angle) if name in coordinates)
         for run in _runs(turns, coordinates, modified)
     ]
+
+
+def turned_otherwise(turns: Sequence[Turn], modified: bool) -> frozenset[str]:
+    """The names in constant angles of the table about axes that the first revolute axis is not parallel to.
+
+    The revolute axes are parallel.  Such an angle, as a twist, adds to none about them.
+    """
+    ends: list[Rotation] = [_about_z(0.0)]
+    turned: list[tuple[Angle, Column]] = []
+    own: Column | None = None
+    for row, turn in enumerate(turns):
+        before, after = _constant_rotations(turn, (), modified)
+        at_axis = _times(ends[row if turn.start is None else turn.start], before)
+        x, _, z = zip(*at_axis, strict=True)
+        own = z if own is None and turn.revolute else own
+        turned += [(turn.theta, z), (turn.alpha, x)]
+        ends.append(_times(at_axis, after))
+    if own is None:
+        return frozenset()
+    others = (names_of(angle) for angle, about in turned if not _are_parallel(about, own))
+    return frozenset(name for names in others for name in names)
+
+
+def _are_parallel(one: Column, other: Column) -> bool:
+    return abs(abs(sum(x * y for x, y in zip(one, other, strict=True))) - 1) < _TOLERANCE
 
 
 def _runs(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -> list[list[Angle]]:

@@ -43,3 +43,19 @@ def test_squares_are_worked_out_along_axes_where_they_are_short() -> None:
     slide = "dh: [{theta: q1*, a: a, alpha: 90deg}, {d: q2* + d0, alpha: -90deg}, {theta: q3*, a: l}]\n"
     shown = page(slide + "masses: [{mass: m, link: 3, center: [-u, w, 0], inertia: {zz: I}}]\nfind: [K]\n")
     assert "(𝐑₂⁰)ᵀ 𝐯₁" in shown
+
+
+def test_a_twist_about_another_axis_stands_in_products() -> None:
+    shown = page(TILTED.replace("[K]", "[K, tau]"))
+    assert "s₃ sin(β)" in shown
+    assert "q₃ - β" not in shown and "q₃ + β" not in shown
+
+
+def test_a_constant_angle_about_the_joints_axis_stands_in_sums() -> None:
+    bent = """
+dh: [{theta: q1*, a: l1}, {theta: beta, a: l2}, {theta: q2*, a: l3}]
+masses: [{mass: m, link: 3, center: tip, shape: point}]
+"""
+    assert "cos(q₁ + q₂ + β)" in page(bent)
+    turned = "dh: [{theta: q1*, alpha: 90deg}, {theta: 90deg, alpha: beta}, {theta: -90deg, d: d}]\n"
+    assert "cos(q₁ + β)" in page(turned)
