@@ -14,7 +14,7 @@ from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import STATED, Detail, Group, Part, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.working.derivatives import cancelling, coordinate_derivative, momentum_rate
-from dynsolve.explain.working.identities import Way, doubled_angles
+from dynsolve.explain.working.identities import Way, new_angles
 from dynsolve.explain.writing import listed, spong, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Negative, Symbol, equation, number
@@ -38,8 +38,8 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     if i == 1:
         why = say(
             "In $∂ℒ/∂q̇_i$ and $∂ℒ/∂q_i$ everything else is held fixed; in d/dt all that changes with time is "
-            "differentiated (product and chain rule).{doubled}{outside}{held}",
-            doubled=_doubled(context),
+            "differentiated (product and chain rule).{collected}{outside}{held}",
+            collected=_of_new_angles(context),
             outside=say(" $Q_i$ is what acts from outside.") if context.robot.questions.loads else "",
             held=say(" $𝐀_cᵀ 𝛌$ is what the constraints do.") if context.robot.questions.constraints else "",
         )
@@ -97,8 +97,8 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     )
 
 
-def _doubled(context: Context) -> Prose:
-    """What the sines and cosines of doubled angles stand for that are met first in these results."""
+def _of_new_angles(context: Context) -> Prose:
+    """What sines and cosines stand for whose angles are met first in these results."""
     if context.is_in_letters:
         return ()
     made = [
@@ -107,8 +107,7 @@ def _doubled(context: Context) -> Prose:
         for stem in ("ddt", "dLdq", "tau")
     ]
     made += [one.meaning for one in context.names.sums] if context.names else []
-    known = set(doubled_angles(context.result("L")))
-    new = [each for each in dict.fromkeys(doubled_angles(*made)) if each not in known]
+    new = new_angles(context.robot.ring, [context.form("L")], made)
     return say(" The results are collected with {these}.", these=listed(new)) if new else ()
 
 

@@ -21,7 +21,7 @@ from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.recurring import expanded_once
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.differentiation import product_of
-from dynsolve.explain.working.identities import doubled_angles
+from dynsolve.explain.working.identities import new_angles
 from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, total
@@ -225,7 +225,7 @@ class BodyShare(Struct, frozen=True, dict=True):
         rows = zip(self._shown(self.first.column).rows, self._shown(self.last.column).rows, strict=True)
         entries = Parenthesized(total([product_of(1, [(a, 1), (b, 1)]) for (a,), (b,) in rows]))
         linear, angular = show(self.linear), show(self.angular)
-        used = list(dict.fromkeys(doubled_angles(linear, angular)))
+        used = new_angles(self.context.robot.ring, self._factors(), [linear, angular])
         return Line(
             (f"Multiplied, for body {self.body.name}", *((", with ", *listed(used)) if used else ()), ":"),
             (
@@ -233,6 +233,12 @@ class BodyShare(Struct, frozen=True, dict=True):
                 equation(*turned, angular),
             ),
         )
+
+    def _factors(self) -> list[Node]:
+        """What is multiplied: the columns, the axes and the tensor."""
+        tensor = self.context.values[f"I_body{self.body.name}"]
+        vectors = [x for side in (self.first, self.last) for x in (side.column, side.axis)]
+        return [self.context.show(each) for each in (*vectors, tensor)]
 
     def _turned(self, vector: Node) -> Node:
         """Rᵀ times a vector, in letters."""

@@ -27,7 +27,7 @@ from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.vectorized import checked, coriolis, direct, from_energies, gravity, inertia, rest
 from dynsolve.explain.working.derivatives import coriolis_sums
 from dynsolve.explain.working.differentiation import by_symbol, differentiated
-from dynsolve.explain.working.identities import Way, doubled_angles
+from dynsolve.explain.working.identities import Way, new_angles
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign, summands, times
@@ -306,7 +306,8 @@ def christoffel_example(context: Context, row: int, column: int) -> tuple[Line, 
     return (
         Line(("For example:",), (first,)),
         Line(
-            ("The names are differentiated as they were defined", *_with_doubled(context, names), ":"), names
+            ("The names are differentiated as they were defined", *_with_new_angles(context, names), ":"),
+            names,
         ),
         Line(("With these:",), entries),
         Line(("Put in:",), (equation(*dict.fromkeys((name, put_in, once, form))),)),
@@ -314,15 +315,13 @@ def christoffel_example(context: Context, row: int, column: int) -> tuple[Line, 
     )
 
 
-def _with_doubled(context: Context, slopes: Sequence[Relation]) -> Prose:
-    """The identities by which derivatives of names are names that have sines or cosines of twice an angle."""
+def _with_new_angles(context: Context, slopes: Sequence[Relation]) -> Prose:
+    """The identities by which derivatives of names are names that have sines or cosines of other angles."""
     meanings = {one.name: one.meaning for one in names_of(context).sums}
     found: dict[Relation, None] = {}
     for relation in slopes:
         named = [meanings[node] for node in walk(relation.parts[-1]) if node in meanings]
-        found |= dict.fromkeys(doubled_angles(*named))
-        for known in doubled_angles(*relation.parts):
-            found.pop(known, None)
+        found |= dict.fromkeys(new_angles(context.robot.ring, relation.parts, named))
     return (", with ", *listed(list(found))) if found else ()
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache, partial
+from itertools import chain as chained
 from itertools import islice
 from math import prod
 
@@ -41,12 +42,12 @@ from dynsolve.notation.tree import (
     Product,
     Quotient,
     Relation,
+    Row,
     Sum,
     Transpose,
     equation,
     mapped,
     walk,
-    walk_once,
 )
 from dynsolve.notation.unicode import to_unicode
 
@@ -151,13 +152,10 @@ def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
     return [angle for angle, pair in stand_in.items() if pair.angle in squared]
 
 
-def doubled_angles(*nodes: Node) -> Iterator[Relation]:
-    """What cos(2θ) and sin(2θ) stand for, where they do in trees: c² - s² = cos(2θ), 2 s c = sin(2θ)."""
-    functions = dict.fromkeys(part for part in walk_once(*nodes) if isinstance(part, Function))
-    for part in functions:
-        match part:
-            case Function("sin" | "cos" as name, Product((Number(2, 1), angle))):
-                yield equation(formula(_TWICE[name], A=angle), part)
+def new_angles(ring: Ring, before: Iterable[Node], after: Iterable[Node]) -> list[Relation]:
+    """What sines and cosines stand for of angles that are met first `after`: c² - s² = cos(2θ)."""
+    found = _additions(ring, Row(tuple(before)), Row(tuple(after)))
+    return list(dict.fromkeys(each.relation for each in found))
 
 
 def pythagoras(angle: Node) -> Identity:
@@ -183,8 +181,9 @@ def _additions(ring: Ring, before: Node, after: Node) -> Iterator[Identity]:
     for angle, names in angles_in(after).items():
         if angle in old or -angle in old:
             continue
-        found = ((a, b, sign) for sign in (-1, 1) for a in old for b in old if a + b * sign == angle)
-        for a, b, sign in islice(found, 1):
+        twice = ((a, a, 1) for a in old if a + a == angle)
+        added = ((a, b, sign) for sign in (-1, 1) for a in old for b in old if a + b * sign == angle)
+        for a, b, sign in islice(chained(twice, added), 1):
             yield from (_addition(ring, name, angle, a, b, sign) for name in sorted(names))
 
 

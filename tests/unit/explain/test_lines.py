@@ -59,3 +59,21 @@ masses: [{mass: m, link: 3, center: tip, shape: point}]
     assert "cos(q₁ + q₂ + β)" in page(bent)
     turned = "dh: [{theta: q1*, alpha: 90deg}, {theta: 90deg, alpha: beta}, {theta: -90deg, d: d}]\n"
     assert "cos(q₁ + β)" in page(turned)
+
+
+LEANING = """
+gravity: [0, 0, -g]
+dh:
+  - {theta: q1*, alpha: 90deg}
+  - {theta: q2*, d: e, a: l2}
+  - {theta: q3*, a: l3}
+masses:
+  - {mass: m2, link: 2, center: midpoint, inertia: {xx: A, yy: B, zz: C, xy: E}}
+  - {mass: m3, link: 3, center: tip, shape: point}
+"""
+
+
+def test_every_angle_that_a_force_is_collected_with_is_told() -> None:
+    shown = " ".join(page(LEANING).split())
+    assert "collected with c₂² - s₂² = cos(2q₂) and s₂ c₂₃ + c₂ s₂₃ = sin(2q₂ + q₃)." in shown
+    assert "sin(2q₂ + q₃)" in shown.partition("collected with")[2].partition("sin(2q₂ + q₃)")[2]
