@@ -438,21 +438,23 @@ def _adds(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "{&} <is|are> the moment[s] of inertia about {&} of all that joint[s] <...> move[s],...",
-    "{&} <is|are> the moment[s] of inertia of all that joint[s] #& move[s][, ...]: in simple poses the ...",
+    "{&} <is|are> the moment[s] of inertia about {&} of <all|the bodies> that joint[s] <...> move[s],...",
+    "{&} <is|are> the moment[s] of inertia of <all|the bodies> that joint[s] #& move[s][, ...]: in simple "
+    "poses the ...",
 )
 def _moments(m: Mechanism, s: Sentence) -> bool:
     entries = [node for node in s.formulas if plain(node).startswith("d")]
     axes = [int(plain(node)[1:]) for node in s.formulas[len(entries) :]]
-    joints = [int(joint) for joint in re.findall(r"\d+", s.words[1])]
+    joints = [int(joint) for joint in re.findall(r"\d+", " ".join(s.words))]
     for k, d in enumerate(entries):
         for p in m.points():
             z, o = (m.frame(axes[k], p)[:3, 2:] if axes else m.axis(joints[k], p)).T
-            moment = 0.0
-            for body in m.moved_by(m.coordinates[int(plain(d)[1:]) % 10 - 1]):
+            place = int(plain(d)[1:]) % 10 - 1
+            moment = m.of_rotors(place, joints[k], z, p) if "rotor" in s.text else 0.0
+            for body in m.moved_by(m.coordinates[place]):
                 arm = np.cross(z, np.ravel(m.result(f"rc{body.name}", p)) - o)
                 moment += m.mass(body, p) * arm @ arm + z @ m.result(f"I{body.name}", p) @ z
-            if not near(moment, m.value(d, p)) and not ("rotor" in s.text and moment < m.value(d, p)):
+            if not near(moment, m.value(d, p)):
                 return False
     return True
 

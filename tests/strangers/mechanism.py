@@ -126,6 +126,17 @@ class Mechanism:
     def mass(self, body: Any, point: Point) -> float:
         return float(self.value(self.solution.forms.of(body.mass), point))
 
+    def of_rotors(self, place: int, joint: int, axis: Any, point: Point) -> float:
+        """What the rotors add to a moment of inertia: each turns by its gear and with its carrier."""
+        robot, form, total = self.solution.robot, self.solution.forms.of, 0.0
+        for rotor in robot.actions.rotors:
+            rate = self.value(form(rotor.ratio), point) if rotor.turns == place else 0.0
+            carriers = robot.path(rotor.carrier) if rotor.carrier else ()
+            if any(each.index == joint for each in carriers):
+                rate += self.frame(rotor.carrier, point)[:3, rotor.axis] @ axis
+            total += self.value(form(rotor.inertia), point) * rate**2
+        return float(total)
+
     def moved_by(self, coordinate: str) -> list[Any]:
         bodies = self.solution.robot.bodies
         return [body for body in bodies if self.changes(partial(self.pose, body.name), (coordinate,))]
@@ -263,8 +274,9 @@ class Mechanism:
 
     def axis(self, joint: int, point: Point) -> Any:
         """The direction of a joint's axis, and a point on it."""
-        standard = self.solution.robot.convention.value == "standard"
-        return self.frame(joint - standard, point)[:3, 2:]
+        robot = self.solution.robot
+        parent = robot.joints[joint - 1].parent
+        return self.frame(parent if robot.convention.value == "standard" else joint, point)[:3, 2:]
 
     @property
     def jacobian(self) -> str:

@@ -148,3 +148,37 @@ find: [D, Ac]
     text = Text(("No motor drives: the energy is conserved. ",))
     assert wrong(skate, "", text) == []
     assert wrong(f"{skate}friction: {{x: b}}\n", "", text) == ["is not true"]
+
+
+BRANCHES = """
+convention: standard
+dh:
+  - {theta: q1*, a: a1, alpha: 90deg}
+  - {theta: q2*, a: a2}
+  - {theta: q3*, a: a3, from: 1}
+masses:
+  - {mass: m2, link: 2, center: midpoint, inertia: {zz: J2}}
+  - {mass: m3, link: 3, center: midpoint, inertia: {zz: J3}}
+"""
+MOTOR = BRANCHES + "motors: [{turns: q2, inertia: Jm, ratio: n, carrier: 1}]\n"
+
+
+@pytest.mark.parametrize(
+    ("problem", "text", "is_true"),
+    [
+        (BRANCHES, "all that joint {joint} moves", True),
+        (MOTOR, "all that joint {joint} moves", False),
+        (MOTOR, "the bodies that joint {joint} moves, with what the rotor adds", True),
+    ],
+)
+def test_a_reflected_inertia_is_no_moment_of_inertia_of_what_moves(
+    problem: str, text: str, is_true: bool
+) -> None:
+    """And the axis of a joint on a branch is that of the row it starts from."""
+    words = (
+        f"{{d}} is the moment of inertia of {text}: in simple poses the parallel-axis theorem gives the same."
+    )
+    entries = {2: letters.entry("d", 2, 2), 3: letters.entry("d", 3, 3)}
+    for joint in (2, 3) if is_true else (2,):
+        told = Text(say(words, d=entries[joint], joint=str(joint)))
+        assert wrong(problem, "", told) == ([] if is_true else ["is not true"])

@@ -54,20 +54,24 @@ def inertia_poses_step(context: Context) -> Step | None:
     moved = [context.robot.joints_of(q)[0][0] for q in shown]
     after = [j.index for j in context.robot.joints if j.type and j.index > moved[0].index]
     following = f"joint {after[0]}" if len(after) == 1 else "the joints after it"
+    added = "the rotor adds" if len(context.robot.actions.rotors) == 1 else "the rotors add"
+    rotors = f", with what {added}" if has_rotors else ""
+    all_that = "the bodies that" if has_rotors else "all that"
     one = len(shown) == 1
     numbers = and_joined([str(joint.index) for joint in moved])
     are = "is the moment" if one else "are the moments"
     why = say(
-        "{names} {are} of inertia about {axes} of all that {moved} held: each mass times the square of its "
-        "distance from the axis, and each body's moment of inertia about the parallel axis through its mass "
-        "centre{rotors}. In simple poses this gives what $𝐃${where} has there:",
+        "{names} {are} of inertia about {axes} of {all_that} {moved} held{rotors}: each mass times the "
+        "square of its distance from the axis, and each body's moment of inertia about the parallel axis "
+        "through its mass centre. In simple poses this gives what $𝐃${where} has there:",
         names=names,
         are=are,
         axes=listed([letters.z(joint_frame(context.robot, joint)) for joint in moved]),
         moved=f"joint {numbers} moves, {following}"
         if one
         else f"joints {numbers} move, respectively, the joints after them",
-        rotors=", and those of the rotors" if has_rotors else "",
+        all_that=all_that,
+        rotors=rotors,
         where=Reference(looked_at(context, "D", [context.result("D")]), " in "),
     )
     return Step(
@@ -77,10 +81,11 @@ def inertia_poses_step(context: Context) -> Step | None:
         source=spong("7.2"),
         table=Table(("pose", "moment of inertia"), tuple(chain(*shown.values()))),
         outcome=say(
-            "{names} {are} of inertia of all that {joints}{rotors}: in simple poses the parallel-axis "
+            "{names} {are} of inertia of {all_that} {joints}{rotors}: in simple poses the parallel-axis "
             "theorem gives the same{of_rotors}.",
             joints=f"joint {numbers} moves" if one else f"joints {numbers} move",
-            rotors=", with the rotors that turn with them" if has_rotors else "",
+            all_that=all_that,
+            rotors=rotors,
             of_rotors=" for the bodies" if has_rotors else "",
             names=names,
             are=are,
