@@ -292,29 +292,37 @@ def _general(step: Solved) -> Node | None:
     return None
 
 
+def _existence(formulas: InverseFormulas, step: Solved) -> Node | None:
+    """The condition under which an unknown has its values; None where it always has."""
+    match step:
+        case OneLine(_, cosine, sine, value) if value.is_zero:
+            return None
+        case OneLine(_, cosine, sine, value) if cosine.is_zero or sine.is_zero:
+            return formula("-1 ≤ {ratio} ≤ 1", ratio=formulas.ratio(value, cosine + sine))
+        case OneLine():
+            return formulas.boundary(step)
+        case RootLength():
+            return formula("{radicand} ≥ 0", radicand=formulas.radicand(step))
+    return None
+
+
 def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Prose]:
     """When there is a solution, and when there are infinitely many."""
     if turn is not None and turn.is_wrist:
         yield from _wrist_notes(forms.inverse_formulas, turn, step)
         return
     formulas, q = forms.inverse_formulas, Symbol(step.coordinate)
-    there: Node | None = None
     factors: list[Expr] = []
     match step:
         case OneLine(_, cosine, sine, value) if value.is_zero:
             factors = [sine, cosine]
-        case OneLine(_, cosine, sine, value) if cosine.is_zero or sine.is_zero:
-            there = formula("-1 ≤ {ratio} ≤ 1", ratio=formulas.ratio(value, cosine + sine))
+        case OneLine(_, cosine, sine) if cosine.is_zero or sine.is_zero:
             yield from _needs(forms, cosine + sine)
-        case OneLine():
-            there = formulas.boundary(step)
-        case RootLength():
-            there = formula("{radicand} ≥ 0", radicand=formulas.radicand(step))
         case Length():
             yield from _needs(forms, step.factor)
         case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
             factors = [factor for factor in (cosine, sine) if not factor.is_zero]
-    if there is not None:
+    if (there := _existence(formulas, step)) is not None:
         text = "There are solutions where {there}; on the boundary, with =, the two solutions are one."
         yield say(text, there=there)
     if factors and not any(is_positive(factor * factor) for factor in factors) and _may_vanish(factors):
@@ -551,10 +559,13 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     choices = _choices(forms, solving)
     is_free = forms.target is None and len(set(forms.when)) <= 1 and _is_every_choice(forms, choices)
     one, several = ("solution", "solutions") if forms.target is None else ("branch", "branches")  # of numbers
-    there_are = f"there are {count} {several}" if count > 1 else f"there is one {one}"
+    is_certain = _exist_together(forms.inverse_formulas, choices.values())
+    there_are = f"there are {'' if is_certain else 'at most '}{count} {several}"
+    there_are = there_are if count > 1 else f"there is one {one}"
     if is_free and choices:
         two = "{q} has two values: {there_are}."
-        each = "{q} have two values each, and every choice gives a solution: {there_are}."
+        gives = "every choice gives a solution" if is_certain else "every choice that exists gives a solution"
+        each = f"{{q}} have two values each, and {gives}: {{there_are}}."
         chosen = listed([Symbol(step.coordinate) for step in choices.values()])
         together = say(each if len(choices) > 1 else two, q=chosen, there_are=there_are)
     else:
@@ -568,7 +579,7 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     is_of_others = count > 1 and not names_in(*shown).isdisjoint(names)
     return Step(
         id=_id_of_branches(forms),
-        title=f"The {one}" if count == 1 else f"The {count} {several}",
+        title=f"The {one}" if count == 1 else f"The {count} {several}" if is_certain else f"The {several}",
         why=say(
             "{together} {each} is put into {task} to see that it gives what is asked. {same}",
             together=together,
@@ -603,6 +614,13 @@ def _choices(forms: InverseForms, solving: Solving) -> dict[int, Solved]:
     """The unknowns that have two values, by their places among all."""
     found = enumerate(solving.solved)
     return {k: step for k, step in found if len(forms.inverse_formulas.solutions(step)) > 1}
+
+
+def _exist_together(formulas: InverseFormulas, choices: Collection[Solved]) -> bool:
+    """Whether no choice decides whether another unknown has values at all."""
+    conditions = [_existence(formulas, step) for step in choices]
+    names = names_in(*(there for there in conditions if there is not None))
+    return names.isdisjoint(step.coordinate for step in choices)
 
 
 def _is_every_choice(forms: InverseForms, choices: Collection[int]) -> bool:

@@ -386,3 +386,11 @@ def test_names_in_a_summary_without_the_model_are_told_there() -> None:
     summary = page(problem).partition("Summary")[2]
     assert set("σ₁ σ₂ σ₃".split()) <= set(re.findall(r"σ.", summary))
     assert re.search(r"In the results below.*:\n\n    σ₁ = .*\n    σ₂ = .*\n    σ₃ = ", summary)
+
+
+def test_as_many_solutions_are_promised_as_there_may_be() -> None:
+    """With l2 < l1 the second value of q1 leaves no q2, by sqrt(r1² + r3²) + l1 ≤ l2."""
+    lifted = "dh: [{d: z*}, {theta: q1*, a: l1, alpha: 90deg}, {theta: q2*, a: l2}]\n"
+    text = in_one_line(f"gravity: none\n{lifted}task: [tip.x, tip.y, tip.z]\nfind: [inverse]")
+    assert "every choice that exists gives a solution: there are at most 4 solutions." in text
+    assert "The 4 solutions" not in text
