@@ -33,8 +33,10 @@ from dynsolve.draw.vectors import (
     scale,
     scaled,
     segment_distance,
+    subtract,
     toward,
 )
+from dynsolve.notation.build import negated
 from dynsolve.notation.tree import Degrees, Negative, Node, Words
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType, Robot
@@ -93,7 +95,9 @@ def row_lengths(robot: Robot, pose: Pose) -> list[Length]:
         _, d, a, _ = joint.written
         if distance(leg.foot, leg.head) > NEAR:
             slides = joint.type is JointType.PRISMATIC
-            found.append(Length(leg.foot, leg.head, d if slides else unsigned(d), varies=slides))
+            is_back = dot(subtract(leg.head, leg.foot), leg.axis) < 0
+            slid = negated(d) if is_back else d
+            found.append(Length(leg.foot, leg.head, slid if slides else unsigned(d), varies=slides))
         start, end = (leg.start, leg.foot) if distance(leg.start, leg.foot) > NEAR else (leg.head, leg.end)
         if distance(start, end) > NEAR:
             found.append(Length(start, end, unsigned(a)))
