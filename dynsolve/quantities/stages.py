@@ -41,12 +41,12 @@ class Stage(StrEnum):
     NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", ASKED, OF_A_TABLE
     VECTORIZED = "vectorized", "The matrix form", OF_MASSES
     PARAMETERS = "parameters", "Linear in the parameters", ASKED, OF_MASSES
+    STATICS = "statics", "Statics", ASKED, OF_A_TABLE
     CONSTRAINTS = "constraints", "Constraints", ASKED
     EQUILIBRIA = "equilibria", "Equilibria and linearization", ASKED, OF_MASSES
     FORWARD_DYNAMICS = "forward_dynamics", "Forward dynamics", ASKED, OF_MASSES
     TASK_INERTIA = "task_inertia", "Inertia as the task meets it", ASKED, OF_MASSES, OF_A_TABLE, OF_A_TASK
     DEFINITE = "definite", "Inertia matrices: symmetric, positive definite", ASKED
-    STATICS = "statics", "Statics", ASKED, OF_A_TABLE
 
     def __new__(cls, value: str, heading: str = "", *needs: str) -> Stage:
         """The member of that value."""

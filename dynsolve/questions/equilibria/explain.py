@@ -440,6 +440,7 @@ def _balance(context: Context) -> Step:
 # -- near one of them ------------------------------------------------------------------------------
 
 
+_AT_REST = "The equilibrium is one at rest, all rates being 0, and none of the motion above. "
 _SECOND_ORDER = (
     "$𝐂 𝐪̇$ is of second order in the rates and falls away; so does every change of $𝐃$, which stands beside "
     "an acceleration. "
@@ -476,8 +477,9 @@ def _state_matrix(context: Context) -> Step:
         title="The motion near the equilibrium",
         why=say(
             "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
-            "inputs are counted from the forces that hold it. {balanced}{moving}The matrices are taken at "
-            "{rests}. $𝐄$ is the identity matrix{friction}.",
+            "inputs are counted from the forces that hold it. {at_rest}{balanced}{moving}The matrices are "
+            "taken at {rests}. $𝐄$ is the identity matrix{friction}.",
+            at_rest=_AT_REST if "equilibria" in context.wanted and robot.questions.model.steady else "",
             moving=say(_SECOND_ORDER)
             if any(map(robot.ring.depends_on_coordinates, context.values["D"].entries))
             else "",

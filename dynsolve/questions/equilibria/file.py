@@ -26,15 +26,8 @@ class GivenEquilibrium(Given, frozen=True):
 def read(faults: Faults, fields: Fields, around: Around) -> GivenEquilibrium:
     """The keys of a file; what is wrong is reported."""
     inputs = word(faults, fields.get("inputs"), INPUTS.choices, "inputs", INPUTS_KEY.help)
-    at = fields.get("linearize")
-    linearize = _read_equilibrium(faults, at, around.coordinates)
+    linearize = _read_equilibrium(faults, fields.get("linearize"), around.coordinates)
     steady = _read_steady(faults, fields.get("steady"), around.coordinates)
-    if at is not None and linearize and steady:
-        faults.error(
-            at.span,
-            "linearize is about rest, and by steady some coordinates move all the time",
-            "leave one of the two out; of a steady motion only the equilibria of the others are found",
-        )
     return GivenEquilibrium(
         constant=tuple(cell for state in (linearize, steady) if state for cell in state.cells.values()),
         moving=_read_balanced(faults, fields.get("balance"), len(around.coordinates)),

@@ -122,10 +122,6 @@ FAULTS = {
         "task: pose\nreach: «[1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1]»\nfind: [inverse]",
         "these rows are no rotation", "row by row",
     ),
-    "a motion at rest": (
-        "masses: [{mass: m, link: 1}]\nsteady: {theta1: W}\nlinearize: «{theta1: 0, theta2: 0}»\nfind: [D]",
-        "linearize is about rest", "leave one of the two out",
-    ),
     "a rotation in few digits": (
         "task: pose\nreach: «[1, 0, 0, 0.866, -0.5, 0, 0.5, 0.866, 0, 0, 0, 1]»\nfind: [inverse]",
         "by 4.4e-05", "sqrt(3)/2",

@@ -136,3 +136,14 @@ find: [linear_A]
     assert found == pytest.approx(
         at["l"] * (at["m"] * at["g"] / 2 + at["W"]) / 2 / (at["m"] * at["l"] ** 2 / 3)
     )
+
+
+def test_beside_a_steady_motion_it_says_that_it_is_about_rest() -> None:
+    steady = "find: [linear_A, equilibria]\nsteady: {q1: W}\n"
+    arm = (
+        "gravity: [0, 0, -g]\ndh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}]\n"
+        "masses: [{mass: m, link: 2}]\nlinearize: {q1: 0, q2: 0}\n"
+    )
+    said = "The equilibrium is one at rest"
+    assert said in dynsolve.solve(arm + steady).to_markdown()
+    assert said not in dynsolve.solve(arm + "find: [linear_A]\n").to_markdown()
