@@ -205,8 +205,9 @@ def _set_several(parts: Sequence[Node], formula: Formula, printer: UnicodePrinte
 
 
 def _fits(node: Node, printer: UnicodePrinter, room: int) -> bool:
-    """Whether no matrix is too wide."""
-    return all(isinstance(piece, TextBox) for _, piece in _grouped(node, printer, room))
+    """Whether no matrix is too wide, alone or with others in one parenthesis."""
+    found = [piece for _, piece in _grouped(node, printer, room)]
+    return all(isinstance(each, TextBox) and (len(each.lines) == 1 or each.width <= room) for each in found)
 
 
 def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:

@@ -233,3 +233,9 @@ def test_a_wide_matrix_within_a_formula_is_named_apart(text: str, told: list[str
     wide = matrix("abcdefgh + ijklmnop, 0", "0, abcdefgh - ijklmnop")
     shown = [line for line in lines(Formula(formula(text, wide=wide)), columns=44) if line.strip()]
     assert all(line.strip().startswith(start) for line, start in zip(shown, told, strict=False))
+
+
+def test_matrices_in_a_parenthesis_that_is_too_wide_are_left_out() -> None:
+    wide = matrix("a1 + b1*c1 + d1*e1", "m1*l1*cos(q1)")
+    node = equation(Letter("v"), Product((Number(2), Parenthesized(Sum((wide, wide, wide, wide))))))
+    assert lines(Formula(node, optional=True)) == []
