@@ -234,16 +234,19 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[No
 
     What stands beside each product of rates, with these, and its value.
     """
+    decimal = is_numeric(context.robot)
     for first, second in combinations_with_replacement(context.robot.coordinates, 2):
         slopes = [[factor_of_rate(x, q.name) for q in (first, second)] for x in components]
         pairs = [(a, b) for a, b in slopes if not (a.is_zero or b.is_zero)]
         value = sum((a * b for a, b in pairs), start=context.robot.ring.zero)
         if first == second:
             bracket = sum_of([_square(context.show(a)) for a, _ in pairs])
-            whole = times(1, [(bracket, 1), (letters.velocity(first), 2)])
+            whole = times(1, [(bracket, 1), (letters.velocity(first), 2)], decimal=decimal)
         else:
-            bracket = total([times(1, [(context.show(x), 1) for x in pair]) for pair in pairs])
-            whole = times(2, [(bracket, 1), (letters.velocity(first), 1), (letters.velocity(second), 1)])
+            products = ([(context.show(x), 1) for x in pair] for pair in pairs)
+            bracket = total([times(1, each, decimal=decimal) for each in products])
+            both = [(letters.velocity(q), 1) for q in (first, second)]
+            whole = times(2, [(bracket, 1), *both], decimal=decimal)
         yield bracket, whole, value
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from unicodedata import normalize
 
 import dynsolve
@@ -77,3 +78,18 @@ def test_every_angle_that_a_force_is_collected_with_is_told() -> None:
     shown = " ".join(page(LEANING).split())
     assert "collected with c₂² - s₂² = cos(2q₂) and s₂ c₂₃ + c₂ s₂₃ = sin(2q₂ + q₃)." in shown
     assert "sin(2q₂ + q₃)" in shown.partition("collected with")[2].partition("sin(2q₂ + q₃)")[2]
+
+
+def test_a_model_in_decimals_has_no_fractions_among_them() -> None:
+    shown = page("""
+gravity: [0, 0, -g]
+dh:
+  - {d: q1*, alpha: 60deg}
+  - {theta: q2*, a: 0.4, alpha: 0}
+  - {theta: q3*, a: 0.2, alpha: 0}
+masses: [{mass: 2, link: 3, center: [-0.1, 0.05, 0], shape: point}]
+find: [K]
+""")
+    _, energy = shown.split("The squares of its entries:")
+    energy, *_ = energy.split("K_ω")
+    assert "0.1" in energy and not re.search(r"/\d", energy)
