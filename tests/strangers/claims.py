@@ -939,7 +939,8 @@ The singular configurations: not derived.
 At given values of q its rank shows whether the arm is singular.
 The kinetic energy needs the moment about the parallel axis through the mass centre.
 The first of the relative coordinates of a chain does not occur.
-Independent entries are chosen of which all of these are combinations; other independent combinations ...
+The entries of {}, below, are chosen: independent ones of which all of these are combinations.
+Other independent combinations serve as well:
 It is given along axes of its link, and turned into the world.
 Each motion is along or about an axis of the frame that those before it have led to.
 Where the matrix of <the|its> second derivatives[ of the potential energy] is positive definite, the

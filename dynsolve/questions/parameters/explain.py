@@ -166,11 +166,12 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
         if coefficient not in parameters.entries
     ]
     if dependent:
-        chosen = (
-            "Independent entries are chosen of which all of these are combinations; "
-            "other independent combinations serve as well:"
+        chosen = say(
+            "The entries of {a}, below, are chosen: independent ones of which all of these are combinations. "
+            "Other independent combinations serve as well:",
+            a=linear.letter("a"),
         )
-        yield Line((chosen,), tuple(dependent))
+        yield Line(chosen, tuple(dependent))
 
 
 def _squares_of_sines(context: Context, linear: _Linear) -> list[Node]:
