@@ -36,8 +36,7 @@ from dynsolve.explain.signs import report_style
 from dynsolve.explain.step import Detail
 from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.problem.exercise import Wording
-from dynsolve.problem.model import Problem
+from dynsolve.problem.model import Problem, Wording
 from dynsolve.render.markdown import PICTURE_DATA
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.solution import solve

@@ -14,10 +14,10 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.bodies import ParsedShape
 from dynsolve.problem.decoder import Record
-from dynsolve.problem.model import ParsedFile
+from dynsolve.problem.parsed import ParsedFile, evaluate
 from dynsolve.problem.questions import named_point, with_questions
 from dynsolve.problem.table import COLUMNS, DHRow
-from dynsolve.problem.values import CellValues, PlaceBuilder, evaluate, mass_value, tensor_value
+from dynsolve.problem.values import CellValues, PlaceBuilder, mass_value, tensor_value
 from dynsolve.problem.yaml_nodes import Faults
 from dynsolve.quantities.families import holds_forces
 from dynsolve.robot.geometry import Links

@@ -20,7 +20,8 @@ from dynsolve.notation.tree import Node as Tree
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem.cells import Cell, read_cell
 from dynsolve.problem.kinds import Fields, describe, items, nearest
-from dynsolve.problem.model import FIND, ParsedFile
+from dynsolve.problem.model import FIND, Remark, Wording
+from dynsolve.problem.parsed import ParsedFile
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, YamlNode
 from dynsolve.quantities.families import FAMILIES
@@ -60,14 +61,6 @@ def _folded(words: str) -> str:
 # Remarks of a problem's author on results
 
 
-class Remark(Struct, frozen=True):
-    """What an author says of a result: its name, as an answer and as the file has it, and the words."""
-
-    name: str
-    key: str
-    texts: tuple[str, ...]
-
-
 def read_remarks(faults: Faults, node: YamlNode | None, names: Quantities | None) -> tuple[Remark, ...]:
     """The remarks of a file; `names` are None where the robot is faulty, and nothing is known of answers."""
     if node is None or isinstance(node, FaultyNode):
@@ -105,17 +98,6 @@ def _texts(faults: Faults, node: YamlNode, of: str) -> tuple[str, ...]:
 
 BEFORE, GIVEN = "before", "given"
 """What `text` may have beside the names of answers."""
-
-
-class Wording(Struct, frozen=True):
-    """An author's words on a sheet: before what is given, in its place, and in the place of what is asked.
-
-    Formulas stand between dollar signs, in the syntax of the file.
-    """
-
-    before: str = ""
-    given: str = ""
-    asked: Mapping[str, str] = field(default_factory=dict)
 
 
 def read_text(faults: Faults, node: YamlNode | None, names: Quantities | None) -> Wording:

@@ -1,13 +1,11 @@
 """A problem: a robot, its exercise, and the place of each part in the file.
 
-A whole problem file as it was read, before anything is computed.
-
 What else counts as an answer DH: `also` and `strict` in a problem file.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import PurePath
@@ -16,26 +14,15 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.angles import Angle
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
-from dynsolve.problem.base import ParsedBase, ParsedRotation
-from dynsolve.problem.bodies import is_point
-from dynsolve.problem.cells import Cell
-from dynsolve.problem.decoder import Record, Stated
 from dynsolve.problem.kinds import Fields, describe, items, word
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, STRICT
-from dynsolve.problem.table import COLUMNS, DHTable, read_listed_row
+from dynsolve.problem.table import COLUMNS, read_listed_row
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, YamlNode
-from dynsolve.quantities.owners import Owners
-from dynsolve.quantities.stages import ASKED_FOR
-from dynsolve.robot.model import Convention, Coordinate, JointType, Robot
+from dynsolve.robot.model import Convention, Robot
 
 if TYPE_CHECKING:
-    from dynsolve.problem.acting import Acting
-    from dynsolve.problem.exercise import Remark, Wording
-    from dynsolve.problem.mechanism import Candidates, Model
-    from dynsolve.problem.questions import ParsedQuestions
     from dynsolve.robot.drawing.normals import Normals
 
 
@@ -103,6 +90,25 @@ class FilePlace(Struct, frozen=True):
     excerpt: str
 
 
+class Remark(Struct, frozen=True):
+    """What an author says of a result: its name, as an answer and as the file has it, and the words."""
+
+    name: str
+    key: str
+    texts: tuple[str, ...]
+
+
+class Wording(Struct, frozen=True):
+    """An author's words on a sheet: before what is given, in its place, and in the place of what is asked.
+
+    Formulas stand between dollar signs, in the syntax of the file.
+    """
+
+    before: str = ""
+    given: str = ""
+    asked: Mapping[str, str] = field(default_factory=dict)
+
+
 _DECIMAL = pattern(r"(?<![\w.])\d*\.\d+(?![\w.])")
 
 
@@ -163,139 +169,3 @@ class Problem(Struct, frozen=True):
             return Finding(message, help, self.file, code=code)
         place = self.places[path]
         return Finding(message, help, self.file, place.line, place.column, place.length, place.excerpt, code)
-
-
-# A whole problem file as it was read, before anything is computed
-
-
-class ParsedFile(Struct, frozen=True):
-    """The parts of a problem file that make a robot."""
-
-    convention: Convention
-    table: DHTable
-    gravity: tuple[Cell, ...] | None
-    base: ParsedBase
-    bodies: tuple[Record, ...]
-    questions: ParsedQuestions
-    normals: Normals | None = None
-    """Of a drawing, the normals that its table was made from."""
-    acting: Acting | None = None
-    model: Model | None = None
-    """In the place of a table and its bodies: a mechanism by positions, or given energies."""
-    stated: tuple[Stated, ...] = ()
-    """The expressions of the bodies, the model and the candidates."""
-    candidates: Candidates | None = None
-    """Matrices to be judged, alone or beside a model, and what is assumed of their parameters."""
-
-    @property
-    def has_matrices(self) -> bool:
-        """Whether there are matrices to be judged: candidates, or the D of a model."""
-        if self.candidates is None:
-            return False
-        return bool(self.candidates.matrices) or (self.model is not None and self.model.D is not None)
-
-    @property
-    def is_of_matrices(self) -> bool:
-        """Whether matrices stand in the place of a robot."""
-        return self.candidates is not None and self.model is None and not self.table.rows
-
-    @property
-    def sound(self) -> bool:
-        """Whether nothing of the table, its bodies or the model was reported."""
-        if self.candidates is not None and self.candidates.faulty:
-            return False
-        if self.model is not None or self.is_of_matrices:
-            return self.model is None or not self.model.faulty
-        return self.table.sound and not any(body.faulty for body in self.bodies)
-
-    @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
-        """The generalized coordinates in their order."""
-        return tuple(
-            Coordinate(name, JointType(kind), index)
-            for index, (name, kind) in enumerate(self.table.coordinates, 1)
-        )
-
-    @property
-    def owners(self) -> Owners:
-        """What the answers to this problem can belong to, whatever of it is asked for."""
-        bodies = self.model.bodies if self.model else self.bodies
-        return Owners(
-            rows=len(self.table.rows),
-            coordinates=self.coordinates,
-            bodies=tuple(body["name"] for body in bodies),
-            points=frozenset(body["name"] for body in bodies if is_point(body)),
-            named=self.questions.names,
-            stages=frozenset(ASKED_FOR),
-            constraints=self.questions.constraints,
-            given=self.questions.needed
-            | frozenset(
-                name
-                for name, there in (
-                    ("mass", self.bodies or self.model),
-                    ("function", self.questions.task is None or not self.questions.task.is_twist),
-                    ("references", True),
-                )
-                if there
-            ),
-            actions=self.acting.terms if self.acting else frozenset(),
-            has_matrices=self.has_matrices,
-            has_robot=not self.is_of_matrices,
-        )
-
-    @property
-    def decoded(self) -> tuple[Stated, ...]:
-        """What acts, as it was decoded."""
-        return self.acting.stated if self.acting else ()
-
-    @property
-    def rotations(self) -> Iterator[ParsedRotation]:
-        """The rotations that are given, but for those of bodies."""
-        if self.base.rotation:
-            yield self.base.rotation
-        yield from self.questions.rotations
-
-    @property
-    def moving(self) -> Iterator[Cell]:
-        """The values that may hold coordinates: d, and rotations given from the base."""
-        yield from (row.cells["d"] for row in self.table.rows if not row.faulty)
-        yield from (one.cell for one in self.stated if one.moves)
-        yield from self.questions.moving
-        yield from (one.cell for one in self.decoded if one.moves)
-
-    @property
-    def constant(self) -> Iterator[Cell]:
-        """The values that are constant."""
-        yield from (row.cells["a"] for row in self.table.rows if not row.faulty)
-        yield from (one.cell for one in self.stated if one.moves is False)
-        yield from self.gravity or ()
-        yield from self.base.move or ()
-        if self.base.rotation:
-            yield from self.base.rotation.entries
-        yield from self.questions.constant
-        yield from (one.cell for one in self.decoded if one.moves is False)
-
-    @property
-    def angles(self) -> Iterator[tuple[Cell, Angle]]:
-        """Every angle that is turned by, with the cell it stands in."""
-        for row in self.table.rows:
-            if not row.faulty:
-                yield from ((row.cells[column], angle) for column, angle in row.angles.items())
-        turns = self.base.rotation.turns if self.base.rotation else ()
-        yield from ((turn.cell, turn.angle) for turn in turns)
-        yield from ((one.cell, one.angle) for one in self.stated if one.angle is not None)
-        yield from ((turn.cell, turn.angle) for given in self.questions.rotations for turn in given.turns)
-
-    @property
-    def cells(self) -> Iterator[Cell]:
-        """Every cell that was read."""
-        for row in self.table.rows:
-            yield from row.cells.values()
-        for rotation in self.rotations:
-            yield from rotation.cells
-        yield from (one.cell for one in self.stated)
-        yield from self.gravity or ()
-        yield from self.base.move or ()
-        yield from self.questions.constant
-        yield from self.questions.moving
-        yield from (one.cell for one in self.decoded)

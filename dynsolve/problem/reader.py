@@ -25,11 +25,11 @@ from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Decoder
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.kinds import Fields, describe, free_text, word
-from dynsolve.problem.model import FilePlace, ParsedFile, Problem, read_accepted_tables
+from dynsolve.problem.model import FilePlace, Problem, read_accepted_tables
+from dynsolve.problem.parsed import ParsedFile, check_size, check_symbols
 from dynsolve.problem.questions import read_questions
 from dynsolve.problem.specification import ACTION_KEYS, CONVENTION, DRAWING, EDITION, OF_A_TABLE, PROBLEM
 from dynsolve.problem.table import DHTable, read_table
-from dynsolve.problem.values import check_size, check_symbols
 from dynsolve.problem.yaml_nodes import (
     MAX_BYTES,
     Faults,
