@@ -8,7 +8,7 @@
 A kind is a key of the problem file and a folder of that name, with these files:
 
     __init__    `KEY`, the key of the problem file: data alone, loaded with every file
-    act         the record, a class of `robot.actions` by the term of the equations that it is a part of: what
+    act         the record, a class of `robot.model` by the term of the equations that it is a part of: what
                 its values are and in which units, its energy or force, exact and, by another formula, in
                 numbers, and what goes wrong with it; `TERM`, that class; `build(values, given)`, the record
                 of what the file gives of one, by the helpers of `problem.acting`; where that is not the list

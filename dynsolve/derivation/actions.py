@@ -22,8 +22,7 @@ from dynsolve.derivation import kinematics
 from dynsolve.derivation.graph import Rule
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.derivation.link_frame import LinkJacobian, quadratic_energy
-from dynsolve.robot.actions import Rotor
-from dynsolve.robot.model import Robot
+from dynsolve.robot.model import Robot, Rotor
 
 HALF = Fraction(1, 2)
 

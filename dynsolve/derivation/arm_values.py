@@ -29,7 +29,7 @@ from dynsolve.derivation.newton_euler import (
     transposed,
 )
 from dynsolve.errors import VerificationError
-from dynsolve.robot import actions
+from dynsolve.robot import model
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
 _MISSES = 200
@@ -142,7 +142,7 @@ class RobotValues(Struct, frozen=True):
             inertia = _to_center(inertia, mass, minus(center, self.vector(body.about_point)))
         return Mass(mass, body.link, center, inertia)
 
-    def rotor(self, one: actions.Rotor) -> Rotor:
+    def rotor(self, one: model.Rotor) -> Rotor:
         """The rotor in numbers."""
         return Rotor(self.number(one.inertia), one.carrier, one.axis, one.turns, self.number(one.ratio))
 

@@ -27,8 +27,7 @@ from dynsolve.algebra.ring_values import evaluate, evaluate_with
 from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.newton_euler import Vector, cross, dot, plus, scaled
 from dynsolve.notation.tree_values import compile_trees
-from dynsolve.robot.actions import GivenModel
-from dynsolve.robot.model import Body, Robot
+from dynsolve.robot.model import Body, GivenModel, Robot
 
 # Hyper-dual numbers a + b ε₁ + c ε₂ + d ε₁ε₂ with ε₁² = ε₂² = 0
 

@@ -14,8 +14,7 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import euler_lagrange, mechanism
 from dynsolve.derivation.graph import Rule
 from dynsolve.derivation.link_frame import inertia_matrix, quadratic_energy
-from dynsolve.robot.actions import GivenModel
-from dynsolve.robot.model import Body, Robot
+from dynsolve.robot.model import Body, GivenModel, Robot
 
 
 def motion_rules(robot: Robot, body: Body) -> Iterator[Rule]:

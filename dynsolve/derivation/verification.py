@@ -35,8 +35,7 @@ from dynsolve.derivation.newton_euler import (
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
-from dynsolve.robot.actions import Stored
-from dynsolve.robot.model import Robot
+from dynsolve.robot.model import Robot, Stored
 
 # What acts beside gravity, on numbers
 

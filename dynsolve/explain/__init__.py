@@ -24,6 +24,7 @@ Everything a step is made from is in its `Context`: the robot, its exact values 
 
     given, placed_bodies, mass_centers, actions, matrix_factors, body_parts, terms
                          what several steps of the stages are made of
+    differentiation      derivatives term by term, and products of sums multiplied out
     working, sanity      the lines between a formula and its result; checks that a person can do on a model
     set_forms, inequalities
                          sets of configurations, and what bounds them: what several questions write

@@ -30,6 +30,7 @@ from msgspec import Struct, field
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.euler_lagrange import christoffel_symbols
+from dynsolve.explain.differentiation import product_of
 from dynsolve.explain.entry_formulas import (
     collected_coriolis_force,
     coriolis_matrix,
@@ -38,7 +39,6 @@ from dynsolve.explain.entry_formulas import (
 )
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, exchanged, name_recurring, rewritten
-from dynsolve.explain.working.differentiation import product_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.printing import flat_factors

@@ -45,8 +45,8 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.actions import Act, Resisting, Rotor, Stored, part
-from dynsolve.robot.model import Body, Coordinate, Robot
+from dynsolve.robot.actions import part
+from dynsolve.robot.model import Act, Body, Coordinate, Resisting, Robot, Rotor, Stored
 from dynsolve.robot.shapes import AXES
 
 

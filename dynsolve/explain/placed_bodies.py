@@ -33,8 +33,7 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.actions import BodyTurn, GivenModel
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, BodyTurn, GivenModel
 
 
 def center_step(context: Context, body: Body) -> Step:

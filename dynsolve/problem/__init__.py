@@ -21,8 +21,8 @@
                      acting         what acts, each kind by its own folder in `acts`, up to the robot
                      exercise       `find`, `marks`, `values`, `units`, `remarks`, `text`
                      variation      `vary`, and the text of the file with a choice made
-      -> Robot       values         one name is one thing; the ring that holds everything, each cell in it,
-                                    points, masses and tensors
+      -> Robot       parsed         the whole file: one name is one thing; the ring that holds everything
+                     values         each cell in the ring, points, masses and tensors
                      build          joints and bodies
       -> Problem     model          the robot, and what the exercise says about it: `also`, `strict`
 

@@ -20,7 +20,8 @@ from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.table import known_coordinate
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.yaml_nodes import Faults
-from dynsolve.robot.actions import KINDS, Actions, part
+from dynsolve.robot.actions import KINDS, part
+from dynsolve.robot.model import Actions
 
 
 class Acting(Struct, frozen=True):

@@ -49,9 +49,9 @@ from dynsolve.problem.specification import MODEL, PROBLEM
 from dynsolve.problem.table import coordinate_name
 from dynsolve.problem.values import CellValues, mass_value, tensor_value
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
-from dynsolve.robot.actions import BodyTurn, Candidate, GivenModel
 from dynsolve.robot.geometry import rotation_about
-from dynsolve.robot.model import Axes, AxesKind, Body
+from dynsolve.robot.model import Axes, AxesKind, Body, BodyTurn, GivenModel
+from dynsolve.robot.questions import Candidate
 
 # `model` of a problem file
 

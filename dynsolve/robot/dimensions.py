@@ -18,8 +18,7 @@ from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.build import summands, total
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Reference, Symbol, walk
 from dynsolve.notation.tree_values import recalled
-from dynsolve.robot.actions import GivenModel
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model import GivenModel, JointType, Robot
 from dynsolve.robot.units import (
     ACCELERATION,
     ENERGY,

@@ -1,6 +1,12 @@
 """The model of a manipulator: joints in a Denavit-Hartenberg table, and bodies that have mass.
 
-A mechanism by positions has bodies and no joints, a given model neither; see `actions`.
+A mechanism by positions has bodies and no joints: a body's mass centre is a function of the coordinates, its
+orientation a product of turns.  Of a given model, the inertia matrix, the energies or the Lagrangian, no body
+is known either.
+
+What acts beside gravity is one of three terms: it stores energy (P_s), has kinetic energy of its own (K_m),
+or resists without a potential (friction).  Rooms know these terms; of which kinds they are is in the folders
+of `dynsolve.acts`.
 
 Everything here is exact, frozen and whole.  Lengths, masses and inertias are
 elements of one ring (`robot.ring`); angles are linear forms in the coordinates.
@@ -9,17 +15,19 @@ A `Robot` knows no file and no printing.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from fractions import Fraction
+from typing import Any, ClassVar, Self
 
 from msgspec import Struct, field
+from msgspec.structs import asdict, astuple, replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.notation.tree import Node
-from dynsolve.robot.actions import NOTHING_ACTS, Actions, BodyTurn, GivenModel
+from dynsolve.notation.tree import Function, Node
+from dynsolve.robot.actions import Parameter, Values
 from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import Density, Shape
 from dynsolve.robot.units import LENGTH, NONE, Dimension
@@ -137,6 +145,20 @@ class Axes(Struct, frozen=True):
     turns: AxisTurns = ()
 
 
+class BodyTurn(Struct, frozen=True):
+    """A turn of a body about an axis that the turns before it carry along.
+
+    `axis` (3×1) is a unit vector in the axes so far turned.  The angle is linear in the
+    coordinates: `rates` (1×n) are its derivatives, free of coordinates, and `rotation` (3×3)
+    turns by it.  `angle` is the angle as the file writes it.
+    """
+
+    axis: Matrix
+    rates: Matrix
+    rotation: Matrix
+    angle: Node
+
+
 class Body(Struct, frozen=True):
     """A body that has mass, rigidly fixed to frame `link`.
 
@@ -166,6 +188,157 @@ class Body(Struct, frozen=True):
     def is_point(self) -> bool:
         """Whether the body has no inertia about its own mass centre."""
         return self.inertia is None
+
+
+class GivenModel(Struct, frozen=True):
+    """What a file gives in the place of bodies: D and P, K and P, or L; what it does not give is None.
+
+    D is n×n, the others are scalars.
+    """
+
+    D: Matrix | None = None
+    K: Expr | None = None
+    P: Expr | None = None
+    L: Expr | None = None
+
+
+# What acts beside gravity, of whatever kind
+
+
+class Act(Struct, frozen=True):
+    """One thing that acts: a record of its kind (`acts/<kind>/act.py`), its fields exact values.
+
+    It is one of three terms of the equations of motion, by its class: `Stored`, `Rotor`, `Resisting`.
+    """
+
+    term: ClassVar[str]
+    """The result of which it is a part; `Family.brought_by` has its name."""
+
+    @property
+    def kind(self) -> str:
+        """The name of its kind, which is that of its folder."""
+        return type(self).__module__.split(".")[-2]
+
+    def parameters(self, robot: Robot) -> Iterator[Parameter]:
+        """What its values are."""
+        raise NotImplementedError
+
+    def mistaken(self, robot: Robot) -> Iterator[tuple[str, Any]]:
+        """(slip, the energy or the force) as it is got wrong; the slips are in `answers.diagnosis.slips`."""
+        yield from ()
+
+    @property
+    def along(self) -> tuple[Expr, Expr] | None:
+        """(x, k) where it acts along a linear form x of the coordinates with a coefficient k, as drawn."""
+        return None
+
+    def functions(self, robot: Robot) -> tuple[Function, ...]:
+        """Functions of the rates in its force, which jump: they stand in none of its values."""
+        return ()
+
+    @property
+    def values(self) -> Iterator[Expr]:
+        """Its exact values."""
+        return (value for value in astuple(self) if isinstance(value, Expr))
+
+    def with_values(self, changed: Callable[[Expr], Expr]) -> Self:
+        """The same with every value changed, into those of another ring for example."""
+        fields = asdict(self)
+        return replace(self, **{name: changed(v) for name, v in fields.items() if isinstance(v, Expr)})
+
+
+class Stored(Act, frozen=True):
+    """What stores energy, a part of P_s."""
+
+    term: ClassVar[str] = "Ps"
+
+    @property
+    def energy(self) -> Expr:
+        """The potential energy, a function of the coordinates."""
+        raise NotImplementedError
+
+    def energy_at(self, values: Values) -> float:
+        """The same in numbers, for the independent check, by no formula of `energy`."""
+        raise NotImplementedError
+
+
+class Resisting(Act, frozen=True):
+    """What has no potential and stands beside g, a part of the friction."""
+
+    term: ClassVar[str] = "friction"
+
+    def force(self, robot: Robot) -> Matrix:
+        """The generalized force, n×1."""
+        raise NotImplementedError
+
+    def force_at(self, robot: Robot, values: Values) -> Sequence[float]:
+        """The same in numbers, n of them, for the independent check, by no formula of `force`."""
+        raise NotImplementedError
+
+
+class Rotor(Act, frozen=True):
+    """What spins beside the bodies and has a part in K_m: it turns coordinate `turns`, counted from 0.
+
+    It spins with `ratio` q̇ about its axis, the axis x, y or z (`axis` 0, 1 or 2) of frame
+    `carrier`, and is carried round by that link; a carrier 0 is the ground.  Its mass is a body's.
+    """
+
+    turns: int
+    inertia: Expr
+    ratio: Expr
+    carrier: int = 0
+    axis: int = 2
+    term: ClassVar[str] = "Km"
+
+
+class Actions(Struct, frozen=True):
+    """Everything that acts; `passive` are the coordinates, from 0, that no motor drives."""
+
+    acts: tuple[Act, ...] = ()
+    passive: tuple[int, ...] = ()
+
+    @property
+    def stored(self) -> tuple[Stored, ...]:
+        """What stores energy."""
+        return tuple(act for act in self.acts if isinstance(act, Stored))
+
+    @property
+    def rotors(self) -> tuple[Rotor, ...]:
+        """What spins."""
+        return tuple(act for act in self.acts if isinstance(act, Rotor))
+
+    @property
+    def resisting(self) -> tuple[Resisting, ...]:
+        """What stands beside g and has no potential."""
+        return tuple(act for act in self.acts if isinstance(act, Resisting))
+
+    @property
+    def resistance(self) -> tuple[str, ...]:
+        """The name of what resists, where anything does: it stands in the equations beside D, C q̇ and g."""
+        return ("friction",) if self.resisting else ()
+
+    @property
+    def terms(self) -> frozenset[str]:
+        """The results of which there are parts."""
+        return frozenset(act.term for act in self.acts)
+
+    @property
+    def by_kind(self) -> dict[str, list[Act]]:
+        """Those of each kind that there is, in the order of the kinds."""
+        found: dict[str, list[Act]] = {}
+        for act in self.acts:
+            found.setdefault(act.kind, []).append(act)
+        return found
+
+    def __bool__(self) -> bool:
+        """Whether there is anything."""
+        return bool(self.acts or self.passive)
+
+
+NOTHING_ACTS = Actions()
+
+
+# The whole
 
 
 class Robot(Struct, frozen=True):

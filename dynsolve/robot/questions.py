@@ -20,7 +20,36 @@ from msgspec import Struct
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.tree import Node, Reference, walk
-from dynsolve.robot.actions import Candidate, Constraint
+
+# Constraints on the motion of a manipulator: A_c(q) q̇ = 0
+
+
+class Constraint(Struct, frozen=True):
+    """One equation that every motion keeps.
+
+    `entry` is what is 0: h(q), holonomic, in which coordinates of points may stand as they do in a
+    task; or, `in_rates`, a sum of rates with factors that depend on the coordinates.
+    """
+
+    entry: Node
+    in_rates: bool = False
+
+
+# Matrices of which an exercise asks whether they can be inertia matrices
+
+
+class Candidate(Struct, frozen=True):
+    """A matrix, n×n, and what is assumed of its parameters.
+
+    `is_relative` says that the coordinates are those of a chain, each counted from the link before,
+    so that an inertia matrix is the same wherever the first one stands.
+    """
+
+    name: str
+    matrix: Matrix
+    assumed: tuple[Bound, ...] = ()
+    is_relative: bool = False
+
 
 # What an exercise asks of the equations of motion beside the course's derivation
 

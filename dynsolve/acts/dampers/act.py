@@ -10,9 +10,9 @@ from dynsolve.algebra.ring_values import evaluate
 from dynsolve.problem.acting import constant, linear
 from dynsolve.problem.decoder import Record
 from dynsolve.problem.values import CellValues
-from dynsolve.robot.actions import Parameter, Resisting, Values
+from dynsolve.robot.actions import Parameter, Values
 from dynsolve.robot.dimensions import measured_along
-from dynsolve.robot.model import Robot
+from dynsolve.robot.model import Resisting, Robot
 from dynsolve.robot.units import ENERGY, along, dimension, times
 
 TERM = Resisting

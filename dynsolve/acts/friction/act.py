@@ -22,8 +22,8 @@ from dynsolve.problem.kinds import VISCOUS, Fields
 from dynsolve.problem.table import by_coordinate
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode
-from dynsolve.robot.actions import Parameter, Resisting, Values
-from dynsolve.robot.model import Robot
+from dynsolve.robot.actions import Parameter, Values
+from dynsolve.robot.model import Resisting, Robot
 from dynsolve.robot.units import ENERGY, along, dimension, times
 
 TERM = Resisting

@@ -9,8 +9,8 @@ from dynsolve.problem.acting import constant
 from dynsolve.problem.decoder import Decoder, Record
 from dynsolve.problem.kinds import Fields
 from dynsolve.problem.values import CellValues
-from dynsolve.robot.actions import Parameter, Rotor
-from dynsolve.robot.model import Robot
+from dynsolve.robot.actions import Parameter
+from dynsolve.robot.model import Robot, Rotor
 from dynsolve.robot.shapes import AXES
 from dynsolve.robot.units import INERTIA, NONE, times
 

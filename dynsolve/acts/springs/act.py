@@ -12,9 +12,9 @@ from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Decoder, Record
 from dynsolve.problem.kinds import Fields
 from dynsolve.problem.values import CellValues
-from dynsolve.robot.actions import Parameter, Stored, Values
+from dynsolve.robot.actions import Parameter, Values
 from dynsolve.robot.dimensions import measured_along
-from dynsolve.robot.model import Robot
+from dynsolve.robot.model import Robot, Stored
 from dynsolve.robot.units import ENERGY, along, times
 
 TERM = Stored

@@ -12,7 +12,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import measured
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import Node, Power, Sum, equation, walk
-from dynsolve.robot.actions import Stored
+from dynsolve.robot.model import Stored
 
 HINT = "Half the stiffness times the square of the deflection of each spring from its rest."
 PITFALL = "The energy of a spring has a ½, and the stretch is squared as a whole, with its rest."

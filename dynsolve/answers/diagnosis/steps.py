@@ -30,8 +30,7 @@ from dynsolve.quantities.index import quantities
 from dynsolve.questions import rates, statics
 from dynsolve.questions import task as of_task
 from dynsolve.questions.statics.derive import jacobians, total, wrench
-from dynsolve.robot.actions import Act, Actions
-from dynsolve.robot.model import AxesKind, Body, Convention, Coordinate, Joint, Robot
+from dynsolve.robot.model import Act, Actions, AxesKind, Body, Convention, Coordinate, Joint, Robot
 from dynsolve.robot.questions import NamedPoint
 
 Variant = tuple[Any, Diagnosis]

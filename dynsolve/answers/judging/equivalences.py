@@ -7,11 +7,8 @@ of the springs is free, as the zero of height is.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from functools import cache
-from typing import TYPE_CHECKING
-
-from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
@@ -19,13 +16,8 @@ from dynsolve.answers.judging.answer_values import AnswerValue, as_value
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS
 from dynsolve.quantities import action_families, families
 from dynsolve.quantities.stages import Stage
-from dynsolve.questions.constraints.judge import OwnConstraint
 from dynsolve.questions.judging import Case, Equivalence, right_as
 from dynsolve.questions.parameters import REGRESSORS
-
-if TYPE_CHECKING:
-    from dynsolve.answers.judging.key_comparison import KeyComparison
-
 
 UP_TO_CONSTANT = "right; the letter that is added is the potential energy at the zero of height"
 SPRINGS_FROM_ELSEWHERE = "right; the energy of the springs is counted from elsewhere than in the key"
@@ -141,24 +133,3 @@ def as_matrix(value: AnswerValue, name: str) -> Matrix | None:
         rows = tuple((entry,) for entry in rows[0])
     found = as_value(rows, Matrix.of(rows[0][0].ring, ()))
     return found if isinstance(found, Matrix) and (name not in REGRESSORS or found.shape[1] == 1) else None
-
-
-def with_own_constraint(
-    own: OwnConstraint, comparisons: Mapping[str, KeyComparison]
-) -> dict[str, KeyComparison]:
-    """The comparisons, those of A_c, its rate and λ being right where they belong together."""
-    found = dict(comparisons)
-    for name, is_right in (("Ac", own.matrix), ("Ac_dot", own.rate), ("lambda", own.multipliers)):
-        compared = found.get(name)
-        if compared is None or compared.answer_value.rows is None or not compared.rows:
-            continue
-        if not compared.correct or own.is_other:
-            other = is_right(compared.answer_value.rows)
-            right: tuple[tuple[str | None, ...], ...] = tuple(
-                tuple("" if other else None for _ in row) for row in compared.rows
-            )
-            if other or compared.correct:
-                found[name] = replace(compared, right=right, other=other)
-        if name == "Ac" and found[name].correct:
-            own.rows = compared.answer_value.rows
-    return found

@@ -36,12 +36,14 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues, multiplier_names
 from dynsolve.answers.judging.entry_comparison import EntryComparer
-from dynsolve.answers.judging.equivalences import (
-    as_matrix,
+from dynsolve.answers.judging.equivalences import as_matrix
+from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.key_comparison import (
+    KeyComparer,
+    KeyComparison,
+    Obstacle,
     with_own_constraint,
 )
-from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison, Obstacle
 from dynsolve.answers.verdict import Answer
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, Symbol, names_in, walk, with_children

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -32,6 +32,7 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantity
+from dynsolve.questions.constraints.judge import OwnConstraint
 from dynsolve.questions.judging import Case
 from dynsolve.questions.parameters import REGRESSORS
 from dynsolve.questions.parameters.judge import forces_of, is_free, wrong_parameters
@@ -254,3 +255,24 @@ class KeyComparer:
             if degrees and any(degrees[i] > 0 for i in indices):
                 yield Obstacle("acceleration_in_C")
                 return
+
+
+def with_own_constraint(
+    own: OwnConstraint, comparisons: Mapping[str, KeyComparison]
+) -> dict[str, KeyComparison]:
+    """The comparisons, those of A_c, its rate and λ being right where they belong together."""
+    found = dict(comparisons)
+    for name, is_right in (("Ac", own.matrix), ("Ac_dot", own.rate), ("lambda", own.multipliers)):
+        compared = found.get(name)
+        if compared is None or compared.answer_value.rows is None or not compared.rows:
+            continue
+        if not compared.correct or own.is_other:
+            other = is_right(compared.answer_value.rows)
+            right: tuple[tuple[str | None, ...], ...] = tuple(
+                tuple("" if other else None for _ in row) for row in compared.rows
+            )
+            if other or compared.correct:
+                found[name] = replace(compared, right=right, other=other)
+        if name == "Ac" and found[name].correct:
+            own.rows = compared.answer_value.rows
+    return found

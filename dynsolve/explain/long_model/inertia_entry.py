@@ -14,13 +14,13 @@ from dynsolve.derivation.kinematics import dh_matrix, joint_frame, linear_jacobi
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.differentiation import product_of
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian import ZERO, column_letters, columns_shown, coordinate_column
 from dynsolve.explain.last_frame import halves
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.recurring import expanded_once
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import new_angles
 from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation import tree

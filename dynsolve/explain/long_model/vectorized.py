@@ -13,6 +13,7 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated, as_shown
 from dynsolve.explain.christoffel import SLOPES, in_slopes
 from dynsolve.explain.context import Context
+from dynsolve.explain.differentiation import by_symbol, differentiated
 from dynsolve.explain.entry_formulas import (
     QUADRATIC,
     coriolis_matrix,
@@ -26,7 +27,6 @@ from dynsolve.explain.sanity.conserved import is_carried_along
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.vectorized import checked, coriolis, direct, from_energies, gravity, inertia, rest
 from dynsolve.explain.working.derivatives import coriolis_sums
-from dynsolve.explain.working.differentiation import by_symbol, differentiated
 from dynsolve.explain.working.identities import Way, new_angles
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation import tree

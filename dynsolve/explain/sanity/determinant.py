@@ -22,10 +22,10 @@ from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.differentiation import product_of
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.working.differentiation import product_of
 from dynsolve.explain.working.identities import Identity, are_alike, equals, identities, said
 from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import listed, spong

@@ -7,7 +7,7 @@
 
 They name their tactics, each with its words and the form that it gives; `identities.chain` proves each form
 equal to the value and makes the lines; `identities` finds which ones of sine and cosine lead from one line
-to the next.  `differentiation` has derivatives term by term, and products of sums multiplied out.
+to the next.
 
 To explain a further operation, give it to `chain` in a function here, and put the `Way` into the step.
 """

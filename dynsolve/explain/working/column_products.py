@@ -19,10 +19,10 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.differentiation import is_trigonometric
 from dynsolve.explain.matrix_factors import factored, matrix_width
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
-from dynsolve.explain.working.differentiation import is_trigonometric
 from dynsolve.explain.working.identities import (
     Identity,
     Way,

@@ -16,9 +16,7 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import is_numeric
-from dynsolve.explain.step import Line
-from dynsolve.explain.working.differentiation import (
+from dynsolve.explain.differentiation import (
     Rule,
     brackets,
     by_rates,
@@ -29,6 +27,8 @@ from dynsolve.explain.working.differentiation import (
     multiplied_out,
     sums_of_rates,
 )
+from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
     SILENT,
     SORTED,

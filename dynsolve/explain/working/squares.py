@@ -29,9 +29,9 @@ from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.differentiation import brackets
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.step import Line
-from dynsolve.explain.working.differentiation import brackets
 from dynsolve.explain.working.identities import (
     SILENT,
     SORTED,

@@ -50,9 +50,8 @@ from dynsolve.questions.forward_dynamics.derive import (
 )
 from dynsolve.questions.task import derive as task
 from dynsolve.questions.task.derive import position_rule, task_value
-from dynsolve.robot.actions import Constraint
 from dynsolve.robot.model import Robot
-from dynsolve.robot.questions import TIP, Task, points_of
+from dynsolve.robot.questions import TIP, Constraint, Task, points_of
 
 # Constraints: A_c q̇ = 0, its rate, and the multipliers that keep it
 

@@ -13,8 +13,8 @@ from dynsolve.problem.state import Around, Given
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.yaml_nodes import Faults, MappingNode, YamlNode
 from dynsolve.questions.constraints.keys import KEYS, MAX_CONSTRAINTS, RATES
-from dynsolve.robot.actions import Constraint
 from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import Constraint
 
 _LINEAR = "a constraint on rates is a sum of rates, each times a function of the coordinates"
 

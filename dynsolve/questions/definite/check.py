@@ -17,8 +17,8 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import VerificationError
 from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
 from dynsolve.questions.held import Held
-from dynsolve.robot.actions import Candidate
 from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.questions import Candidate
 
 SEED = 20_190_429
 

@@ -36,8 +36,8 @@ from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.graph import Rule, Skipped
-from dynsolve.robot.actions import Candidate
 from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.questions import Candidate
 
 # The smallest value of a function of coordinates, as inequalities between parameters
 

@@ -19,7 +19,7 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
-from dynsolve.robot.actions import Candidate
+from dynsolve.robot.questions import Candidate
 
 _CONCLUSIONS = {
     Answer.YES: "it can be an inertia matrix.",

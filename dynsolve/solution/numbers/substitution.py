@@ -38,8 +38,7 @@ from dynsolve.notation.tree import (
     with_children,
 )
 from dynsolve.notation.tree_values import sign
-from dynsolve.robot.actions import BodyTurn
-from dynsolve.robot.model import Axes, Joint, Robot
+from dynsolve.robot.model import Axes, BodyTurn, Joint, Robot
 from dynsolve.robot.questions import Limits, ModelQuestions, Target
 from dynsolve.robot.shapes import Density
 

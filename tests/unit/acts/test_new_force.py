@@ -40,7 +40,8 @@ KEY = Key(
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.problem.acting import linear
-from dynsolve.robot.actions import Parameter, Stored
+from dynsolve.robot.actions import Parameter
+from dynsolve.robot.model import Stored
 from dynsolve.robot.dimensions import measured_along
 from dynsolve.robot.units import ENERGY, along, times
 
