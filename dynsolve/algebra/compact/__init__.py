@@ -27,7 +27,8 @@ it keeps the shorter result.
    completed, (a₃ + x₃)²; beside a mass also those of sums of sines and cosines
    (`terms`), (L₂ c₂ + l_c3 c₂₃)².  What is printed as one factor is an atom
    (`atoms`; `atoms` makes those of a ring); `terms` has the arithmetic.
-   `collect` finds what all entries of a matrix share.
+   `collect` finds what all entries of a matrix share.  A sum that stands in several places has one
+   spelling there (`spelling`).
 
 What comes out is held to its polynomial, and the plain polynomial stands in its place if it is not equal to
 it (`proof`).

@@ -16,6 +16,7 @@ from functools import partial
 from dynsolve.algebra.compact.atoms import RingAtoms
 from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.proof import Proof, plain_form
+from dynsolve.algebra.compact.spelling import in_one_spelling
 from dynsolve.algebra.compact.terms import (
     Exponents,
     Monomial,
@@ -113,7 +114,7 @@ class Compactor:
 
     def _collected(self, expr: Expr) -> Node:
         layout, terms = read_terms(expr, [group.places for group in self._groups], self._atoms.kinds)
-        return self._by_rates(layout, terms)
+        return in_one_spelling(self._by_rates(layout, terms))
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:
         """The compact trees of a matrix's entries."""

@@ -93,3 +93,14 @@ find: [K]
     _, energy = shown.split("The squares of its entries:")
     energy, *_ = energy.split("K_ω")
     assert "0.1" in energy and not re.search(r"/\d", energy)
+
+
+def test_a_sum_has_one_spelling_in_a_formula() -> None:
+    shown = page("""
+dh: [{theta: q1*, a: a, alpha: 90deg}, {d: q2* + d0, alpha: -90deg}, {theta: q3*, a: l}]
+masses: [{mass: m, link: 3, center: [-u, w, 0], inertia: {zz: I}}]
+find: [K]
+""")
+    *_, energy = shown.split("𝒦 =")
+    assert "(w (d₀ + q₂) - a (l - u))" in energy
+    assert "(a (l - u) - w (d₀ + q₂))" not in energy
