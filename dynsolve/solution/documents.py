@@ -619,7 +619,7 @@ class _Parts(Struct, dict=True):
             f"Verified: {what} agree with {how} at {verification.states} random states (relative error ",
         )
         told += (*_in_powers_of_ten(verification.max_relative_error), ").")
-        if robot.questions.asked:
+        if self._holds_more():
             told += (" The other results that are asked for agree with independent computations in numbers.",)
         if self.detail is Detail.FULL:
             yield Heading("Verification", 2)
@@ -634,6 +634,15 @@ class _Parts(Struct, dict=True):
         titles = tuple((title,) for title in titled(sources)) if self.detail is Detail.FULL else ()
         if titles:
             yield List(titles)
+
+    def _holds_more(self) -> bool:
+        """Whether something is asked for beside the course's derivation that was worked out."""
+        asked = self.solution.robot.questions.asked
+        if not asked:
+            return False
+        from dynsolve.solution.asked_checks import skipped
+
+        return bool(asked - {name for name, _ in skipped(self.solution.robot, self.solution.values)})
 
     def sources(self) -> Iterator[str]:
         """The references that a report makes."""

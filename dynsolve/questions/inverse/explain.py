@@ -67,12 +67,12 @@ def steps(context: Context) -> Iterator[Step]:
         is_free = is_redundant(context.values["pose" if _is_pose(context.robot) else "r"])
         yield Step(
             id=_id_of_branches(forms),
-            title="No closed form",
+            title="No closed form" if is_free else "No closed form was found",
             why=(
                 f"{opened(REDUNDANT)}."
                 if is_free
-                else "No equation with one unknown in a known form was found: turned into the frames of the "
-                "joints, squared and added, these equations stay coupled.",
+                else "The equations were turned into the frames of the joints, squared and added. No "
+                "equation with one unknown in a known form was among them; that there is none is not shown.",
             ),
             detail=Detail.BRIEF,
             notes=tuple(_of_pieper(context.robot)),
@@ -93,7 +93,14 @@ def _task(context: Context, forms: InverseForms) -> Step:
     step = Step(
         id="inverse_task",
         title="What is to be solved",
-        why=("The values of the task are given, and the joint variables that give them are looked for.",),
+        why=say(
+            "The {values} of the task, {names}, {are} given, and the joint variables that give {them} are "
+            "looked for.",
+            values="value" if len(names) == 1 else "values",
+            names=listed(names),
+            are="is" if len(names) == 1 else "are",
+            them="it" if len(names) == 1 else "them",
+        ),
         formula=equation(letters.TASK, asked),
         source=spong("3.3"),
         uses=("r",),

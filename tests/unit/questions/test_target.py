@@ -200,7 +200,7 @@ dh:
   - {theta: q3*, a: a3}
 find: [inverse]
 """
-    (step,) = [step for step in solve(arm).steps if step.title == "No closed form"]
+    (step,) = [step for step in solve(arm).steps if step.title == "No closed form was found"]
     assert "at most four configurations" in str(step.notes)
 
 
