@@ -47,6 +47,9 @@ _KINETIC = (families.KV, families.KW, families.K_BODY, families.K, KM)
 _ENERGIES = (*_KINETIC, PS)
 """Their ½ stands in front, as in their definitions."""
 
+LONG_INTEGER = 10**6
+"""An integer from which on decimals are shorter."""
+
 _SHORT = 5
 """The terms of an entry of a long regressor for which both ways are tried."""
 
@@ -103,13 +106,13 @@ class Forms:
         if isinstance(value, RationalExpr):
             return self._products.fraction(value)
         if isinstance(value, FractionMatrix):
-            return tree.Matrix(tuple(tuple(map(self._products.fraction, row)) for row in value.rows))
+            return self._products.matrix(value)
         return self.compactor.matrix(value) if isinstance(value, Matrix) else self.compactor.form(value)
 
     @cached_property
     def _products(self) -> ProductForms:
         """Products and quotients of this robot's ring."""
-        return ProductForms(self.compactor)
+        return ProductForms(self.compactor, decimal=self._decimal)
 
     def christoffel(self, i: int, j: int, k: int) -> Node:
         """c_ijk, from 0."""
@@ -333,25 +336,37 @@ LONG_FACTORS = 150
 
 
 class ProductForms:
-    """Writes expressions of one ring as products, where that is shorter than as sums."""
+    """Writes expressions of one ring as products, where that is shorter than as sums.
 
-    def __init__(self, compactor: Compactor) -> None:
+    Where numbers are `decimal`, fractions that would have long integers are of decimals.
+    """
+
+    def __init__(self, compactor: Compactor, *, decimal: bool = False) -> None:
         self.compactor = compactor
+        self.decimal = decimal
         self.ring = compactor.ring
 
     def form(self, expr: Expr) -> Node:
         """The shorter of the product of an expression's factors and its compact form."""
         coefficient, factors = self._factors(expr)
-        return times(coefficient, factors)
+        return times(coefficient, factors, decimal=self.decimal)
 
     def fraction(self, value: RationalExpr) -> Node:
         """A fraction, numerator and denominator as products."""
-        value = with_integers(value)
+        return self.matrix(FractionMatrix(self.ring, ((value,),))).rows[0][0]
+
+    def matrix(self, values: FractionMatrix) -> tree.Matrix:
+        """The same of each entry, all with integers or all with decimals."""
+        whole = tuple(tuple(map(with_integers, row)) for row in values.rows)
+        parts = (part for row in whole for one in row for part in (one.numerator, one.denominator))
+        rows = values.rows if self.decimal and any(map(_has_long, parts)) else whole
+        return tree.Matrix(tuple(tuple(map(self._quotient, row)) for row in rows))
+
+    def _quotient(self, value: RationalExpr) -> Node:
         above, over = self._factors(value.numerator)
-        if value.divisor is None:
-            return times(above, over)
-        below, under = self._factors(value.divisor)
-        return times(above / below, [*over, *((node, -power) for node, power in under)])
+        below, under = (Fraction(1), []) if value.divisor is None else self._factors(value.divisor)
+        factors = [*over, *((node, -power) for node, power in under)]
+        return times(above / below, factors, decimal=self.decimal)
 
     def _factors(self, expr: Expr) -> tuple[Fraction, list[Factor]]:
         """(number, factors with their exponents) that make the shortest form."""
@@ -386,3 +401,8 @@ class ProductForms:
         factors += below
         factors.sort(key=lambda found: (self.ring.depends_on_coordinates(found[0]), len(found[0])))
         return coefficient, [(self.compactor.form(factor), power) for factor, power in factors]
+
+
+def _has_long(expr: Expr) -> bool:
+    """Whether a coefficient has more digits than are shown of a decimal."""
+    return any(abs(int(factor.p)) >= LONG_INTEGER for factor in expr.poly.coeffs())

@@ -176,8 +176,9 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
         return total([negated(term) for term in above[0].terms])
     size = coefficient if coefficient > 0 else -coefficient
-    if decimal and not below and size.denominator != 1:
+    if decimal and size.denominator != 1:
         node = _decimal(size, above)
+        node = Quotient(node, _product(below)) if below else node
     else:
         node = _fraction(size, above, below)
     return Negative(node) if coefficient < 0 else node

@@ -161,7 +161,7 @@ class State(_NumericResults):
             forms = ProductForms(self._compactor)
             if isinstance(value, RationalExpr):
                 return forms.fraction(value)
-            return tree.Matrix(tuple(tuple(map(forms.fraction, row)) for row in value.rows))
+            return forms.matrix(value)
         return self._compactor.matrix(value) if isinstance(value, Matrix) else self._compactor.form(value)
 
     def number(self, name: str) -> Any:

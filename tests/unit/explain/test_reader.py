@@ -394,3 +394,32 @@ def test_as_many_solutions_are_promised_as_there_may_be() -> None:
     text = in_one_line(f"gravity: none\n{lifted}task: [tip.x, tip.y, tip.z]\nfind: [inverse]")
     assert "every choice that exists gives a solution: there are at most 4 solutions." in text
     assert "The 4 solutions" not in text
+
+
+def test_what_was_not_found_is_not_called_impossible_nor_verified() -> None:
+    arm = """
+dh:
+  - {theta: q1*, d: h, a: a1, alpha: 90deg}
+  - {theta: q2*, alpha: gamma}
+  - {d: q3*}
+masses: [{mass: m, link: 3}]
+reach: [px, py, pz]
+"""
+    shown = in_one_line(arm + "find: [inverse]\n")
+    assert "The values of the task, p_x, p_y and p_z, are given" in shown
+    assert "that there is none is not shown" in shown and "stay coupled" not in shown
+    assert "The other results" not in shown and "The other results" in in_one_line(arm + "find: [r]\n")
+
+
+def test_a_quotient_of_decimals_has_decimals_above_and_below() -> None:
+    arm = """
+gravity: [0, -9.81, 0]
+dh: [{{theta: q1*, a: 0.5}}, {{theta: q2*, a: 0.3}}]
+masses:
+  - {{mass: 4, link: 1, center: {{along: 1/2}}}}
+  - {{mass: m, link: 2, center: tip, inertia: {{zz: {zz}}}}}
+linearize: {{q1: -90deg, q2: 0}}
+find: [linear_B]
+"""
+    assert "(52 + 360m)/(13 + 103m)" in page(arm.format(zz="0.013"))
+    assert "(0.500299 + 3.49970 m)/(0.125075 + m)" in page(arm.format(zz="0.012865934"))
