@@ -574,9 +574,10 @@ def holds_at_state(robot: Robot, name: str) -> bool:
     return quantity is not None and quantity.family.at_state and bool(robot.questions.state.values)
 
 
-def at_the_state(robot: Robot) -> Text:
-    """At q₁ = 30°, q₂ = 60°:"""
-    values = robot.questions.state.values
+def at_the_state(robot: Robot, asked: Iterable[str]) -> Text:
+    """At q₁ = 30°, q₂ = 60°:, with the rates where accelerations, which depend on them, are `asked`."""
+    with_rates = "qdd" in asked
+    values = [one for one in robot.questions.state.values if with_rates or not one[1]]
     given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in values])
     return Text(say("At {given}:", given=given))
 

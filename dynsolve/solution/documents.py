@@ -377,7 +377,7 @@ def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterat
         yield from _asked_for(name, robot, steps)
     found = [block for name in at_state for block in _asked_for(name, robot, steps)]
     if found:
-        yield at_the_state(robot)
+        yield at_the_state(robot, at_state)
         yield from found
 
 

@@ -15,7 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import of_task
 from dynsolve.explain.step import TOLD, Detail, Part, Step
-from dynsolve.explain.writing import column_of, side_by_side, spong
+from dynsolve.explain.writing import column_of, is_small, side_by_side, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Parenthesized, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
@@ -24,6 +24,10 @@ from dynsolve.questions.rates.derive import MOST_PRODUCTS, squared, wanted_by_ac
 from dynsolve.robot.model import Robot
 
 _J = letters.J_TASK
+
+_MIXED: Prose = (
+    "The norm adds squares of lengths to squares of angles, so that it depends on the unit of length. ",
+)
 
 
 def given(forms: Forms) -> Iterator[Prose]:
@@ -75,7 +79,7 @@ def state_prose(context: Context, with_rates: bool = True) -> Prose:
 def _state_once(context: Context, name: str) -> Prose:
     """The state, told with the first of the results that are asked for there."""
     first = next(one for one in ("qd", "qdd", *_SPACES) if one in context.wanted)
-    return state_prose(context) if name == first else ()
+    return state_prose(context, with_rates="qdd" in context.wanted) if name == first else ()
 
 
 def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, why: Prose) -> Step:
@@ -88,16 +92,23 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
     if context.robot.questions.weighs_by_inertia:
         weights = at.matrix(context.values["D"])
     notes: tuple[Prose, ...] = ()
-    if rank == rows == columns:
+    in_product = Parenthesized(b) if isinstance(b, Sum) else b
+    least = "of least norm" if weights is None else say("with the least ${x}ᵀ 𝐖 {x}$", x=x)
+    deficient = f", the rank being {rank}" if rank < min(rows, columns) else ""
+    if rank == columns and is_solvable(J, right):
         how = say(" has one solution. ")
     elif is_solvable(J, right):
-        how = say(
-            " has many solutions{rank}: this is the one {least}. ",
-            rank="" if rank == rows else f", the rank being {rank}",
-            least="of least norm" if weights is None else say("with the least ${x}ᵀ 𝐖 {x}$", x=x),
-        )
-    else:
+        how = say(" has many solutions{rank}: this is the one {least}. ", rank=deficient, least=least)
+    elif rank == columns:
         how = say(" has no solution: these come nearest to one, in the sense of least squares. ")
+    else:
+        how = say(
+            " has no solution{rank}; many come nearest to one, in the sense of least squares, those with "
+            "{normal}: this is the one {least}. ",
+            rank=deficient,
+            normal=formula("𝐉_rᵀ 𝐉_r {x} = 𝐉_rᵀ {b}", x=x, b=in_product),
+            least=least,
+        )
     if rank < columns and is_solvable(J, right):
         text = "Every motion of the joints that the task does not see may be added: ${x}$ with $𝐉_r {x} = 𝟎$."
         notes = (say(text, x=x),)
@@ -114,7 +125,15 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
     elif rank in (rows, columns) and rank and work(squared(J)) <= MOST_PRODUCTS:
         det = formula("det {of}", of=square_of(_J, J))
         working.append(equation(det, context.show(determinant(squared(J)))))
-    inverse_times = formula(inverse, b=Parenthesized(b) if isinstance(b, Sum) else b, plus="+")
+    inverse_times = formula(inverse, b=in_product, plus="+")
+    if rank < min(rows, columns):
+        how += say("The pseudoinverse {inverse} gives it. ", inverse=formula("𝐉_r^{plus}", plus="+"))
+        sides = context.show(J.T @ J), context.show(J.T @ right)
+        if not is_solvable(J, right) and is_small(*sides):
+            working.append(equation(formula("𝐉_rᵀ 𝐉_r"), sides[0]))
+            working.append(equation(formula("𝐉_rᵀ {b}", b=in_product), sides[1]))
+    if rank < columns and weights is None and len({q.type for q in context.robot.coordinates}) > 1:
+        how += _MIXED
     return Step(
         id=name,
         title=title,

@@ -126,7 +126,7 @@ def blocks(
         here = partial(holds_at_state, robot)
         valued = list(_results(robot, _those(changed, lambda name: not here(name)), tree, folded=False))
         if found := list(_results(robot, _those(changed, here), tree, folded=False)):
-            valued += (at_the_state(robot), *found)
+            valued += (at_the_state(robot, asked), *found)
     if numbers.given.entries:
         yield from _with_heading(_values(numbers, told), valued)
     if numbers.state is not None:

@@ -14,6 +14,8 @@ from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Matrix, Negative, Node
 from dynsolve.problem import read_problem
 from dynsolve.questions.rates.check import rate_names, verify_rates
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 
 ELBOW = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\n"
 THREE = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
@@ -100,6 +102,29 @@ def test_of_six_joints_without_a_task_it_is_that_of_all_of_j() -> None:
 def test_the_step_says_how_it_is_solved(text: str, words: str) -> None:
     steps = {step.id: step for step in dynsolve.solve(text + "find: [qd]\n").steps}
     assert words in "".join(part for part in steps["qd"].why if isinstance(part, str))
+
+
+SLIDING = """
+dh: [{d: q1*, theta: 90deg, alpha: 90deg}, {theta: q2*, a: 1}, {theta: q3*, a: 1}]
+task: [tip.x, tip.y, tip.z]
+state: {q1: 0, q2: 90deg, q3: 0, q3': 2}
+velocity: [0.1, 0, 0]
+find: [qd]
+"""
+
+
+def test_of_many_that_come_nearest_it_is_said_which_and_how() -> None:
+    """In one plane, stretched: the rank is 2 of 3."""
+    shown = " ".join(report(dynsolve.solve(SLIDING), Format.TEXT).decode().split())
+    assert "no solution, the rank being 2; many come nearest to one" in shown
+    assert "this is the one of least norm. The pseudoinverse 𝐉_r⁺ gives it. The norm adds squares" in shown
+    assert "The state is q₁ = 0, q₂ = 90°, q₃ = 0." in shown and "At q₁ = 0, q₂ = 90°, q₃ = 0:" in shown
+
+
+def test_equations_that_repeat_each_other_may_have_one_solution() -> None:
+    arm = "dh: [{theta: q1*, a: 1}]\ntask: [tip.x, tip.y]\nstate: {q1: 0}\nvelocity: [0, v]\nfind: [qd]\n"
+    (step,) = (step for step in dynsolve.solve(arm).steps if step.id == "qd")
+    assert "has one solution" in "".join(part for part in step.why if isinstance(part, str))
 
 
 LONG = "dh:\n" + "".join(
