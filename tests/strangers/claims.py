@@ -685,6 +685,19 @@ def _axes_meet(m: Mechanism, s: Sentence) -> bool:
 # ranks
 
 
+@says(
+    "Where the matrix of <the|its> second derivatives[ of the potential energy], without the row<|s> and "
+    "column<|s> of {&}, which are 0 there, is positive definite, the <equilibrium|motion> is stable[...]."
+)
+def _rows_are_0(m: Mechanism, s: Sentence) -> bool:
+    """At the equilibria that are told of behind it."""
+    still = [m.coordinates.index(q) for q in names_of(s.formulas)]
+    points = [point for _, point in m.equilibria(()) if point is not None]
+    return bool(points) and all(
+        near(m.stiffness(point)[still, :], 0) and near(m.stiffness(point)[:, still], 0) for point in points
+    )
+
+
 @says("The equations of the others change as # moves: it is not cyclic.")
 def _not_cyclic(m: Mechanism, s: Sentence) -> bool:
     (q,) = [q for q in m.coordinates if to_unicode(Symbol(q)) == s.words[0]]

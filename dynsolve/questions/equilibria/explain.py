@@ -291,14 +291,12 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     robot = context.robot
     steady = bool(robot.questions.model.steady)
     forces = context.values["g"]
-    why: Prose = (
-        "Where the matrix of the second derivatives of the potential energy is positive definite, the "
-        "equilibrium is stable; where the energy falls in some direction, it is not.",
-    )
+    flat = _flat(robot, found)
+    why: Prose = say(_ENERGY, flat=flat)
     working: tuple[Node, ...] = ()
     second: Node = _DG
     if steady:
-        why, energy = energy_of_motion(context)
+        why, energy = energy_of_motion(context, flat)
         forces, working = forces_of_motion(context), (energy,)
         second = SECOND
     told = [
@@ -326,6 +324,23 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         concluding=tuple(part for sentence in sentences for part in (*sentence, " ")),
         uses=("equilibria",),
     )
+
+
+_ENERGY = (
+    "Where the matrix of the second derivatives of the potential energy{flat} is positive definite, the "
+    "equilibrium is stable; where the energy falls in some direction, it is not."
+)
+
+
+def _flat(robot: Robot, found: Equilibria) -> Prose:
+    """Of which coordinates rows and columns are left out, as these are 0 wherever stability is told."""
+    told = [point for points in found.points for point in points if point.is_told]
+    places = [set[int]() if point.drifts else {*point.neutral} for point in told]
+    names = [robot.coordinates[k].name for k in sorted(set.intersection(*places))] if places else []
+    if not names:
+        return ()
+    rows = "row and column" if len(names) == 1 else "rows and columns"
+    return say(f", without the {rows} of {{names}}, which are 0 there,", names=listed([*map(Symbol, names)]))
 
 
 def _of_constrained(
@@ -395,7 +410,8 @@ def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Pros
     if point.inside:
         inside = side_by_side([*map(shown.inequality, point.inside)])
         place = say("{place}, where {inside}", place=place, inside=inside)
-    along = say(", but for {free}, along which nothing changes", free=free) if free and point.is_told else ""
+    is_held = point.is_told and point.stability is not Stability.UNSTABLE
+    along = say(", but for {free}, along which nothing changes", free=free) if free and is_held else ""
     if point.drifts:
         along = (", but for motions along the equilibria, in which nothing changes",)
     return say("{place}: {said}{along}.", place=place, said=said, along=along)
@@ -552,8 +568,11 @@ def forces_of_motion(context: Context) -> Matrix:
     return steady_forces(context.robot, context.values["C"], context.values["g"])
 
 
-def energy_of_motion(context: Context) -> tuple[Prose, Node]:
-    """What the stability follows from, and the energy whose derivatives these forces are."""
+def energy_of_motion(context: Context, flat: Prose) -> tuple[Prose, Node]:
+    """What the stability follows from, and the energy whose derivatives these forces are.
+
+    `flat` is that of `_flat`.
+    """
     value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
     shown = equation(letters.STEADY_ENERGY, formula("𝒫 - 𝒦"), value)
     elsewhere = "; where it falls in some direction, it is not. "
@@ -562,9 +581,11 @@ def energy_of_motion(context: Context) -> tuple[Prose, Node]:
             ". Elsewhere nothing is said: what V alone lets fall may be held by forces of first order in the "
             "rates, or by a rate that is free to change. "
         )
-    return (
+    return say(
         "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
-        f"Where the matrix of its second derivatives is positive definite, the motion is stable{elsewhere}",
+        "Where the matrix of its second derivatives{flat} is positive definite, the motion is stable"
+        f"{elsewhere}",
+        flat=flat,
     ), shown
 
 

@@ -25,6 +25,8 @@ from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.check import Case, in_balance, verify_equilibria
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.solving import Stability, multipliers
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
 
 
@@ -112,6 +114,13 @@ def test_a_factor_that_may_be_0_is_told_with_the_equilibria_there() -> None:
     (step,) = (step for step in solution.steps if step.id == "equilibria")
     assert [str(note[0]) for note in step.notes] == ["These are the equilibria where ", "Where "]
     assert "≠" in str(step.notes[0]) and "equilibria_special" not in dynsolve.solve(ARM).to_json()["results"]
+
+
+def test_what_nothing_changes_along_is_left_out_of_the_matrix_and_of_what_is_not_stable() -> None:
+    mast = "dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}]\nmasses: [{mass: m, link: 2}]\n"
+    shown = " ".join(report(dynsolve.solve(mast + "find: [equilibria]\n"), Format.TEXT).decode().split())
+    assert "energy, without the row and column of q₁, which are 0 there, is positive definite" in shown
+    assert "At q₂ = 90°: not stable. At q₂ = -90°: stable, but for q₁, along which" in shown
 
 
 def test_an_answer_for_parameters_that_are_special_is_judged_by_the_forces() -> None:
