@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cached_property
-from math import prod
+from math import lcm, prod
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
@@ -364,15 +364,19 @@ class ProductForms:
 
     def _quotient(self, value: RationalExpr) -> Node:
         above, over = self._factors(value.numerator)
-        below, under = (Fraction(1), []) if value.divisor is None else self._factors(value.divisor)
+        divisor = value.divisor
+        below, under = (Fraction(1), []) if divisor is None else self._factors(divisor, apart=True)
         factors = [*over, *((node, -power) for node, power in under)]
         return times(above / below, factors, decimal=self.decimal)
 
-    def _factors(self, expr: Expr) -> tuple[Fraction, list[Factor]]:
-        """(number, factors with their exponents) that make the shortest form."""
+    def _factors(self, expr: Expr, *, apart: bool = False) -> tuple[Fraction, list[Factor]]:
+        """(number, factors with their exponents) that make the shortest form.
+
+        Of two that are as long it is that with the factors `apart`, each of which is then as it is elsewhere.
+        """
         plain = self.compactor.form(expr)
         found = None if expr.is_number or len(expr) > LONG_FACTORS else self._product(expr)
-        if found is None or cost(times(*found)) >= cost(plain):
+        if found is None or cost(times(*found)) >= cost(plain) + apart:
             return Fraction(1), [(plain, 1)]
         return found
 
@@ -389,7 +393,7 @@ class ProductForms:
         if not is_zero(expr * over - whole):  # a parameter below another
             return None
         try:
-            factors = [(back(factor), power) for factor, power in trig_factors(there(expr))]
+            factors = [(self._whole(back(factor)), power) for factor, power in trig_factors(there(expr))]
         except AlgebraError:
             return None
         product = self.ring.one
@@ -401,6 +405,10 @@ class ProductForms:
         factors += below
         factors.sort(key=lambda found: (self.ring.depends_on_coordinates(found[0]), len(found[0])))
         return coefficient, [(self.compactor.form(factor), power) for factor, power in factors]
+
+    def _whole(self, expr: Expr) -> Expr:
+        """An expression times what makes its coefficients integers, but of decimals."""
+        return expr if self.decimal else expr * lcm(*(int(c.q) for c in expr.poly.coeffs()))
 
 
 def _has_long(expr: Expr) -> bool:
