@@ -166,6 +166,10 @@ def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
     yield _values(robot, problem.written, problem.units)
 
 
+MOST_NAMED = 9
+"""Of more quantities, if they are all of a family, the first two are named, and the last."""
+
+
 def in_words(robot: Robot, members: Sequence[Quantity]) -> Prose:
     """Quantities of one family in words: the inertia matrix 𝐃; the matrices 𝐀₁ and 𝐀₂ of the rows.
 
@@ -179,7 +183,16 @@ def in_words(robot: Robot, members: Sequence[Quantity]) -> Prose:
     if not family.has_letter or family is DH:
         return (f"{before.rstrip()}{after}",)
     own = listed([(quantity.letter(robot),) for quantity in members])
+    whole = quantities(robot).of_family(family)
+    if len(members) > MOST_NAMED and {*map(_place_in_whole, members)} == {*map(_place_in_whole, whole)}:
+        first, second, *_, last = (quantity.letter(robot) for quantity in members)
+        own = (first, ", ", second, ", …, ", last)
     return (before if filled else f"{before} ", *own, after)
+
+
+def _place_in_whole(quantity: Quantity) -> tuple[int, ...]:
+    """c_211 has that of c_121."""
+    return quantity.entry or quantity.index
 
 
 # -- the table, the axes of a drawing, the energies ------------------------------------------------
