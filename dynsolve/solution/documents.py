@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from itertools import groupby
+from itertools import groupby, islice
 from operator import attrgetter
 from types import MappingProxyType
 
@@ -40,7 +40,7 @@ from dynsolve.document import (
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.given import at_the_state, holds_at_state, statement, to_be_found
+from dynsolve.explain.given import at_the_state, holds_at_state, in_words, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID
@@ -172,6 +172,10 @@ _ACCELERATIONS = ("qdd", "qdd_forward")
 """Two results of one letter."""
 
 
+MOST_TWICE = 2000
+"""A result with more parts, some twenty lines, is not written in the summary again."""
+
+
 def in_summary(robot: Robot, steps: Sequence[Step], asked: Sequence[str], is_short: bool) -> frozenset[str]:
     """The steps whose results stand in the summary as well."""
     has_model = is_short and any(step.id == ID for step in steps)
@@ -199,7 +203,12 @@ def summary_blocks(
     if not is_short and detail is not Detail.RESULTS:  # what is short of a long model, if it is asked for
         of_model -= {name for name in ("D", "g") if name in by_id and is_small(*by_id[name].result)}
     of_steps, read_off = _parted(robot, (name for name in asked if name not in of_model))
-    others = [*_others(of_steps, robot, steps), *_read_off(read_off, robot, forms)]
+    above = [name for name in of_steps if _is_told_above(by_id.get(name), detail, sections)]
+    others = [
+        *_others([name for name in of_steps if name not in above], robot, steps),
+        *_read_off(read_off, robot, forms),
+        *(_place_of(by_id[name], robot, sections) for name in above),
+    ]
     forces = _forces(robot, by_id) if model is None and "tau" in asked else []
     if model is None and not (others or forces):
         return
@@ -215,6 +224,20 @@ def summary_blocks(
         yield from names.told([], [step.result[0] for step in forces]) if names else ()
         yield from _rows(robot, forces) if forces else ()
     yield from others
+
+
+def _is_told_above(step: Step | None, detail: Detail, sections: Mapping[Stage, int]) -> bool:
+    """Whether a result is too long to stand in the summary, too."""
+    if step is None or detail <= Detail.BRIEF or step.stage not in sections:
+        return False
+    return next(islice(walk(*step.result), MOST_TWICE, None), None) is not None
+
+
+def _place_of(step: Step, robot: Robot, sections: Mapping[Stage, int]) -> Text:
+    """Where a result stands that is not written again."""
+    assert step.stage is not None
+    what = in_words(robot, (quantities(robot)[step.id],))
+    return Text(say("Section {n} has {what}.", n=str(sections[step.stage]), what=what))
 
 
 def _nodes(blocks: Iterable[Block]) -> Iterator[Node]:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.linear_systems import adjugate, fraction_of, inverse_times, is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant
+from dynsolve.algebra.ring_values import build_ring
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
@@ -69,10 +71,32 @@ def inverse_of_inertia(context: Context) -> tuple[Line, ...]:
         adjoint, value = context.show(adjugate(D)), context.show(size)
         over = Quotient(Number(1), _DET)
         parts = (formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint), equation(_DET, value))
-        return (Line(say(told), parts, is_kept=True),) if is_small(adjoint, value) else ()
+        return (Line(say(told), parts, is_kept=True),) if is_small(adjoint, value) else _in_entries(D)
     shown = context.forms.of(inverse)
-    whole = formula("𝐃⁻¹ = {shown}", shown=shown)
-    return (Line(say(told), (whole,), is_kept=True),) if is_small(shown) else ()
+    if is_small(shown):
+        return (Line(say(told), (formula("𝐃⁻¹ = {shown}", shown=shown),), is_kept=True),)
+    return _in_entries(D)
+
+
+def _in_entries(D: Matrix) -> tuple[Line, ...]:
+    """D⁻¹ by the entries of D, where these are too long to be put in."""
+    size = range(len(D.rows))
+    names = {(i, j): f"d{i}_{j}" for i in size for j in size if i <= j and not D[i, j].is_zero}
+    ring = build_ring([], [*map(Symbol, names.values())])
+    of_entries = {(i, j): ring.symbol(name) for (i, j), name in names.items()}
+    whole = Matrix.of(ring, ([of_entries.get((min(i, j), max(i, j)), ring.zero) for j in size] for i in size))
+    entries = {name: letters.entry("d", i + 1, j + 1) for (i, j), name in names.items()}
+    compactor = Compactor(ring)
+
+    def with_letters(part: Node) -> Node:
+        return entries.get(part.name, part) if isinstance(part, Symbol) else part
+
+    adjoint = mapped(compactor.matrix(adjugate(whole)), with_letters)
+    value = mapped(compactor.form(determinant(whole)), with_letters)
+    over = Quotient(Number(1), _DET)
+    parts = (formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint), equation(_DET, value))
+    told = "The inverse of $𝐃$, its adjugate over its determinant, in the entries of $𝐃$:"
+    return (Line(say(told), parts, is_kept=True),) if is_small(adjoint, value) else ()
 
 
 # -- hints -----------------------------------------------------------------------------------------

@@ -183,3 +183,28 @@ find: [linear_A, linear_B, qdd_forward]
     assert [row[0] for row in found["linear_B"]] == ["0", "0", "R/J", "1/J"]
     assert found["linear_A"][2][0] == "-m*g*R/J"
     assert "I" not in found["qdd_forward"][1]
+
+
+BRANCHES = """
+gravity: [0, -g, 0]
+dh:
+  - {theta: q1*, a: r}
+  - {theta: q2*, a: l}
+  - {from: 1, theta: q3* + beta, a: b}
+masses:
+  - {mass: m1, link: 1, center: {near: [0, 0, 0]}, shape: {disk: {radius: r}}}
+  - {mass: m2, link: 2, center: midpoint, shape: {rod: {length: l}}}
+  - {mass: m3, link: 3, center: tip}
+springs: [{stiffness: k, of: q2 - q3}]
+motors: [{turns: q2, inertia: J, ratio: n, carrier: 1}]
+find: [c, qdd_forward]
+"""
+
+
+def test_what_is_long_has_an_inverse_by_entries_and_one_denominator_and_stands_once() -> None:
+    shown = " ".join(report(dynsolve.solve(BRANCHES), Format.TEXT).decode().split())
+    assert "det 𝐃 = d₂₂ (d₁₁ d₃₃ - d₁₃²) - d₁₂² d₃₃" in shown
+    assert shown.count("q̈₁ = ") == 1 and "has the accelerations 𝐪̈ as functions of the forces." in shown
+    assert "Christoffel symbols Γ₁₁₁, Γ₁₁₂, …, Γ₃₃₃ and the accelerations" in shown
+    one = "(b (4m₂ J (3r² n² + l² (1 + n² - 2n) + 3r l (n² - n) c₂)"
+    assert shown.count(one) == 2 and f"(m₃ b² {one[3:]}" in shown
