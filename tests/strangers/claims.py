@@ -615,6 +615,20 @@ def _many_solutions(m: Mechanism, s: Sentence) -> bool:
     return rank(J) == int(s.words[0]) < len(J.T)
 
 
+@says(
+    "<{}|The rest> has no solution, the rank being #; many come nearest to one, in the sense of least squares, "
+    "those with {}: this is the one ...",
+)
+def _many_come_nearest(m: Mechanism, s: Sentence) -> bool:
+    J = s.jacobian(m, m.point())
+    return rank(J) == int(s.words[1]) < min(J.shape)
+
+
+@says("The norm adds squares of lengths to squares of angles, so that it depends on the unit of length.")
+def _mixed_norm(m: Mechanism, s: Sentence) -> bool:
+    return len({q.type for q in m.solution.robot.coordinates}) == 2
+
+
 # drawn axes
 
 
