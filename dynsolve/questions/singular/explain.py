@@ -46,9 +46,10 @@ def steps(context: Context) -> Iterator[Step]:
         return
     yield replace(_rank(context, forms, found), group=_SETS)
     yield replace(_alternatives(forms, found, _letter(context)), group=_SETS, normal=NOTED)
-    lost = Group("singular_lost", "What is lost", (), _in_general(context), _LOST)
+    lost = Group("singular_lost", "What is lost") if all(forms.lost_here) else None
     for case in range(len(found.losses)):
-        yield replace(_loss(context, forms, found, case), group=lost if all(forms.lost_here) else None)
+        step = replace(_loss(context, forms, found, case), group=lost)
+        yield replace(step, normal=step.normal & ~Part.FORMULA) if lost and case else step
 
 
 def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:

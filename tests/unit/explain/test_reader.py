@@ -423,3 +423,8 @@ find: [linear_B]
 """
     assert "(52 + 360m)/(13 + 103m)" in page(arm.format(zz="0.013"))
     assert "(0.500299 + 3.49970 m)/(0.125075 + m)" in page(arm.format(zz="0.012865934"))
+
+
+def test_what_is_lost_is_told_before_its_formula() -> None:
+    shown = page("dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nfind: [singular]\n")
+    assert shown.index("orthogonal to 𝐰") < shown.index("𝐰ᵀ𝐉") and shown.count("𝐰ᵀ𝐉") == 1
