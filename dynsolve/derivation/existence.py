@@ -48,6 +48,16 @@ def conditions(values: Iterable[Expr], signs: ParameterSigns) -> tuple[Bound, ..
     return _weakest(found, signs) if found else None
 
 
+def is_seen(values: Iterable[Expr], signs: ParameterSigns) -> bool:
+    """Whether `conditions` are enough for these to be 0 together: no angle stands in two of their swings."""
+    known = [_swings(value) for value in values]
+    angles = [[float(i) for i in n] for swings in known if swings is not None for n in swings if any(n)]
+    if None in known or (angles and rank(angles, 0.1) < len(angles)):
+        return False
+    moving = [[both for n, both in swings.items() if any(n)] for swings in known if swings is not None]
+    return all(len(parts) == 1 or all(_size(both, signs) is not None for both in parts) for parts in moving)
+
+
 def without_ends(
     bounds: Iterable[Bound], nonzero: Iterable[Expr], signs: ParameterSigns
 ) -> tuple[Bound, ...]:

@@ -616,8 +616,8 @@ def _many_solutions(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<{}|The rest> has no solution, the rank being #; many come nearest to one, in the sense of least squares, "
-    "those with {}: this is the one ...",
+    "<{}|The rest> has no solution, the rank being #; many come nearest to one, in the sense of least "
+    "squares, those with {}: this is the one ...",
 )
 def _many_come_nearest(m: Mechanism, s: Sentence) -> bool:
     J = s.jacobian(m, m.point())

@@ -238,6 +238,11 @@ class Condition(Struct, frozen=True, dict=True):
         return bool(self._length)
 
     @property
+    def is_at_zero(self) -> bool:
+        """Whether it is q = 0 of an angle."""
+        return bool(self._zero)
+
+    @property
     def keeps_values(self) -> bool:
         """Whether expressions that are reduced keep their values, and get no factor."""
         return not self._length or self._length[0][1] == self.expr.ring.one

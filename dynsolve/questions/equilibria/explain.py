@@ -19,6 +19,7 @@ from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import (
     GOLDSTEIN,
     SLOTINE_LI,
+    and_joined,
     as_row,
     is_small,
     listed,
@@ -138,6 +139,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     else:
         of_free = [*_never(shown, found), *_arbitrary(robot, cases)]
         notes += shown.existence("equilibria", found.exist)
+        notes += _unseen(found)
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
     notes += [note for one in found.special for note in _special(shown, one)]
     if found.may_be_others:
@@ -188,6 +190,15 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
             yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}", where=vanishing(one))
     if found.may_be_dependent:
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
+
+
+def _unseen(found: Equilibria) -> Iterator[Prose]:
+    """Of which cases it is not known for which parameters they are there."""
+    places = [str(k) for k, is_seen in enumerate(found.is_seen, 1) if not is_seen]
+    if places:
+        cases = f"case{'s' * (len(places) > 1)} {and_joined(places)}"
+        there = f"{cases} {'have' if len(places) > 1 else 'has'}" if len(found.is_seen) > 1 else "this has"
+        yield (f"For which parameters {there} solutions is not told here.",)
 
 
 def _never(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:

@@ -50,7 +50,7 @@ from dynsolve.algebra.parameter_span import Generators, expression, primitive
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
-from dynsolve.derivation.existence import conditions, without_ends
+from dynsolve.derivation.existence import conditions, is_seen, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
@@ -368,7 +368,7 @@ class Equilibria(Struct, frozen=True):
     `special` is; where there `may_be_others`, that are not told, for general parameters.  With constraints
     each is without the sets that are `excluded`, and further sets on which there are no multipliers are left
     out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.  `never` has conditions
-    that are no case, and what is not 0 where they hold.
+    that are no case, and what is not 0 where they hold.  Of what `is_seen` the inequalities are all.
     """
 
     rows: tuple[Expr, ...]
@@ -381,6 +381,7 @@ class Equilibria(Struct, frozen=True):
     is_whole: bool = True
     may_be_dependent: bool = False
     never: tuple[tuple[Alternative, Expr], ...] = ()
+    is_seen: tuple[bool, ...] = ()
 
 
 def _kept_turning(robot: Robot) -> set[int]:
@@ -479,6 +480,22 @@ def equilibria(
         settled is None or settled.is_whole,
         settled is None,
         (*special.never, *(_never(one, signs) for one in alternatives if one not in found)),
+        tuple(_is_seen(one, signs) for one in found),
+    )
+
+
+def _is_seen(alternative: Alternative, signs: ParameterSigns) -> bool:
+    """Whether `conditions` are all that parameters need; a length that is given by others is there."""
+    if not any(map(_has_parameter, alternative)):
+        return True
+    open_values = [one.expr for one in alternative if not one.fixes_length and not one.is_at_zero]
+    return is_seen(open_values, signs)
+
+
+def _has_parameter(condition: Condition) -> bool:
+    ring, degrees = condition.expr.ring, condition.expr.poly.degrees()
+    return any(
+        degrees[g.index] > 0 for g in ring.generators if g.kind == "symbol" and g.name in ring.parameters
     )
 
 
