@@ -376,7 +376,7 @@ class ProductForms:
         """
         plain = self.compactor.form(expr)
         found = None if expr.is_number or len(expr) > LONG_FACTORS else self._product(expr)
-        if found is None or cost(times(*found)) >= cost(plain) + apart:
+        if found is None or cost(times(*found)) >= cost(plain) + (apart and len(expr) > 1):
             return Fraction(1), [(plain, 1)]
         return found
 
