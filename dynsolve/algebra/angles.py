@@ -14,9 +14,9 @@ a vector of rational rates here; the eliminations are FLINT's.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from math import lcm
+from math import lcm, pi, prod
 from typing import Self
 
 from flint import fmpq_mat, fmpz_mat
@@ -72,6 +72,13 @@ class Angle(Struct, frozen=True):
     def of(name: str, rate: Fraction | int = 1) -> Angle:
         """The angle rate·name."""
         return Angle((((((name, 1),)), Fraction(rate)),)) if rate else Angle()
+
+    def radians(self, values: Mapping[str, float]) -> float:
+        """Its size where these are the values of its symbols."""
+        size = float(self.degrees / _DEGREES_PER_PI) * pi
+        for atom, rate in self.terms:
+            size += float(rate) * prod(values[name] ** exponent for name, exponent in atom)
+        return size
 
     def __add__(self, other: Angle) -> Angle:
         total = dict(self.terms)

@@ -71,12 +71,16 @@ def is_positive(expr: Expr) -> bool:
 
 
 def parameters(expr: Expr) -> frozenset[int]:
-    """The generators that count as positive."""
+    """The generators that count as positive, inverses of what is positive among them."""
     ring = expr.ring
     names = {*ring.names, *ring.plan.signed}
-    return frozenset(
+    found = frozenset(
         g.index for g in ring.generators if (g.kind == "symbol" and g.name not in names) or _is_constant(g)
     )
+    for index, inverted in ring.inverses.items():
+        if all(factor > 0 and _holds_only(exponents, found) for exponents, factor in inverted.terms()):
+            found |= {index}
+    return found
 
 
 def _is_constant(g: Generator) -> bool:

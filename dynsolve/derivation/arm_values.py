@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeVar
 
 from msgspec import Struct
 
-from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import evaluate
@@ -103,13 +101,6 @@ class RobotValues(Struct, frozen=True):
         x, y, z = (tuple(map(self.number, row)) for row in matrix.rows)
         return (x[0], x[1], x[2]), (y[0], y[1], y[2]), (z[0], z[1], z[2])
 
-    def angle(self, angle: Angle) -> float:
-        """An angle in radians."""
-        total = math.radians(float(angle.degrees))
-        for atom, rate in angle.terms:
-            total += float(rate) * math.prod(self.values[name] ** exponent for name, exponent in atom)
-        return total
-
     def row(self, joint: Joint, q: Sequence[float]) -> tuple[Motion, ...]:
         """The four elementary motions of a row of the table."""
         rates = tuple((k, float(rate)) for k, rate in joint.rates)
@@ -117,10 +108,11 @@ class RobotValues(Struct, frozen=True):
         turn = joint.variable == "theta"
         slide = joint.variable == "d"
         along_z = (
-            Motion("z", True, self.angle(joint.theta) + moved * turn, rates if turn else ()),
+            Motion("z", True, joint.theta.radians(self.values) + moved * turn, rates if turn else ()),
             Motion("z", False, self.number(joint.d) + moved * slide, rates if slide else ()),
         )
-        a, alpha = Motion("x", False, self.number(joint.a)), Motion("x", True, self.angle(joint.alpha))
+        a = Motion("x", False, self.number(joint.a))
+        alpha = Motion("x", True, joint.alpha.radians(self.values))
         if self.robot.convention is Convention.STANDARD:
             return (*along_z, a, alpha)
         return (alpha, a, *along_z)

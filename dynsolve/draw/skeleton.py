@@ -129,10 +129,10 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
 
     rows = tuple(
         TableRow(
-            angle(joint.theta, values),
+            joint.theta.radians(values),
             drawn(joint.d),
             drawn(joint.a),
-            angle(joint.alpha, values),
+            joint.alpha.radians(values),
             _offset(robot, joint),
         )
         for joint in robot.joints
@@ -199,14 +199,6 @@ def finite(expr: Expr, values: Mapping[str, float]) -> float:
     if not math.isfinite(value):
         raise ValueError(value)
     return value
-
-
-def angle(form: Angle, values: Mapping[str, float]) -> float:
-    """The value of an angle in radians."""
-    total = math.radians(float(form.degrees))
-    for atom, rate in form.terms:
-        total += float(rate) * math.prod(values[name] ** exponent for name, exponent in atom)
-    return total
 
 
 def drawn_length(ratio: float) -> float:

@@ -11,10 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations, islice
-from math import atan2, hypot
+from math import hypot, radians
 
 from msgspec import Struct
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
@@ -32,7 +33,7 @@ from dynsolve.questions.equilibria.balance import STATES, never_zero, table_leng
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
 from dynsolve.questions.equilibria.multipliers import Along
-from dynsolve.questions.equilibria.solving import Point, Stability, multipliers, wanted_rows
+from dynsolve.questions.equilibria.solving import Point, Stability, multipliers, turned, wanted_rows
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
 
@@ -195,16 +196,25 @@ def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
 
 
 def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Point) -> None:
+    wanted = [(angle, radians(degrees)) for angle, degrees in turned(point.values)]
     for start in starts(robot):
-        turned = {pair.angle.terms[0][0][0][0]: atan2(s, c) for pair, s, c in point.values}
-        at = zero_near(robot, zeros, {**start, **turned})
-        if at is None or any(abs(at[name] - angle) > _NEAR for name, angle in turned.items()):
+        for angle, size in wanted:
+            _turn(robot, start, angle, size)
+        at = zero_near(robot, zeros, start)
+        if at is None or any(abs(angle.radians(at) - size) > _NEAR for angle, size in wanted):
             continue
         if point.along is not None:
             _verify_along(robot, forces, point.along, at)
         told = _is_minimum(point, at)
         if told is not None and _rises(robot, forces, at, point) is not told:
             raise VerificationError("the stability told is another; this is a fault of dynsolve")
+
+
+def _turn(robot: Robot, state: dict[str, float], angle: Angle, size: float) -> None:
+    """Change a coordinate of a state, in which the angle is linear, so that this has a size."""
+    name = next(q.name for q in robot.coordinates if any((q.name, 1) in atom for atom, _ in angle.terms))
+    at_0, at_1 = (angle.radians({**state, name: value}) for value in (0.0, 1.0))
+    state[name] = (size - at_0) / (at_1 - at_0)
 
 
 def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point) -> bool:

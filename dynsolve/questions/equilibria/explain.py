@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.derivation.graph import Skipped
@@ -28,16 +29,14 @@ from dynsolve.explain.writing import (
     spong,
 )
 from dynsolve.notation.template import formula
+from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.notation.tree import (
-    Degrees,
-    Negative,
     Node,
     Number,
     Symbol,
     equation,
     names_in,
 )
-from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.quantities import letters
 from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.forms import EquilibriaForms
@@ -48,6 +47,7 @@ from dynsolve.questions.equilibria.solving import (
     SpecialCase,
     Stability,
     multipliers,
+    turned,
     wanted_rows,
 )
 from dynsolve.questions.forward_dynamics.derive import outside_names
@@ -389,10 +389,10 @@ def _along(context: Context, point: Point, place: Prose) -> Iterator[Line]:
 
 def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:
     """At q₁ = -90°, q₂ = 0"""
-    quarters = {(0, 1): Number(0), (1, 0): Degrees(90), (0, -1): Degrees(180), (-1, 0): Negative(Degrees(90))}
+    names = [q.name for q in shown.robot.coordinates]
     at = [
-        equation(Symbol(pair.angle.terms[0][0][0][0]), quarters[sine, cosine])
-        for pair, sine, cosine in point.values
+        equation(angle_node(angle, names), angle_node(Angle(degrees=degrees)))
+        for angle, degrees in turned(point.values)
     ]
     if at:
         return ("At ", side_by_side(at))
@@ -467,7 +467,7 @@ def _balance(context: Context) -> Step:
 # -- near one of them ------------------------------------------------------------------------------
 
 
-_AT_REST = "The equilibrium is one at rest, all rates being 0, and none of the motion above. "
+_NOT_STEADY = "The equilibrium is one at rest, all rates being 0, and none of the motion above. "
 _SECOND_ORDER = (
     "$𝐂 𝐪̇$ is of second order in the rates and falls away; so does every change of $𝐃$, which stands beside "
     "an acceleration. "
@@ -506,7 +506,7 @@ def _state_matrix(context: Context) -> Step:
             "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
             "inputs are counted from the forces that hold it. {at_rest}{balanced}{moving}The matrices are "
             "taken at {rests}. $𝐄$ is the identity matrix{friction}.",
-            at_rest=_AT_REST if "equilibria" in context.wanted and robot.questions.model.steady else "",
+            at_rest=_NOT_STEADY if "equilibria" in context.wanted and robot.questions.model.steady else "",
             moving=say(_SECOND_ORDER)
             if any(map(robot.ring.depends_on_coordinates, context.values["D"].entries))
             else "",

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
+from dynsolve.notation.build import times
 from dynsolve.notation.python import PythonPrinter
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Node, Symbol
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Values
+from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, turned
 from dynsolve.questions.export import Export, alternatives, existence, inequalities, plain_inequality, skipped
 
 
@@ -20,10 +22,6 @@ def value(export: Export, name: str) -> Any:
         return alternatives(export, EquilibriaForms(export.robot, export.values), name)
     conditions = EquilibriaForms(export.general_robot, export.general_values).balance
     return skipped(export.general_values, name) or [f"{export.python.text(left)} = 0" for left in conditions]
-
-
-QUARTERS = {(0, 1): "0", (1, 0): "pi/2", (0, -1): "pi", (-1, 0): "-pi/2"}
-"""Quarter turns by their sine and cosine."""
 
 
 def beside(export: Export) -> Iterator[tuple[str, Any]]:
@@ -42,7 +40,11 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
         conditions = {"stable_if": needed} if needed else {}
         if point.falls:
             conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])
-        return {**angles(point.values), "stability": point.stability.value, **conditions}
+        at = {
+            printer.text(angle_node(angle)): printer.text(times(degrees / 180, [(Symbol("pi"), 1)]))
+            for angle, degrees in turned(point.values)
+        }
+        return {**at, "stability": point.stability.value, **conditions}
 
     yield "equilibria_stability", [[told(point) for point in points] for points in found.points]
     yield from existence("equilibria", shown, printer, found.exist)
@@ -73,8 +75,3 @@ def _special(one: SpecialCase, shown: EquilibriaForms, printer: PythonPrinter) -
     equations = [] if forces is None else [[f"{printer.text(force)} = 0" for force in forces]]
     exist = {"exist": inequalities(shown, printer, one.exist)} if one.exist else {}
     return {**where, "equilibria": equations, **exist}
-
-
-def angles(values: Values) -> dict[str, str]:
-    """Quarter turns by the names of the coordinates."""
-    return {pair.angle.terms[0][0][0][0]: QUARTERS[sine, cosine] for pair, sine, cosine in values}

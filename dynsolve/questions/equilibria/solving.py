@@ -35,6 +35,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import StrEnum
+from fractions import Fraction
 from functools import partial
 from itertools import combinations, product
 from typing import Any
@@ -42,6 +43,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
@@ -50,7 +52,7 @@ from dynsolve.algebra.parameter_span import Generators, expression, primitive
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
-from dynsolve.derivation.existence import conditions, is_seen, without_ends
+from dynsolve.derivation.existence import DEGREES, conditions, is_seen, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
@@ -72,6 +74,21 @@ MOST_PRODUCTS = 50_000
 
 Values = tuple[tuple[Pair, int, int], ...]
 """(angle, sine, cosine): quarter turns."""
+
+
+def turned(values: Values) -> list[tuple[Angle, Fraction]]:
+    """The angles that are turned, each with how far in degrees; q/2 by 90° is q by 180°."""
+    found = []
+    for pair, sine, cosine in values:
+        angle, degrees = pair.angle, Fraction(DEGREES[sine, cosine])
+        if degrees > 180:
+            degrees -= 360
+        rates = {rate for _, rate in angle.terms}
+        if len(rates) == 1 and (count := 1 / rates.pop()).denominator == 1:
+            angle, degrees = angle * count, degrees * count
+        found.append((angle, degrees))
+    return found
+
 
 Here = Callable[[Matrix], Matrix]
 """What a matrix is where something is known."""

@@ -590,3 +590,34 @@ def test_second_derivatives_do_not_decide_only_where_no_minor_is_negative() -> N
         "springs: [{stiffness: k, of: q2, rest: b0}]\nfind: [equilibria]\n"
     ).to_markdown()
     assert "case 1: not told here" in told and "do not decide" not in told
+
+
+def test_half_angles_are_told_as_angles() -> None:
+    """A spring along the chord, ½ k (2 R sin(θ/2))², beside gravity: V″ = (m g R + k R²) cos θ."""
+    hoop = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {theta: revolute}
+  bodies: [{mass: m, at: [R*sin(theta), 0, -R*cos(theta)]}]
+springs: [{energy: k/2*(2*R*sin(theta/2))^2}]
+find: [equilibria]
+"""
+    solution = dynsolve.solve(hoop)
+    told = solution.to_json()["results"]["equilibria_stability"]
+    assert {point["theta"]: point["stability"] for points in told for point in points} == {
+        "0": "stable", "2*pi": "stable", "pi": "unstable", "-pi": "unstable"
+    }  # fmt: skip
+    assert r"At $\theta = 180^{\circ}$: not stable" in " ".join(solution.to_markdown().split())
+
+
+def test_the_turn_of_a_disk_that_rolls_is_told_as_that() -> None:
+    """A mass at the rim of a disk that has rolled x: y = r (1 + cos(x/r))."""
+    disk = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic}
+  bodies: [{mass: m, at: [x + r*sin(x/r), r + r*cos(x/r), 0]}]
+find: [equilibria]
+"""
+    (points,) = dynsolve.solve(disk).to_json()["results"]["equilibria_stability"]
+    assert [(point["x/r"], point["stability"]) for point in points] == [("0", "unstable"), ("pi", "stable")]
