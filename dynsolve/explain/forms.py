@@ -8,6 +8,7 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property
 from math import lcm, prod
@@ -26,8 +27,8 @@ from dynsolve.errors import AlgebraError
 from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matrix, pairs, rates_of_pair
 from dynsolve.explain.parameter_meanings import angles_in
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, factors_of, negated, number_in_front, times, total
-from dynsolve.notation.tree import ZERO, Negative, Node, Product, Symbol
+from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.tree import ZERO, Negative, Node, Power, Product, Symbol, walk
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
@@ -97,7 +98,7 @@ class Forms:
             found = self._make(name)
             quantity = quantities(self.robot).of_rule(name)
             if quantity is not None and quantity.family in _ENERGIES:
-                found = _without_minus(number_in_front(found))
+                found = _with_squares_first(_without_minus(number_in_front(found)), self.robot.ring.names)
             self._made[name] = found
         return found
 
@@ -252,6 +253,32 @@ def _without_minus(node: Node) -> Node:
             terms = sorted(map(negated, factor.terms), key=lambda term: isinstance(term, Negative))
             return Product((*factors[:k], tree.Sum(tuple(terms)), *factors[k + 1 :]))
     return node
+
+
+def _with_squares_first(node: Node, names: Sequence[str]) -> Node:
+    """An energy without a minus before the square of a rate: - (a - b) q̇₁² is (b - a) q̇₁², in its place."""
+    if isinstance(node, Product):
+        return Product(tuple(_with_squares_first(factor, names) for factor in node.factors))
+    if not isinstance(node, tree.Sum):
+        return node
+    turned = [_without_minus(term) if _has_squared_rate(term) else term for term in node.terms]
+    if turned == list(node.terms):
+        return node
+    return tree.Sum(tuple(sorted(turned, key=lambda term: _rates(term, names))))
+
+
+def _has_squared_rate(term: Node) -> bool:
+    factors = factors_of(split_sign(term)[1])
+    return any(isinstance(f, Power) and isinstance(f.base, Symbol) and f.base.dots == 1 for f in factors)
+
+
+def _rates(term: Node, names: Sequence[str]) -> list[int]:
+    """The coordinates whose rates stand in a term, that of a square twice."""
+    found: list[int] = []
+    for factor in factors_of(split_sign(term)[1]):
+        places = [names.index(part.name) for part in walk(factor) if isinstance(part, Symbol) and part.dots]
+        found += places * (2 if isinstance(factor, Power) else 1)
+    return sorted(found)
 
 
 def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ...]) -> Node:
