@@ -407,10 +407,13 @@ def _ordered(node: Node) -> Node:
 SORTED = "Multiplied out, and sorted by the products of the rates:"
 
 
+COLLECTED = "Collected:"
+
+
 def collected(before: Node, after: Node) -> str:
     """What is done to a line that needs no identity: its sums of rates are multiplied out, if they go."""
     opened = sums_of_rates(before) - sums_of_rates(after)
-    return "The sums of rates multiplied out, and collected:" if opened else "Collected:"
+    return "The sums of rates multiplied out, and collected:" if opened else COLLECTED
 
 
 def chain(

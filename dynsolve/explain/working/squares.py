@@ -33,6 +33,7 @@ from dynsolve.explain.differentiation import brackets
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
+    COLLECTED,
     SILENT,
     SORTED,
     Tactic,
@@ -274,7 +275,12 @@ def _from_components(
             return None
         tactics += multiplied
         before = tactics[-1][1] if tactics else _sum_of_squares(context, components)
-        last_words = collected(before, form) if multiplied else _multiplied_out(before, form)
+        last_words: str | Words = collected(before, form) if multiplied else _multiplied_out(before, form)
+        is_new = not are_alike(_energy(context, body, before, factor), form)
+        if multiplied and last_words == COLLECTED and is_new:
+            words, _ = tactics.pop()
+            assert isinstance(words, Words)
+            last_words = Words(*(_and_collected(each) for each in (words.by, words.joined)))
         return _chain(context, body, tactics, last_words, factor)
     concluding: str | Prose | Words = ()
     if tactics:
@@ -388,6 +394,12 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
         ),
     )
     return [(by, multiplied), (identity, reduced)]
+
+
+def _and_collected(words: Prose) -> Prose:
+    """By s² + c² = 1, and collected:"""
+    *before, last = words
+    return (*before, f"{str(last).removesuffix(':')}, and collected:")
 
 
 def _multiplied_out(before: Node, after: Node) -> str:

@@ -104,3 +104,26 @@ find: [K]
     *_, energy = shown.split("𝒦 =")
     assert "(w (d₀ + q₂) - a (l - u))" in energy
     assert "(a (l - u) - w (d₀ + q₂))" not in energy
+
+
+SKEW = """
+dh:
+  - {theta: q1*, a: a1, alpha: 90deg}
+  - {theta: q2*, alpha: gamma}
+  - {d: q3*}
+masses:
+  - {mass: m2, link: 2, center: [0, 0, p], inertia: {xx: A, yy: B, zz: C, xz: E}, about: origin}
+  - {mass: m3, link: 3, center: origin, shape: point}
+find: [K]
+"""
+
+
+def test_a_line_that_an_identity_leads_to_is_collected_at_once() -> None:
+    shown = page(SKEW)
+    assert "= 1, and collected:" in shown
+    assert "\nCollected:" not in shown
+
+
+def test_an_energy_has_no_minus_before_the_square_of_a_rate() -> None:
+    energies = re.findall(r"K_(?:v|ω)1 = ½[^\n]*(?:\n {8,}[^\n]*)*", page(SKEW))
+    assert energies and not any(re.search(r"\n *- \([^\n]*\) q̇₁²", each) for each in energies)
