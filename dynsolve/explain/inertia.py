@@ -438,6 +438,8 @@ def _base_tensor(context: Context, body: Body) -> Step:
     why = "{w} will be written in {ground} coordinates, so the tensor must be, too: {leads}{turning}"
     if is_kept:
         why = "{turning}"
+    elif context.values[f"w{b}"].is_zero:
+        why = "{leads}{turning}"
     elif detail is Detail.FULL:
         below = "Below the energy is worked out along the body's own axes, where the tensor is {I}."
         why = f"{{leads}} {below}{{turning}}"
@@ -470,8 +472,9 @@ def _base_tensor(context: Context, body: Body) -> Step:
 
 
 def _detail(context: Context, body: Body, base: Node) -> Detail:
-    """Where the energy is worked out along the body's own axes, 𝓘 is shown only if it is asked for."""
-    if along_own_axes(context, body) and f"I{body.name}" not in context.wanted:
+    """Where the body does not turn, or along its own axes in its energy, 𝓘 is shown only if it is asked for."""
+    is_unneeded = along_own_axes(context, body) or context.values[f"w{body.name}"].is_zero
+    if is_unneeded and f"I{body.name}" not in context.wanted:
         return Detail.FULL
     is_unturned = context.values[f"I{body.name}"] == context.values[f"I_body{body.name}"]
     return Detail.BRIEF if is_small(base) and not is_unturned else Detail.NORMAL

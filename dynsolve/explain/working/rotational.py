@@ -20,7 +20,16 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
-from dynsolve.explain.working.identities import SILENT, Way, chain, collected, identities, product_line, said
+from dynsolve.explain.working.identities import (
+    SILENT,
+    Way,
+    chain,
+    collected,
+    identities,
+    product_line,
+    said,
+    used_in_product,
+)
 from dynsolve.explain.working.squares import turn_of_frame, turned_name, without_signs
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
@@ -145,10 +154,15 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
     if not context.is_short:
         by = say("Along the body's own axes, multiplied out:")
         return Turned(own, whole, (Line(by, (equation(whole, context.show(own)),)),), f"R{b}")
-    if leans(context.robot):
+    if leans(context.robot) and _needs_identities(context, rotation[0].T, context.values[f"w{b}"]):
         return Turned(own, whole, tuple(_by_frame_0(context, body, quantity, letter)), "H0")
     line = product_line(context, "Along the body's own axes", [whole], rotation, value)
     return Turned(own, whole, (line,), f"R{b}")
+
+
+def _needs_identities(context: Context, turn: Matrix, w: Matrix) -> bool:
+    """Whether ω is turned by more than a product of matrices, multiplied out."""
+    return bool(used_in_product(context, turn, w, turn @ w))
 
 
 def leans(robot: Robot) -> bool:
