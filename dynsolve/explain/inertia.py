@@ -472,7 +472,7 @@ def _base_tensor(context: Context, body: Body) -> Step:
 
 
 def _detail(context: Context, body: Body, base: Node) -> Detail:
-    """Where the body does not turn, or along its own axes in its energy, 𝓘 is shown only if it is asked for."""
+    """Of a body that does not turn, or whose energy is found along its own axes, 𝓘 is shown if asked for."""
     is_unneeded = along_own_axes(context, body) or context.values[f"w{body.name}"].is_zero
     if is_unneeded and f"I{body.name}" not in context.wanted:
         return Detail.FULL

@@ -105,6 +105,8 @@ def _way(context: Context, body: Body) -> _Way:
             source=GEOMETRY,
         )
     end, back = other
+    if (body.center - back).is_zero:
+        return _Way(letters.o(end), uses=_told_at(context.robot, end), source=GIVEN)
     lever = letters.bold("r", Row((Number(end), Words(","), Words("c"), c)), Number(body.link))
     return _from(context, body, end, lever, body.center - back)
 
@@ -157,8 +159,10 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
     elif body.center.is_zero:
         kind, words = "origin", "is at the origin {own} of frame {link}"
     elif is_given_by(body, "near") and context.standard:
-        kind = "near"
-        words = _FROM_THE_NEAR_END
+        other = other_end(context.robot, body)
+        is_end = other is not None and (body.center - other[1]).is_zero
+        kind = "" if is_end else "near"
+        words = "is at the near end of link {link}, {near}" if is_end else _FROM_THE_NEAR_END
     elif is_given_by(body, "along"):
         kind, words = "", "is {part} of the way along link {link}, from {near} to {far}"
         if part is None:

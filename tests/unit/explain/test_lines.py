@@ -127,3 +127,26 @@ def test_a_line_that_an_identity_leads_to_is_collected_at_once() -> None:
 def test_an_energy_has_no_minus_before_the_square_of_a_rate() -> None:
     energies = re.findall(r"K_(?:v|ω)1 = ½[^\n]*(?:\n {8,}[^\n]*)*", page(SKEW))
     assert energies and not any(re.search(r"\n *- \([^\n]*\) q̇₁²", each) for each in energies)
+
+
+def test_an_angular_velocity_that_takes_one_product_takes_one() -> None:
+    shown = page("""
+gravity: [0, 0, -g]
+base: Rz(30deg)
+dh: [{d: q1*, alpha: 90deg}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 2, center: midpoint, inertia: {xx: A, yy: B, zz: C}}]
+find: [K]
+""")
+    assert "𝐑₁ᵀ 𝛚₁ =" in shown and "from frame 0" not in shown
+
+
+def test_the_tensor_of_a_body_that_does_not_turn_is_not_turned() -> None:
+    body = "masses: [{mass: m, link: 1, center: origin, inertia: {xx: A, yy: B, zz: C}}]\n"
+    assert "𝐈₁ 𝐑₁ᵀ" not in page("dh: [{theta: 90deg, d: q1*, alpha: 90deg}]\n" + body)
+
+
+def test_a_mass_centre_at_the_near_end_is_its_origin() -> None:
+    arm = "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m, link: 1, center: {near: [0, 0, 0]}}]\n"
+    shown = page(arm)
+    assert "The mass centre of body 1 is at the near end of link 1, 𝐨₀." in shown
+    assert "𝐫_c1 = 𝐨₀" in shown
