@@ -5,9 +5,9 @@ And the columns z × (p - o) of any point, in letters and with the axes and leve
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from itertools import chain, groupby, pairwise
+from itertools import groupby, pairwise
 from operator import itemgetter
 
 from msgspec.structs import replace
@@ -72,7 +72,8 @@ def steps(context: Context) -> Iterator[Step]:
     """Axes and origins, a column a coordinate, and J."""
     yield _axes(context)
     whole = _whole(context)
-    group = Group("J", whole.title, whole.why, whole.formula, whole.source, _leading_to(_used(context)))
+    concluding = _identities(context, range(context.robot.n))
+    group = Group("J", whole.title, whole.why, whole.formula, whole.source, concluding)
     for q in context.robot.coordinates:
         yield replace(_column(context, q), normal=Part.WORKING, group=group)
     yield replace(whole, group=group)
@@ -212,28 +213,19 @@ def _column(context: Context, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_column_why(context, q, _plain_joint(context, k))),
         formula=equation(name, column(*in_letters)),
         working=column_shown(context, joints_moved(context, k, last), point, in_letters[0], linear),
-        concluding=_leading_to(_used_in_column(context, k)),
+        concluding=_identities(context, [k]),
         result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
     )
 
 
-def _used_in_column(context: Context, k: int) -> list[Identity]:
-    """The identities by which the column of coordinate k (from 0) becomes what is printed."""
-    joint = _plain_joint(context, k)
-    if not joint or joint.type is JointType.PRISMATIC or not context.is_short:
-        return []
-    return used_in_cross(context, joint, end_of(context))
-
-
-def _used(context: Context) -> list[Identity]:
-    """Those of all columns, each once."""
-    each = (_used_in_column(context, k) for k in range(context.robot.n))
-    return list(dict.fromkeys(chain.from_iterable(each)))
-
-
-def _leading_to(used: Sequence[Identity]) -> Prose:
-    """What leads to a result by identities."""
-    return ("With ", *said(used), ":") if used else ()
+def _identities(context: Context, columns: Iterable[int]) -> Prose:
+    """What leads to columns (from 0) by the identities that they use."""
+    used: dict[Identity, None] = {}
+    for k in columns if context.is_short else ():
+        joint = _plain_joint(context, k)
+        if joint and joint.type is not JointType.PRISMATIC:
+            used |= dict.fromkeys(used_in_cross(context, joint, end_of(context)))
+    return ("With ", *said(list(used)), ":") if used else ()
 
 
 def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:

@@ -154,15 +154,11 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
     if not context.is_short:
         by = say("Along the body's own axes, multiplied out:")
         return Turned(own, whole, (Line(by, (equation(whole, context.show(own)),)),), f"R{b}")
-    if leans(context.robot) and _needs_identities(context, rotation[0].T, context.values[f"w{b}"]):
+    w = context.values[f"w{b}"]  # by one product, where that needs no identity
+    if leans(context.robot) and used_in_product(context, rotation[0].T, w, rotation[0].T @ w):
         return Turned(own, whole, tuple(_by_frame_0(context, body, quantity, letter)), "H0")
     line = product_line(context, "Along the body's own axes", [whole], rotation, value)
     return Turned(own, whole, (line,), f"R{b}")
-
-
-def _needs_identities(context: Context, turn: Matrix, w: Matrix) -> bool:
-    """Whether ω is turned by more than a product of matrices, multiplied out."""
-    return bool(used_in_product(context, turn, w, turn @ w))
 
 
 def leans(robot: Robot) -> bool:
