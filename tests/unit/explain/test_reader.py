@@ -315,12 +315,10 @@ masses:
 """
 
 
-def test_where_a_line_is_left_out_the_next_says_what_it_did() -> None:
-    shown = in_one_line(FLOATING)
-    assert "Multiplied out (the terms with s₁ c₁ cancel), with s₁² + c₁² = 1: K_v1" in shown
-    assert "sorted" not in shown
-    full = " ".join(page(FLOATING, Detail.FULL).split())
-    assert "the terms with s₁ c₁ cancel: " in full and "By s₁² + c₁² = 1: K_v1" in full
+def test_a_line_that_an_identity_leads_to_is_collected_and_what_cancels_is_told() -> None:
+    for shown in (in_one_line(FLOATING), " ".join(page(FLOATING, Detail.FULL).split())):
+        assert "the terms with s₁ c₁ cancel: " in shown
+        assert "By s₁² + c₁² = 1, and collected: K_v1" in shown and " Collected: K_v1" not in shown
 
 
 def test_squares_of_a_longer_arm_name_the_identities_that_collect_them() -> None:
