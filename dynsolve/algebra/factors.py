@@ -248,7 +248,8 @@ def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
     """(factor, multiplicity) of an expression, up to a number; those without an angle too.
 
     A factor of its own is what is irreducible in sines and cosines of whole angles.  An
-    expression that is too long, or has inverses or roots of letters, is its own only factor.
+    expression that is too long, or has roots of letters or inverses of what may not be positive, is its own
+    only factor.
 
     >>> from dynsolve.algebra.angles import Angle
     >>> from dynsolve.algebra.ring_values import build_ring
@@ -327,7 +328,8 @@ class _HalfAngles:
         """Whether the expression is a polynomial in sines, cosines and symbols, and not too long."""
         degrees = expr.poly.degrees()
         plain = ("sin", "cos", "symbol")
-        others = (g.index for g in self.ring.generators if g.kind not in plain and g.index not in self.roots)
+        known = parameters(expr) | self.roots.keys()
+        others = (g.index for g in self.ring.generators if g.kind not in plain and g.index not in known)
         if any(degrees[index] > 0 for index in others):
             return False
         size = len(expr)

@@ -101,20 +101,21 @@ class SetForms(Inequalities):
         return self._signed(prod(factors, start=value.ring.one))[0]
 
     def product(self, value: Expr) -> Node:
-        """An expression as the product of its factors in sines and cosines."""
-        product = value.ring.one
+        """An expression as the product of its factors in sines and cosines, parameters in front."""
+        ring, product, front = value.ring, value.ring.one, value.ring.one
         shown: list[tuple[Node, int]] = []
         for factor, exponent in trig_factors(value):
-            node, signed = self._signed(factor)
-            shown.append((node, exponent))
-            product = product * signed**exponent
-        number = ratio(value, product)
-        if not number.is_number:
-            shown.append((self.compactor(value.ring).form(number), 1))
-        return times(
-            number.number if number.is_number else Fraction(1),
-            sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))),
-        )
+            if ring.depends_on_coordinates(factor):
+                node, signed = self._signed(factor)
+                shown.append((node, exponent))
+                product = product * signed**exponent
+            else:
+                front = front * factor**exponent
+        shown.sort(key=lambda part: (cost(part[0]), to_python(part[0])))
+        front = front * ratio(value, product * front)
+        if front.is_number:
+            return times(front.number, shown)
+        return times(1, [(self.compactor(ring).form(front), 1), *shown])
 
     def _signed(self, expr: Expr) -> tuple[Node, Expr]:
         """±expr with the sign that leaves fewer minus signs, as a formula and as it is."""

@@ -517,7 +517,7 @@ def _holds(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {&}|In these equilibria|In case #|In every configuration>: <stable|not stable>[, but for {&}, along "
+    "<At {&}|In equilibrium|In case #|In every configuration>: <stable|not stable>[, but for {&}, along "
     "which nothing changes]."
 )
 def _stable(m: Mechanism, s: Sentence) -> bool:
@@ -736,7 +736,7 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In these equilibria|In case #>[, where {}]: "
+    "<At {}|In every configuration|In equilibrium|In case #>[, where {}]: "
     "<stable|not stable> where {}, <stable|not stable> where {}[, ...].",
 )
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
@@ -751,7 +751,7 @@ def _stable_where(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In these equilibria|In case #>[, where {}]: <stable> where {&}"
+    "<At {}|In every configuration|In equilibrium|In case #>[, where {}]: <stable> where {&}"
     "[, not stable where one of these inequalities is reversed][, ...].",
 )
 def _stable_where_all(m: Mechanism, s: Sentence) -> bool:

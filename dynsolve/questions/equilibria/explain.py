@@ -8,14 +8,15 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.linear_systems import is_diagonal
-from dynsolve.algebra.matrix import Matrix, determinant
+from dynsolve.algebra.matrix import Matrix, determinant, vstack
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import in_units
-from dynsolve.explain.set_forms import vanishing, without_number
+from dynsolve.explain.set_forms import SetForms, vanishing
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import (
     GOLDSTEIN,
@@ -109,10 +110,13 @@ def _equilibria(context: Context) -> Iterator[Step]:
     cases = shown.equilibria
     told = [shown.relations(*both) for both in zip(found.alternatives, cases, strict=True)]
     result: tuple[Node, ...] = tuple(as_row(listed(one)) for one in told if one)
-    rows = tuple(equation(without_number(context.show(row)), Number(0)) for row in found.rows)
     said = {equation(value, Number(0)) for one in cases for value in one}
-    turned = [equation(without_number(context.show(-row)), Number(0)) for row in found.rows]
-    is_said = all(one in said or other in said for one, other in zip(rows, turned, strict=True))
+    both = (
+        [equation(shown.condition(Condition(sign * row)), Number(0)) for sign in (1, -1)]
+        for row in found.rows
+    )
+    rows = tuple(next((one for one in ways if one in said), ways[0]) for ways in both)
+    is_said = said.issuperset(rows)
     constrained, working = _with_constraints(context) if robot.questions.constraints else ((), ())
     balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
     own = set() if constrained else {sign * force for force in balanced.entries for sign in (1, -1)}
@@ -123,7 +127,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     factors = say("that are not 0{where}" if special else "that are never 0", where=where)
     heading = say(
         "{what}, without factors {which}:",
-        what="With the constraints" if constrained else "Combined",
+        what="Combined with the constraints" if constrained else "Combined",
         which="of the parameters" if found.may_be_others else factors,
     )
     is_never = any(row.is_number for row in found.rows)  # then it stands for the others, whatever they are
@@ -243,7 +247,8 @@ def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
     """For which forces there are multipliers, and the rows that are dependent there."""
     robot = context.robot
     columns = wanted_rows(robot)
-    order = multipliers(robot, *(context.values[name] for name in ("g", "Ac", "hc"))).rank + 1
+    held = multipliers(robot, *(context.values[name] for name in ("g", "Ac", "hc")))
+    order = held.rank + 1
     if order > len(columns):
         return ("The constraints leave nothing free: what they allow is an equilibrium. ",), ()
     A, g = context.form("Ac"), context.form("g")
@@ -253,9 +258,14 @@ def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
     free = " without the columns of what motors hold" if len(columns) < robot.n else ""
     is_square = len(together.rows) == len(columns) == order
     zero = "their determinant is" if is_square else f"all their minors of order {order} are"
+    shown: list[Node] = [equation(_DEPENDENT, together)] if is_small(together) else []
+    if is_square:
+        product = SetForms(robot, context.values).product(determinant(vstack(held.A, held.g)))
+        size = formula("det {rows} = {product}", rows=_DEPENDENT, product=product)
+        shown += [size] if is_small(product) else []
     return (
         say(f"There is a $𝛌$ where $𝐠ᵀ$ is a combination of the rows of $𝐀_c${free}: {zero} 0. "),
-        (equation(_DEPENDENT, together),) if is_small(together) else (),
+        tuple(shown),
     )
 
 
@@ -399,7 +409,7 @@ def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Pros
     if not case:
         return ("In every configuration",)
     cases = shown.equilibria
-    return ("In these equilibria",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
+    return ("In equilibrium",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
 
 
 def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Prose) -> Prose:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import cached_property
+from math import gcd, lcm
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.factors import is_positive
@@ -12,8 +14,9 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.explain.set_forms import SetForms
-from dynsolve.notation.tree import Function, Node, Number, Quotient, equation
+from dynsolve.notation.tree import Function, Node, Number, Quotient, Symbol, equation
 from dynsolve.questions.equilibria.solving import SpecialCase
+from dynsolve.robot.model import JointType
 
 
 class EquilibriaForms(SetForms):
@@ -33,22 +36,44 @@ class EquilibriaForms(SetForms):
         return tuple(tuple(tuple(map(self.condition, one)) for one in sets) for sets in found.excluded)
 
     def relations(self, case: Alternative, zeros: tuple[Node, ...]) -> list[Node]:
-        """What is 0 in a case, as equations: the tangent of an angle where that has one value."""
+        """What is 0 in a case, as equations: an angle's tangent, or a length, where these have one value."""
         return [
-            self._tangent(one) or equation(value, Number(0)) for one, value in zip(case, zeros, strict=True)
+            self._tangent(one) or self._length(one) or equation(value, Number(0))
+            for one, value in zip(case, zeros, strict=True)
         ]
+
+    def _length(self, condition: Condition) -> Node | None:
+        """x = b/a where a x = b, and a is a parameter that is not 0; nothing of x = 0."""
+        ring, expr = condition.expr.ring, condition.expr
+        for q in self.robot.coordinates:
+            factor = ring.coefficient(expr, q.name, 0)
+            rest = expr - factor * ring.symbol(q.name)
+            is_linear = q.type is JointType.PRISMATIC and ring.coefficient(rest, q.name, 0).is_zero
+            if is_linear and not (factor.is_zero or rest.is_zero or ring.depends_on_coordinates(factor)):
+                return self._quotient(Symbol(q.name), -rest, factor)
+        return None
+
+    def _quotient(self, letter: Node, above: Expr, below: Expr) -> Node | None:
+        """letter = above/below, cancelled; nothing where the lower part may be 0."""
+        ring, form = above.ring, self.compactor(above.ring).form
+        for index, inverted in ring.inverses.items():
+            highest = max(int(part.poly.degrees()[index]) for part in (above, below))
+            above, below = (part * Expr(ring, inverted) ** max(highest, 0) for part in (above, below))
+        sign = next((sign for sign in (1, -1) if is_positive(below * sign)), 0)
+        common = above.poly.gcd(below.poly)
+        parts = [Expr(ring, part.poly / common) for part in (above, below)]
+        numbers = [number for part in parts for number in part.poly.coeffs()]
+        whole = Fraction(lcm(*(int(n.q) for n in numbers)), gcd(*(int(n.p) for n in numbers)))
+        upper, lower = (form(part * (whole * sign)) for part in parts)
+        return equation(letter, upper if lower == Number(1) else Quotient(upper, lower)) if sign else None
 
     def _tangent(self, condition: Condition) -> Node | None:
         """tan θ = b/a where a sin θ = b cos θ, and a is not 0."""
         turn = turn_of(condition.expr)
         if turn is None or turn.is_one_sided or not turn.rest.is_zero:
             return None
-        sign = next((sign for sign in (1, -1) if is_positive(turn.sine * sign)), 0)
-        ring, form = condition.expr.ring, self.compactor(condition.expr.ring).form
-        common = turn.sine.poly.gcd(turn.cosine.poly)
-        above, below = (form(Expr(ring, part.poly / common) * sign) for part in (-turn.cosine, turn.sine))
-        angle = Function("tan", angle_node(turn.pair.angle, ring.names))
-        return equation(angle, above if below == Number(1) else Quotient(above, below)) if sign else None
+        angle = Function("tan", angle_node(turn.pair.angle, condition.expr.ring.names))
+        return self._quotient(angle, -turn.cosine, turn.sine)
 
     def special_exceptions(self, case: SpecialCase) -> tuple[tuple[Node, ...], ...]:
         """The sets that are no equilibria for special parameters."""

@@ -147,8 +147,8 @@ class Curvature(Struct, frozen=True):
     def points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         """The quarter turns that a case allows, each with its stability where the case `exists`."""
         inside = [Bound(bound.value) for bound in exists]
-        known = {point.values: point for point in self._points(alternative, inside)}
-        for point in self._points(alternative, exists):
+        known = {point.values: point for point in self._possible(alternative, inside)}
+        for point in self._possible(alternative, exists):
             told = known.get(point.values, point)
             if told == point or not told.is_told or told.stability is Stability.UNSTABLE:
                 yield point
@@ -156,6 +156,18 @@ class Curvature(Struct, frozen=True):
                 yield replace(point, conditions=tuple(inside), nonzero=(), falls=False, is_open=False)
             else:
                 yield replace(told, inside=tuple(inside))
+
+    def _possible(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
+        """Points without factors that are 0 nowhere in the case; stable where nothing else is asked."""
+        for point in self._points(alternative, exists):
+            nonzero = tuple(factor for factor in point.nonzero if self._may_vanish(factor, alternative))
+            is_stable = point.nonzero and not (nonzero or point.conditions)
+            stability = Stability.STABLE if is_stable else point.stability
+            yield replace(point, nonzero=nonzero, stability=stability)
+
+    def _may_vanish(self, factor: Expr, alternative: Alternative) -> bool:
+        values = [condition.expr for condition in alternative]
+        return not factor.ring.depends_on_coordinates(factor) or _may_be_zero([*values, factor], self.signs)
 
     def _points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         if 2 ** len(alternative) > MOST_POINTS:
@@ -557,6 +569,17 @@ def _modulo(factor: Expr, forces: Iterable[Expr]) -> tuple[Expr, ...]:
     """What is left of forces where a factor is 0, without those that are 0, too."""
     rests = (remainder(force, factor) for force in forces)
     return tuple(dict.fromkeys(rest for rest in rests if not rest.is_zero))
+
+
+def _may_be_zero(values: Sequence[Expr], signs: ParameterSigns) -> bool:
+    """Whether expressions are 0 together somewhere, as far as is found, for some parameters."""
+    exactly = Special(signs)
+    try:
+        sets = common_zeros(values, exactly)
+    except TooLong:
+        return True
+    there = any(conditions([one.expr for one in case], signs) is not None for case in sets)
+    return there or not exactly.is_empty
 
 
 def combined(robot: Robot, forces: Sequence[Expr], use: Callable[[Expr], None]) -> Iterator[Expr]:

@@ -10,13 +10,7 @@ import sympy
 from msgspec.structs import replace
 
 import dynsolve
-from dynsolve.algebra.ring_values import evaluate
-from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.rules import derive
-from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import Special
-from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Function, Number, Product, Quotient, Relation, Symbol, equation, walk
@@ -24,7 +18,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.check import Case, in_balance, verify_equilibria
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.solving import Stability, multipliers
+from dynsolve.questions.equilibria.solving import Stability
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
@@ -383,28 +377,6 @@ def test_where_a_constraint_holds_nothing_is_no_equilibrium() -> None:
         assert str(dynsolve.check(WALL, written).answers[0].verdict) == verdict
 
 
-def test_where_a_constraint_holds_nothing_is_taken_out_of_what_is_not_solved_for() -> None:
-    robot = read_problem(WALL).robot
-    values, there = derive(robot), Transfer(robot.ring, search_ring(robot.ring, (), {}))
-    held = multipliers(robot, values["g"], values["Ac"], values["hc"]).moved(there)
-    special = Special(ParameterSigns())
-    whole = held.settled([tuple(map(Condition, held.zeros(1)))], 1, special)
-    (curve, without), *_ = whole.pairs
-    names, poses = [q.name for q in robot.coordinates], [(0.0, pi), (pi, pi)]
-    (point,) = without
-    for q1, q2 in poses:
-        at = {
-            "l": 0.7,
-            "m1": 1.3,
-            "g": 9.8,
-            "m2": 0.4,
-            "lc1": 0.3,
-            "lc2": 0.6,
-            **dict(zip(names, (q1, q2), strict=True)),
-        }
-        assert all(abs(evaluate(one.expr, at)) < 1e-9 for one in (*curve, *point))
-
-
 REACH = """
 gravity: [0, -g, 0]
 dh:
@@ -621,3 +593,49 @@ find: [equilibria]
 """
     (points,) = dynsolve.solve(disk).to_json()["results"]["equilibria_stability"]
     assert [(point["x/r"], point["stability"]) for point in points] == [("0", "unstable"), ("pi", "stable")]
+
+
+def told_of(text: str) -> Any:
+    """The step of the equilibria."""
+    (step,) = (step for step in dynsolve.solve(text).steps if step.id == "equilibria")
+    return step
+
+
+ELLIPSE = """
+gravity: [0, -g, 0]
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+springs: [{stiffness: k, of: x}]
+constraints: [x^2/a^2 + y^2/b^2 - 1]
+find: [equilibria]
+"""
+
+
+def test_a_product_over_lengths_is_taken_apart() -> None:
+    """By hand: x (k y/b² - m g/a²) = 0."""
+    step = told_of(ELLIPSE)
+    assert [to_unicode(one).partition(" and ")[0] for one in step.result[:2]] == ["x = 0", "x = 0"]
+    assert [to_unicode(one).partition(" and ")[2] for one in step.result[:2]] == ["y = b", "y = -b"]
+    assert to_unicode(step.result[2]).startswith("y = m g b²/(a² k)")
+
+
+def test_what_a_case_makes_no_zero_is_not_asked_to_be_none() -> None:
+    """By hand: x² + y² = L², and with x = 0 the other equation has y = 0, too."""
+    text = ELLIPSE.replace("x^2/a^2 + y^2/b^2 - 1", "x^2 + y^2 - L^2").replace("of: x", "of: x, rest: a")
+    ((point,),) = dynsolve.solve(text).to_json()["results"]["equilibria_stability"]
+    assert not any("!=" in one for one in point["stable_if"]) and "L**2" in str(point["stable_if"])
+
+
+CRANK = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: r}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 1}]
+constraints: [tip.y]
+assume: [l > r]
+find: [equilibria]
+"""
+
+
+def test_the_determinant_that_is_to_be_0_is_shown() -> None:
+    """By hand: -m g r cos q₁ · l cos(q₁ + q₂)."""
+    *_, size = told_of(CRANK).working
+    assert to_unicode(size).startswith("det") and "m g r l cos(q₁) cos(q₁ + q₂)" in to_unicode(size)
