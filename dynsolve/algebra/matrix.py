@@ -168,15 +168,24 @@ def work(matrix: Matrix) -> int:
     return of(tuple(range(len(sizes))))
 
 
+Place = tuple[tuple[int, ...], tuple[int, ...]]
+"""The rows and the columns of a square part, from 0."""
+
+
 def minors(matrix: Matrix, size: int) -> Iterator[Expr]:
     """The determinants of all square parts of a size that are not 0 for every state."""
+    return (value for _, value in placed_minors(matrix, size))
+
+
+def placed_minors(matrix: Matrix, size: int) -> Iterator[tuple[Place, Expr]]:
+    """The same, each with its place."""
     expansion = _Expansion(matrix)
     rows, columns = matrix.shape
     for chosen in combinations(range(rows), size):
         for across in combinations(range(columns), size):
             value = expansion.minor(chosen, across)
             if not value.is_zero:
-                yield value
+                yield (chosen, across), value
 
 
 def parts(matrix: Matrix, size: int) -> Iterator[Matrix]:

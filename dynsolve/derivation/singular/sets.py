@@ -9,7 +9,7 @@ from msgspec import Struct, field
 
 from dynsolve.algebra.factors import is_positive, squares, trig_factors
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.matrix import Matrix, minors, parts, work
+from dynsolve.algebra.matrix import Matrix, Place, minors, parts, placed_minors, work
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import conditions, without_ends
@@ -86,9 +86,10 @@ class SingularSet(Struct, frozen=True):
     """Where a matrix of greatest rank `rank` has less: at any of the `alternatives`.
 
     `minors` are the expressions that vanish there, all in one ring: those of the Jacobian, or of its
-    `core`, whose rank is less by `pivots`.  `losses` are the rank and what is lost at each alternative,
-    `exist` what the parameters must satisfy for it to be there.  Where one of the `special` polynomials
-    in parameters is 0 there may be others, and with `may_be_others` for further special parameters.
+    `core`, whose rank is less by `pivots`; `places` are their rows and columns.  `losses` are the rank and
+    what is lost at each alternative, `exist` what the parameters must satisfy for it to be there.  Where one
+    of the `special` polynomials in parameters is 0 there may be others, and with `may_be_others` for further
+    special parameters.
     """
 
     rank: int
@@ -100,6 +101,7 @@ class SingularSet(Struct, frozen=True):
     core: Matrix | None = None
     special: tuple[Expr, ...] = ()
     may_be_others: bool = False
+    places: tuple[Place, ...] = ()
 
 
 def singular_set(jacobian: Matrix) -> SingularSet | None:
@@ -116,9 +118,10 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
         return None
     is_full = pivots + rank == min(jacobian.shape)
     if is_full and minors_work(jacobian, pivots + rank) <= MOST_WORK:
-        shown, found = None, tuple(minors(jacobian, pivots + rank))
+        shown, placed = None, tuple(placed_minors(jacobian, pivots + rank))
     else:
-        shown, found = rest, tuple(minors(rest, rank)) if rank else ()
+        shown, placed = rest, tuple(placed_minors(rest, rank)) if rank else ()
+    found = tuple(value for _, value in placed)
     special = Special(ParameterSigns())
     try:
         alternatives = common_zeros(found, special) if found else ()
@@ -138,6 +141,7 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
         shown,
         told,
         special.is_open or len(told) < len(special.factors),
+        tuple(place for place, _ in placed),
     )
 
 

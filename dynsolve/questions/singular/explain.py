@@ -7,6 +7,7 @@ from math import comb, prod
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.matrix import Place
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.document.figures import ArmArrow, ArmFigure
@@ -17,7 +18,7 @@ from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_de
 from dynsolve.explain.working.identities import SILENT
 from dynsolve.explain.writing import agreeing, listed, spong, turns
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, equation
+from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.questions.singular.forms import SingularForms
 from dynsolve.questions.task.explain import determinant_way
@@ -56,13 +57,16 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
     """The minors of J, or of what is left of it where rows and columns are cleared, as products."""
     name, J, size = _matrix(context), _letter(context), found.rank - found.pivots
     rows, columns = context.values[name].shape
-    distinct = [m for k, m in enumerate(found.minors) if not {m, -m} & {*found.minors[:k]}]
-    minors = [forms.product(minor) for minor in distinct]
+    distinct = [k for k, m in enumerate(found.minors) if not {m, -m} & {*found.minors[:k]}]
+    minors = [forms.product(found.minors[k]) for k in distinct]
     of = context.values[name] if found.core is None else found.core
     left_out: Prose = ()
     if size > 1 and len(minors) < prod(comb(count, size) for count in of.shape):
         left_out = (f"But for signs, {'one is' if len(minors) == 1 else 'these are'} not always 0:",)
-    results = tuple(formula("minor {k} = {minor}", k=k, minor=minor) for k, minor in enumerate(minors, 1))
+    names = [_of_part(found.places[k], of.shape) for k in distinct]
+    results: tuple[Node, ...] = tuple(
+        equation(name, minor) for name, minor in zip(names, minors, strict=True)
+    )
     working: tuple[Node, ...] = ()
     way = SILENT
     text = "${J}$ is {rows}×{columns}, and its rank is {rank} almost everywhere. "
@@ -108,6 +112,16 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
         normal=TOLD & ~Part.RESULT if len(results) == 1 and "det" in context.wanted else TOLD,
         uses=(name,),
     )
+
+
+def _of_part(place: Place, shape: tuple[int, int]) -> Node:
+    """`minor (columns 1, 2)`: with the rows where these are not all."""
+    told = [
+        f"{what}{'s' * (len(chosen) > 1)} {', '.join(str(k + 1) for k in chosen)}"
+        for what, chosen, count in zip(("row", "column"), place, shape, strict=True)
+        if len(chosen) < count
+    ]
+    return Words(f"minor ({', '.join(told)})" if told else "determinant")
 
 
 def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:

@@ -103,3 +103,15 @@ find: [lost, nullspace]
     assert found["lost"] == [] and found["nullspace"] == []
     wide = arm.replace("[tip.y, q1]", "[tip.y]").replace("q2: 90deg", "q2: 0")
     assert dynsolve.solve(wide).to_json()["results"]["nullspace"] == [["2", "-5"]]
+
+
+def test_a_minor_is_called_by_its_columns() -> None:
+    """By hand: columns 2 and 3 of a slide along x and a turn of the end, l₃ sin q₃ apart."""
+    text = """
+dh: [{theta: q1*, a: l1, alpha: -90deg}, {d: q2*, alpha: 90deg}, {theta: q3*, a: l3}]
+task: [tip.x, tip.y]
+find: [singular]
+"""
+    (step,) = (step for step in dynsolve.solve(text).steps if step.id == "singular_minors")
+    names = [to_unicode(one).partition(" = ")[0] for one in step.result]
+    assert names == ["minor (columns 1, 2)", "minor (columns 1, 3)", "minor (columns 2, 3)"]
