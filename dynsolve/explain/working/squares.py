@@ -589,7 +589,8 @@ def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -
             velocities.append((factor, int(exponent)))
         else:
             lengths = lengths * Expr(ring, factor) ** int(exponent)
-    velocities.sort(key=lambda velocity: len(velocity[0]))
+    order = [ring.symbol_indices[(name, 1)] for name in ring.names]
+    velocities.sort(key=lambda one: (len(one[0]), [one[0].degrees()[i] <= 0 for i in order]))
     rest = [(forms.of(Expr(ring, factor)), exponent) for factor, exponent in velocities]
 
     def written(bracket: Callable[[fmpq_mpoly], Node]) -> Node:

@@ -9,13 +9,14 @@ from math import gcd, lcm
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.explain.set_forms import SetForms
 from dynsolve.notation.tree import Function, Node, Number, Quotient, Symbol, equation
-from dynsolve.questions.equilibria.solving import SpecialCase
+from dynsolve.questions.equilibria.solving import SpecialCase, assumed_signs
 from dynsolve.robot.model import JointType
 
 
@@ -59,7 +60,8 @@ class EquilibriaForms(SetForms):
         for index, inverted in ring.inverses.items():
             highest = max(int(part.poly.degrees()[index]) for part in (above, below))
             above, below = (part * Expr(ring, inverted) ** max(highest, 0) for part in (above, below))
-        sign = next((sign for sign in (1, -1) if is_positive(below * sign)), 0)
+        signs = assumed_signs(self.robot, Transfer(self.robot.ring, ring))
+        sign = next((sign for sign in (1, -1) if signs.is_positive(below * sign)), 0)
         common = above.poly.gcd(below.poly)
         parts = [Expr(ring, part.poly / common) for part in (above, below)]
         numbers = [number for part in parts for number in part.poly.coeffs()]

@@ -453,8 +453,7 @@ def equilibria(
         return Skipped(TOO_LONG)
     ring = search_ring(robot.ring, (), {})
     there = Transfer(robot.ring, ring)
-    assumed = robot.questions.model.assumed
-    signs = ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
+    signs = assumed_signs(robot, there)
     special = Special(signs)
     left = tuple(combined(robot, wanted, lambda factor: special.add(there(factor))))
     try:
@@ -532,6 +531,12 @@ def _never(alternative: Alternative, signs: ParameterSigns) -> tuple[Alternative
     """What is not 0 in an alternative where its other conditions hold."""
     value = next((one for one in alternative if conditions([one.expr], signs) is None), alternative[-1])
     return tuple(one for one in alternative if one is not value), value.expr
+
+
+def assumed_signs(robot: Robot, there: Transfer) -> ParameterSigns:
+    """What the problem assumes of the parameters, in another ring."""
+    assumed = robot.questions.model.assumed
+    return ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
 
 
 def _special_case(

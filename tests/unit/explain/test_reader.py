@@ -426,3 +426,13 @@ find: [linear_B]
 def test_what_is_lost_is_told_before_its_formula() -> None:
     shown = page("dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nfind: [singular]\n")
     assert shown.index("orthogonal to 𝐰") < shown.index("𝐰ᵀ𝐉") and shown.count("𝐰ᵀ𝐉") == 1
+
+
+def test_products_of_rates_stand_in_the_order_of_the_coordinates() -> None:
+    text = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  bodies: [{mass: m, at: [a*sin(q1) + a*sin(q2), a*cos(q1) + a*cos(q2), 0]}]
+"""
+    assert "2(s₁ s₂ + c₁ c₂) q̇₁ q̇₂" in page(text)

@@ -639,3 +639,15 @@ def test_the_determinant_that_is_to_be_0_is_shown() -> None:
     """By hand: -m g r cos q₁ · l cos(q₁ + q₂)."""
     *_, size = told_of(CRANK).working
     assert to_unicode(size).startswith("det") and "m g r l cos(q₁) cos(q₁ + q₂)" in to_unicode(size)
+
+
+def test_a_length_in_front_of_which_nothing_is_0_is_solved_for() -> None:
+    """By hand: k (r - r₀) + m g cos b = 0, where b is a number of the problem."""
+    text = """
+gravity: [0, 0, -g]
+model: {coordinates: {r: prismatic}, bodies: [{mass: m, at: [r*sin(b), 0, r*cos(b)]}]}
+springs: [{stiffness: k, of: r, rest: r0}]
+find: [equilibria]
+"""
+    (row,) = told_of(text).result
+    assert to_unicode(row) == "r = (k r₀ - m g cos(b))/k"
