@@ -43,7 +43,8 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
             outside=say(" $Q_i$ is what acts from outside.") if context.robot.questions.loads else "",
             held=say(" $𝐀_cᵀ 𝛌$ is what the constraints do.") if context.robot.questions.constraints else "",
         )
-    if i - 1 in context.robot.actions.passive:
+    passive = context.robot.actions.passive
+    if i - 1 in passive or (passive and not turns(q)):
         why = say("{why}{gap}{driven}", why=why, gap=" " if why else "", driven=driven)
     group = Group(f"tau{i}", f"Coordinate {i}", why)
     step = partial(Step, source=spong("7.1"), group=group)
@@ -170,7 +171,9 @@ def _driven_by(context: Context, q: Coordinate) -> Prose:
         )
     moved = context.robot.joints_of(q)
     if not moved or (len(moved) == 1 and all(len(joint.rates) == 1 and rate == 1 for joint, rate in moved)):
-        return (f" is {what}, so what drives it is a {kind}.",)
+        if turns(q):
+            return (" is an angle, so what drives it is a torque.",)
+        return say(" is a length, so what drives it is the force {force}.", force=letters.force(q))
     parts: Prose = ()
     for joint, rate in moved:
         parts += say(

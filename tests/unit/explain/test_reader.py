@@ -436,3 +436,8 @@ model:
   bodies: [{mass: m, at: [a*sin(q1) + a*sin(q2), a*cos(q1) + a*cos(q2), 0]}]
 """
     assert "2(s₁ s₂ + c₁ c₂) q̇₁ q̇₂" in page(text)
+
+
+def test_the_force_of_a_slide_is_told_where_something_else_has_no_motor() -> None:
+    cart = "dh: [{d: q1*, alpha: 90deg}, {theta: q2*, a: l}]\nmasses: [{mass: m, link: 2}]\npassive: [q2]\n"
+    assert "q₁ is a length, so what drives it is the force f₁." in in_one_line(cart)

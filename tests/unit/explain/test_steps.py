@@ -100,12 +100,12 @@ def test_an_arm_that_only_slides_is_not_said_to_turn() -> None:
     assert "revolute" not in text and "an angle" not in text and "torque is" not in text
     assert "lengths (prismatic joints)" in text
     assert "𝐃 is constant, so every Christoffel symbol is zero." in text
-    assert "is a length, so what drives it is a force." in text
+    assert "is a length, so what drives it is the force " in text
 
 
 def test_an_arm_that_only_turns_is_not_said_to_slide() -> None:
     text = everything_said("planar-2r")
-    assert "prismatic" not in text and "a force." not in text
+    assert "prismatic" not in text and "the force " not in text
 
 
 def test_the_convention_in_play_is_the_one_explained() -> None:
