@@ -517,23 +517,22 @@ def _holds(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {&}|In equilibrium|In case #|In every configuration>: <stable|not stable>[, but for {&}, along "
-    "which nothing changes]."
+    "<At {&}|In equilibrium[ at {&}]|In case #[ at {&}]|In every configuration>: <stable|not stable>"
+    "[, but for {&}, along which nothing changes]."
 )
 def _stable(m: Mechanism, s: Sentence) -> bool:
     still = names_of(tuple(node for node in s.formulas if isinstance(node, tree.Symbol)))
     told = tuple(node for node in s.formulas if not isinstance(node, tree.Symbol))
-    points = list(_equilibria(m, s, told))
-    if not points:
+    found = _stable_there(m, s, told, s.words[-1], ())
+    if not found:
         raise Unknown
-    are_still = not any(m.changes(m.at_rest, (q,)) for q in still)
-    return are_still and all(m.is_stable(point, s.words[-1], still) for point in points)
+    return not any(m.changes(m.at_rest, (q,)) for q in still) and all(found)
 
 
 def _equilibria(m: Mechanism, s: Sentence, told: tuple[Node, ...], seed: int = 0) -> Iterator[Point]:
     """Those that a sentence is about: at what is told, or in the case that it names."""
     cases = m.equilibria(told, seed)
-    named = s.words[0].startswith("In case") and int(s.words[0].split()[-1])
+    named = s.words[0].startswith("In case") and int(s.words[0].split()[2])
     yield from (point for number, point in cases if point is not None and (not named or number == named))
 
 
@@ -736,11 +735,11 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In equilibrium|In case #>[, where {}]: "
+    "<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>[, where {}]: "
     "<stable|not stable> where {}, <stable|not stable> where {}[, ...].",
 )
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
-    at = 1 if s.words[0].startswith("At") else 0
+    at = s.words[0].count("{}")
     kinds = [word for word in s.words[1:] if word.endswith("stable")]
     *inside, first, second = (node for node in s.formulas[at:] if not isinstance(node, Symbol))
     found = [
@@ -751,13 +750,20 @@ def _stable_where(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In equilibrium|In case #>[, where {}]: <stable> where {&}"
-    "[, not stable where one of these inequalities is reversed][, ...].",
+    "<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>[, where {}]: "
+    "<stable> where {&}[, not stable where one of these inequalities is reversed][, ...].",
 )
 def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
-    at = 1 if s.words[0].startswith("At") else 0
+    at = s.words[0].count("{}")
     conditions = tuple(node for node in s.formulas[at:] if not isinstance(node, Symbol))
     found = _stable_there(m, s, s.formulas[:at], "stable", conditions)
+    return bool(found) and all(found)
+
+
+@says("<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>, where {}: <not stable>.")
+def _falls_inside(m: Mechanism, s: Sentence) -> bool:
+    at = s.words[0].count("{}")
+    found = _stable_there(m, s, s.formulas[:at], s.words[-1], s.formulas[at:])
     return bool(found) and all(found)
 
 
@@ -961,6 +967,7 @@ Where that is positive definite, the equilibrium is stable; where the energy fal
   not.
 How stable <they|the others> are is not told here.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
+Section # has ....
 Where nothing moves: not derived.
 The singular configurations: not derived.
 At given values of q its rank shows whether the arm is singular.

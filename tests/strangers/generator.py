@@ -377,7 +377,8 @@ class _Stranger:
     def spring(self, place: int, names: Sequence[str]) -> Problem:
         turning = [name for name, kind in self.joints if kind == "revolute"]
         if turning and self.chance(0.15):
-            return {"energy": f"k{place}*(1 - cos({self.one(turning)}))"}
+            angle = self.one(turning)
+            return {"energy": f"k{place}*(1 - cos({self.one([angle, f'{angle}/2', f'2*{angle}'])}))"}
         spring: Problem = {"stiffness": self.one([f"k{place}", "k", "40"]), "of": self.linear(names)}
         if self.chance(0.4):
             of_angle = dict(self.joints)[spring["of"].split()[0]] == "revolute"

@@ -243,7 +243,9 @@ class Mechanism:
             along = np.linalg.svd(A)[2][len(A) :].T
         curved = np.linalg.eigvalsh(along.T @ slopes @ along)
         right = np.all(curved > NEAR) if kind == "stable" else np.any(curved < -NEAR)
-        return bool(right) and near(force[free], 0)
+        robot = self.solution.robot
+        balanced = robot.actions.passive if robot.questions.model.inputs_given else free
+        return bool(right) and near(force[list(balanced)], 0)
 
     @cached_property
     def _equilibria(self) -> list[list[CodeType]]:

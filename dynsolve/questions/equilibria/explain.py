@@ -404,12 +404,13 @@ def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Pros
         equation(angle_node(angle, names), angle_node(Angle(degrees=degrees)))
         for angle, degrees in turned(point.values)
     ]
-    if at:
+    if at and len(at) == len(case):
         return ("At ", side_by_side(at))
     if not case:
         return ("In every configuration",)
     cases = shown.equilibria
-    return ("In equilibrium",) if len(cases) == 1 else (f"In case {cases.index(case) + 1}",)
+    among = "In equilibrium" if len(cases) == 1 else f"In case {cases.index(case) + 1}"
+    return (among, " at ", side_by_side(at)) if at else (among,)
 
 
 def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Prose) -> Prose:

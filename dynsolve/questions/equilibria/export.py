@@ -12,7 +12,7 @@ from dynsolve.notation.build import times
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, turned
+from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Stability, turned
 from dynsolve.questions.export import Export, alternatives, existence, inequalities, plain_inequality, skipped
 
 
@@ -34,17 +34,24 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
     def written(bounds: Sequence[Bound]) -> list[str]:
         return inequalities(shown, printer, bounds)
 
-    def told(point: Point) -> dict[str, Any]:
+    def stability(point: Point) -> dict[str, Any]:
+        if (
+            point.stability is Stability.UNSTABLE and point.inside
+        ):  # where a bound is an equality nothing is known
+            return {"stability": Stability.UNDECIDED.value, "unstable_if": written(point.inside)}
         bounds = (*point.inside, *point.conditions)
         needed = [*written(bounds), *(_nonzero(shown, printer, factor) for factor in point.nonzero)]
         conditions = {"stable_if": needed} if needed else {}
         if point.falls:
             conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])
+        return {"stability": point.stability.value, **conditions}
+
+    def told(point: Point) -> dict[str, Any]:
         at = {
             printer.text(angle_node(angle)): printer.text(times(degrees / 180, [(Symbol("pi"), 1)]))
             for angle, degrees in turned(point.values)
         }
-        return {**at, "stability": point.stability.value, **conditions}
+        return {**at, **stability(point)}
 
     yield "equilibria_stability", [[told(point) for point in points] for points in found.points]
     yield from existence("equilibria", shown, printer, found.exist)

@@ -150,7 +150,7 @@ class Curvature(Struct, frozen=True):
         known = {point.values: point for point in self._possible(alternative, inside)}
         for point in self._possible(alternative, exists):
             told = known.get(point.values, point)
-            if told == point or not told.is_told or told.stability is Stability.UNSTABLE:
+            if told == point or not told.is_told:
                 yield point
             elif told.stability is Stability.STABLE:  # where a bound is an equality nothing is known
                 yield replace(point, conditions=tuple(inside), nonzero=(), falls=False, is_open=False)
@@ -244,11 +244,11 @@ class Curvature(Struct, frozen=True):
         leading = [minor(rest[:k]) for k in range(1, len(rest) + 1)]
         nonzero = tuple(dict.fromkeys(factor for one in leading for factor in signs.even_factors(one)))
         signs = signs.beside(nonzero=nonzero)
-        left = [
-            sign
-            for sign in map(signs.open_part, leading)
-            if not (sign.is_number and sign.number > 0) and not _is_positive_throughout(sign, signs)
-        ]
+        left: list[Expr] = []
+        for one in leading:
+            sign = signs.beside(*(Bound(before) for before in left if not before.is_number)).open_part(one)
+            if not (sign.is_number and sign.number > 0) and not _is_positive_throughout(sign, signs):
+                left.append(sign)
         if not left and not nonzero:
             return Point(values, Stability.STABLE, neutral)
         moves = any(sign.ring.depends_on_coordinates(sign) for sign in (*left, *nonzero))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import acos, cos, pi, sin
 from typing import Any
 
@@ -561,7 +562,8 @@ def test_second_derivatives_do_not_decide_only_where_no_minor_is_negative() -> N
         "masses: [{mass: M, link: 1, shape: point, center: [0, 0, b]}, {mass: m, link: 2}]\n"
         "springs: [{stiffness: k, of: q2, rest: b0}]\nfind: [equilibria]\n"
     ).to_markdown()
-    assert "case 1: not told here" in told and "do not decide" not in told
+    assert "do not decide" not in told
+    assert re.search(r"In case 1, where \$m\^\{2\} g > k .*\$: not\s+stable", told)
 
 
 def test_half_angles_are_told_as_angles() -> None:
@@ -651,3 +653,25 @@ find: [equilibria]
 """
     (row,) = told_of(text).result
     assert to_unicode(row) == "r = (k r₀ - m g cos(b))/k"
+
+
+def test_a_case_that_is_not_stable_inside_its_bounds_is_said_to_be_that() -> None:
+    """At c2 = -b/a with a = 4 k, b = m2 g l2: the slope of g2 is (b² - a²)/a, which is negative."""
+    arm = """
+gravity: [g, 0, 0]
+dh: [{theta: q1*, d: L, alpha: -90deg}, {theta: q2*, a: L, alpha: -90deg}]
+masses: [{mass: m1, link: 1, center: {near: [l1, 0, 0]}}, {mass: m2, link: 2, center: {near: [l2, 0, 0]}}]
+springs: [{energy: k*(1 - cos(2*q2))}]
+find: [equilibria]
+"""
+    solution = dynsolve.solve(arm)
+    found = solution.to_json()["results"]
+    assert found["equilibria"][1] == ["sin(q1) = 0", "m2*g*l2*cos(q1) + 4*k*cos(q2) = 0"]
+    at_0, _ = found["equilibria_stability"][1]
+    assert at_0["stability"] == "undecided" and at_0["unstable_if"] == ["4*k > m2*g*l2"]
+    opposite = next(
+        point for point in found["equilibria_stability"][2] if point == {**point, "q1": "0", "q2": "pi"}
+    )
+    assert opposite["stable_if"] == ["m1*l1 > m2*l2", "4*k > m2*g*l2"]
+    said = " ".join(solution.to_markdown().split())
+    assert "In case 2 at $q_{1} = 0$, where $4 k > m_{2} g l_{2}$: not stable." in said
