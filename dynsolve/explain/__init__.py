@@ -26,8 +26,7 @@ Everything a step is made from is in its `Context`: the robot, its exact values 
                          what several steps of the stages are made of
     differentiation      derivatives term by term, and products of sums multiplied out
     working, sanity      the lines between a formula and its result; checks that a person can do on a model
-    set_forms, inequalities
-                         sets of configurations, and what bounds them: what several questions write
+    inequalities         what bounds parameters
     notation_list, signs, textbook_letters, parameter_meanings
                          what the signs of a report mean
     hint                 hints (`--hint`), made of the same steps: what to do, without its results

@@ -250,10 +250,6 @@ def velocity(q: Coordinate) -> Symbol:
     return Symbol(q.name, 1)
 
 
-ANY_POINT = Letter("p", style="bold")
-"""Any point of a body."""
-
-
 def partial_derivative(of: Node, by: Node) -> Derivative:
     """∂of/∂by"""
     return Derivative(of, by)

@@ -30,7 +30,7 @@ A folder has the name of its stage (`quantities.stages`), and these files, of wh
                 beside it (`export`)
     judge       `KEYS`: of each answer that is a set, the class that judges it, and its faults;
                 `EQUIVALENCES`: what is right without being the key's (`judging`; sets of equations are in
-                `equation_sets`)
+                `equation_sets`, as formulas in `set_forms`)
 
 `Stage.part` imports a file by its path when it is asked for: rooms below and beside these name no question,
 and one that nobody asks costs nothing.  A new question is a line in `Stage` and such a folder; if it needs

@@ -10,10 +10,10 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.set_forms import SetForms
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Relation
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import Robot
 
 

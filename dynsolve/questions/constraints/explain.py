@@ -17,7 +17,6 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.sanity.determinant import sign_of
-from dynsolve.explain.set_forms import SetForms, without_number
 from dynsolve.explain.step import Detail, Line, Step, not_derived
 from dynsolve.explain.terms import (
     acting_side,
@@ -43,6 +42,7 @@ from dynsolve.quantities import letters
 from dynsolve.questions.constraints.derive import bordered, holonomic
 from dynsolve.questions.forward_dynamics.derive import Reduced, acting_names
 from dynsolve.questions.forward_dynamics.explain import inverse_of_inertia
+from dynsolve.questions.set_forms import SetForms, without_number
 from dynsolve.questions.task.explain import with_letters
 
 _KEPT = formula("𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 𝟎")

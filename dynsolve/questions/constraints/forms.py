@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import cached_property
 
 from dynsolve.derivation.graph import Skipped
-from dynsolve.explain.set_forms import SetForms
 from dynsolve.notation.tree import (
     Node,
 )
+from dynsolve.questions.set_forms import SetForms
 
 
 class ReducedForms(SetForms):

@@ -16,7 +16,6 @@ from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import in_units
-from dynsolve.explain.set_forms import SetForms, vanishing
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import (
     GOLDSTEIN,
@@ -52,6 +51,7 @@ from dynsolve.questions.equilibria.solving import (
     wanted_rows,
 )
 from dynsolve.questions.forward_dynamics.derive import outside_names
+from dynsolve.questions.set_forms import SetForms, vanishing
 from dynsolve.robot.model import JointType, Robot
 
 _SOURCE = SLOTINE_LI.section("3.3")

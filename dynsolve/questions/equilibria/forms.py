@@ -14,9 +14,9 @@ from dynsolve.derivation.elimination import turn_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.explain.set_forms import SetForms
 from dynsolve.notation.tree import Function, Node, Number, Quotient, Symbol, equation
 from dynsolve.questions.equilibria.solving import SpecialCase, assumed_signs
+from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import JointType
 
 

@@ -20,7 +20,6 @@ from dynsolve.derivation.configurations import Condition as Equality
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.derivation.graph import Skipped
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.set_forms import SetForms
 from dynsolve.notation.build import cost, negated, power, split_sign, times, total
 from dynsolve.notation.tree import (
     ZERO,
@@ -46,6 +45,7 @@ from dynsolve.questions.inverse.subproblems import (
     Solved,
     TwoLines,
 )
+from dynsolve.questions.set_forms import SetForms
 
 if TYPE_CHECKING:
     from dynsolve.questions.inverse.target import TargetForms

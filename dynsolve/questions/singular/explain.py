@@ -13,13 +13,13 @@ from dynsolve.document import Prose
 from dynsolve.document.figures import ArmArrow, ArmFigure
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
-from dynsolve.explain.set_forms import vanishing
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
 from dynsolve.explain.working.identities import SILENT
 from dynsolve.explain.writing import agreeing, listed, spong, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, Words, equation
 from dynsolve.quantities import letters
+from dynsolve.questions.set_forms import vanishing
 from dynsolve.questions.singular.forms import SingularForms
 from dynsolve.questions.task.explain import determinant_way
 from dynsolve.robot.model import Robot

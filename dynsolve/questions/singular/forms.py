@@ -6,8 +6,8 @@ from functools import cached_property
 
 from dynsolve.derivation.singular.losses import Direction
 from dynsolve.derivation.singular.sets import SingularSet
-from dynsolve.explain.set_forms import SetForms
 from dynsolve.notation.tree import Matrix, Node, column
+from dynsolve.questions.set_forms import SetForms
 
 
 class SingularForms(SetForms):

@@ -13,7 +13,6 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
-from dynsolve.explain.set_forms import SetForms
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.working.identities import SILENT, Identity, Way, by, identities, said, used_in_product
 from dynsolve.explain.writing import agreeing, and_joined, is_small, listed, spong, sum_over_coordinates
@@ -35,6 +34,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.questions.rates.derive import squared, whole_or_task
 from dynsolve.questions.rates.explain import square_of
+from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
 
