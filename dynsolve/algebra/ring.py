@@ -427,7 +427,8 @@ class Ring:
         return Expr(self, self.reduce(expr.poly.compose(*point, ctx=self.ctx)))
 
     @cached_property
-    def _moving(self) -> frozenset[int]:
+    def moving(self) -> frozenset[int]:
+        """The generators of coordinates, their rates and the sines and cosines of what turns."""
         turning = {
             i
             for pair in self.pairs
@@ -440,11 +441,11 @@ class Ring:
     def depends_on_coordinates(self, expr: Expr) -> bool:
         """Whether a coordinate, its velocity or acceleration occurs."""
         degrees = expr.poly.degrees()
-        return any(degrees[i] > 0 for i in self._moving)  # of 0 they are -1
+        return any(degrees[i] > 0 for i in self.moving)  # of 0 they are -1
 
     def moving_degree(self, expr: Expr) -> int:
         """The degree in the coordinates, the sines and cosines of their angles, and their rates."""
-        return max((sum(int(e[i]) for i in self._moving) for e in expr.poly.monoms()), default=0)
+        return max((sum(int(e[i]) for i in self.moving) for e in expr.poly.monoms()), default=0)
 
 
 class NoRoom(Exception):

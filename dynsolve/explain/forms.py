@@ -390,11 +390,25 @@ class ProductForms:
         return tree.Matrix(tuple(tuple(map(self._quotient, row)) for row in rows))
 
     def _quotient(self, value: RationalExpr) -> Node:
-        above, over = self._factors(value.numerator)
-        divisor = value.divisor
-        below, under = (Fraction(1), []) if divisor is None else self._factors(divisor, apart=True)
+        """A quotient of products; what the denominator divides stands apart where that is shorter."""
+        numerator, divisor = value.numerator, value.divisor
+        if divisor is None:
+            return self.form(numerator)
+        if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
+            numerator, divisor = -numerator, -divisor
+        whole, rest = (Expr(self.ring, part) for part in divmod(numerator.poly, divisor.poly))
+        if len(whole) + len(rest) < len(numerator) and not rest.is_zero:
+            return total([self.form(whole), self._quotient(RationalExpr(rest, divisor))])
+        above, over = self._factors(numerator)
+        below, under = self._factors(divisor, apart=True)
         factors = [*over, *((node, -power) for node, power in under)]
         return times(above / below, factors, decimal=self.decimal)
+
+    def _is_negative(self, expr: Expr) -> bool:
+        """Whether of the terms without a coordinate more is negative."""
+        moving = self.ring.moving
+        fixed = (f for e, f in expr.poly.terms() if not any(n and k in moving for k, n in enumerate(e)))
+        return sum(map(fraction, fixed), start=Fraction(0)) < 0
 
     def _factors(self, expr: Expr, *, apart: bool = False) -> tuple[Fraction, list[Factor]]:
         """(number, factors with their exponents) that make the shortest form.
@@ -434,7 +448,9 @@ class ProductForms:
         return coefficient, [(self.compactor.form(factor), power) for factor, power in factors]
 
     def _whole(self, expr: Expr) -> Expr:
-        """An expression times what makes its coefficients integers, but of decimals."""
+        """A factor, not negative where nothing moves, with integers but of decimals."""
+        if self._is_negative(expr):
+            expr = -expr
         return expr if self.decimal else expr * lcm(*(int(c.q) for c in expr.poly.coeffs()))
 
 

@@ -233,3 +233,22 @@ def test_a_coordinate_without_mass_has_multipliers_as_any_other(text: str) -> No
 def test_what_moves_no_mass_and_is_free_has_no_acceleration() -> None:
     why = dynsolve.solve(RAMP.replace("x - s^2/R, ", "x, ").replace("- s]", "- h]")).to_json()
     assert "moves no mass" in why["results"]["lambda"]["skipped"]
+
+
+WHEEL = """
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic, psi: revolute, phi: revolute}
+  D: [[m, 0, 0, 0], [0, m, 0, 0], [0, 0, I, 0], [0, 0, 0, J]]
+  P: 0
+constraints: [{rates: x' - R*phi'*cos(psi)}, {rates: y' - R*phi'*sin(psi)}]
+passive: [x, y]
+find: [lambda]
+"""
+
+
+def test_what_a_denominator_divides_stands_apart() -> None:
+    """Newton along y (by hand): m ÿ, with φ̈ = τ₄/(m R² + J)."""
+    (step,) = (step for step in dynsolve.solve(WHEEL).steps if step.id == "lambda")
+    told = unicodedata.normalize("NFC", to_unicode(step.result[0]))
+    assert "m R cos(ψ) ψ̇ φ̇ + m R τ₄ sin(ψ)/(m R² + J)" in told

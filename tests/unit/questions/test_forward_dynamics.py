@@ -208,3 +208,16 @@ def test_what_is_long_has_an_inverse_by_entries_and_one_denominator_and_stands_o
     assert "Christoffel symbols Γ₁₁₁, Γ₁₁₂, …, Γ₃₃₃ and the accelerations" in shown
     one = "(b (4m₂ J (3r² n² + l² (1 + n² - 2n) + 3r l (n² - n) c₂)"
     assert shown.count(one) == 2 and f"(m₃ b² {one[3:]}" in shown
+
+
+def test_a_denominator_is_the_determinant_and_not_its_opposite() -> None:
+    text = """
+model:
+  coordinates: {u: prismatic, q: revolute}
+  D: [[a1, a2*cos(q)], [a2*cos(q), a3 + a4*sin(q)^2]]
+  P: k*u^2/2
+assume: [a1*a3 > a2^2]
+find: [qdd_forward]
+"""
+    found = dynsolve.solve(text).to_json()["results"]["qdd_forward"]
+    assert all(one.endswith("/(a1*(a3 + a4*sin(q)**2) - a2**2*cos(q)**2)") for one in found)
