@@ -84,6 +84,7 @@ from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.leading import leading
 from dynsolve.solution.numbers import given
+from dynsolve.solution.numbers.substitution import DIGITS
 
 # The steps of a model in numbers as they are printed
 
@@ -591,6 +592,7 @@ class _Parts(Struct, dict=True):
                 self.stages,
                 told,
                 self.solution.forms,
+                self.solution.style.digits or DIGITS,
             )
 
     def derivation(self) -> Iterator[Block]:

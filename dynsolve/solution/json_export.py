@@ -39,7 +39,6 @@ from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.numbers import given
 from dynsolve.solution.numbers.given import Given, parameters
 from dynsolve.solution.numbers.results import Numbers, State, Valued
-from dynsolve.solution.numbers.substitution import DIGITS
 
 if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
@@ -266,8 +265,7 @@ def _number_sections(solution: Dynamics, numbers: Numbers) -> dict[str, Any]:
     """`values` with what was given, and the results with it; `at` with the state, and the results there."""
 
     def results(of: Valued | State) -> dict[str, Any]:
-        digits = of.digits if of.digits != DIGITS else NUMBER_DIGITS
-        return _Exporter(solution, lambda name: of.shown(name, digits), of).results()
+        return _Exporter(solution, lambda name: of.shown(name, NUMBER_DIGITS), of).results()
 
     sections: dict[str, Any] = {}
     if numbers.given.entries:

@@ -22,7 +22,6 @@ from dynsolve.robot.questions import Method
 from dynsolve.solution.dynamics import Dynamics, Progress, by_method
 from dynsolve.solution.numbers.given import Given, parameters
 from dynsolve.solution.numbers.given import state as read_state
-from dynsolve.solution.numbers.substitution import DIGITS
 
 if TYPE_CHECKING:
     import sympy
@@ -246,7 +245,7 @@ class Solution(Dynamics, frozen=True, dict=True):
             values=self.values,
             given=state,
             decimal=self.given.decimal or digits is not None,
-            digits=digits or DIGITS,
+            digits=digits or 0,
         )
 
     def beside(
@@ -281,7 +280,7 @@ class Solution(Dynamics, frozen=True, dict=True):
             forms=Forms(numeric.robot, numeric.values, decimal=True) if decimal else numeric.forms,
             given=given,
             decimal=decimal,
-            digits=digits or DIGITS,
+            digits=digits or 0,
         )
         numbers = Numbers(
             robot=self.robot,

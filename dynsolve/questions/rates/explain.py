@@ -17,7 +17,7 @@ from dynsolve.explain.given import of_task
 from dynsolve.explain.step import TOLD, Detail, Part, Step
 from dynsolve.explain.writing import column_of, is_small, side_by_side, spong
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Node, Parenthesized, Sum, Symbol, Words, equation
+from dynsolve.notation.tree import Node, Parenthesized, Power, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.questions.rates.derive import MOST_PRODUCTS, squared, wanted_by_accelerations
@@ -112,12 +112,18 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
     if rank < columns and is_solvable(J, right):
         text = "Every motion of the joints that the task does not see may be added: ${x}$ with $𝐉_r {x} = 𝟎$."
         notes = (say(text, x=x),)
+    pseudo = formula("𝐉_r^{plus}", plus="+")
+    if weights is not None:
+        pseudo = Power(Parenthesized(formula("𝐉_r 𝐖⁻¹ 𝐉_rᵀ")), Words("+"))
     if rank == rows == columns:
         inverse = "𝐉_r⁻¹ {b}"
     elif rank == rows:
         inverse = "𝐉_rᵀ (𝐉_r 𝐉_rᵀ)⁻¹ {b}" if weights is None else "𝐖⁻¹ 𝐉_rᵀ (𝐉_r 𝐖⁻¹ 𝐉_rᵀ)⁻¹ {b}"
+    elif rank == columns:
+        inverse = "(𝐉_rᵀ 𝐉_r)⁻¹ 𝐉_rᵀ {b}"
     else:
-        inverse = "(𝐉_rᵀ 𝐉_r)⁻¹ 𝐉_rᵀ {b}" if rank == columns else "𝐉_r^{plus} {b}"
+        inverse = "{pseudo} {b}" if weights is None else "𝐖⁻¹ 𝐉_rᵀ {pseudo} {b}"
+        how += say("The pseudoinverse {pseudo} gives it. ", pseudo=pseudo)
     working = [equation(_J, context.show(J))] if context.robot.questions.state else []
     working.insert(len(working) if name == "qd" else 0, equation(b, context.show(right)))
     if rank < columns and weights is not None:
@@ -125,9 +131,8 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
     elif rank in (rows, columns) and rank and work(squared(J)) <= MOST_PRODUCTS:
         det = formula("det {of}", of=square_of(_J, J))
         working.append(equation(det, context.show(determinant(squared(J)))))
-    inverse_times = formula(inverse, b=in_product, plus="+")
+    inverse_times = formula(inverse, b=in_product, pseudo=pseudo)
     if rank < min(rows, columns):
-        how += say("The pseudoinverse {inverse} gives it. ", inverse=formula("𝐉_r^{plus}", plus="+"))
         sides = context.show(J.T @ J), context.show(J.T @ right)
         if not is_solvable(J, right) and is_small(*sides):
             working.append(equation(formula("𝐉_rᵀ 𝐉_r"), sides[0]))

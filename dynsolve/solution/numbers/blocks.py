@@ -28,6 +28,7 @@ from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers import given
 from dynsolve.solution.numbers.given import GivenValue
 from dynsolve.solution.numbers.results import Numbers, State, needed
+from dynsolve.solution.numbers.substitution import DIGITS
 
 # Which results are shown in numbers, stage by stage
 
@@ -95,9 +96,11 @@ def blocks(
     stages: Iterable[str] | None = None,
     told: Mapping[str, str] = MappingProxyType({}),
     forms: Callable[[str], Node] | None = None,
+    digits: int = DIGITS,
 ) -> Iterator[Block]:
     """The values but for those that are `told`, what is `asked` with them, and at the state.
 
+    Decimals are of so many significant `digits`, if no others are asked for.
     Of chosen stages, and at a state, what was `derived` stands before it.  What values do not change is as
     `forms` has it, and is not repeated.
     """
@@ -112,9 +115,9 @@ def blocks(
     }
     valued: list[Block] = []
     if numbers.valued is not None and chosen is not None:
-        valued = list(_results(robot, whole, numbers.valued.shown, folded=True))
+        valued = list(_results(robot, whole, partial(numbers.valued.shown, digits=digits), folded=True))
     elif numbers.valued is not None:
-        tree = numbers.valued.shown
+        tree = partial(numbers.valued.shown, digits=digits)
         changed = {
             stage: [
                 (name, letter)
@@ -130,7 +133,9 @@ def blocks(
     if numbers.given.entries:
         yield from _with_heading(_values(numbers, told), valued)
     if numbers.state is not None:
-        yield from _state(numbers, numbers.state, whole)
+        yield from _state(numbers, numbers.state)
+        at_state = partial(numbers.state.shown, digits=digits)
+        yield from _results(robot, whole, at_state, folded=True)
 
 
 # -- values ----------------------------------------------------------------------------------------
@@ -254,7 +259,7 @@ def _is_wide(matrix: Matrix) -> bool:
 # -- a state ---------------------------------------------------------------------------------------
 
 
-def _state(numbers: Numbers, state: State, shown: Mapping[Stage, Sequence[Shown]]) -> Iterator[Block]:
+def _state(numbers: Numbers, state: State) -> Iterator[Block]:
     robot = numbers.robot
     yield Heading("At a state", 2)
     rows: list[tuple[Node, GivenValue, str]] = []
@@ -278,4 +283,3 @@ def _state(numbers: Numbers, state: State, shown: Mapping[Stage, Sequence[Shown]
     free = needed(state.robot)
     if free:
         yield Text((*_names("Parameters without a value stay symbols: ", free), "."))
-    yield from _results(robot, shown, state.shown, folded=True)

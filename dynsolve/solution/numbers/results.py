@@ -41,14 +41,14 @@ class _NumericResults(ABC):
     """Exact results by their names in an answer file (`H2`, `Jv1`, `K`, `tau`, `D`), and how they are shown.
 
     `given` are the numbers that were put in.  With `decimal` results are shown as
-    decimals of `digits` significant digits, whatever was put in.
+    decimals, whatever was put in, of `digits` significant digits, where these were asked for.
     """
 
     robot: Robot
     values: Derivation
     given: Given
     decimal: bool = False
-    digits: int = DIGITS
+    digits: int = 0
 
     @property
     @abstractmethod
@@ -70,15 +70,15 @@ class _NumericResults(ABC):
         own = quantities(self.robot)[name]
         return self.values[own.whole][own.entry]
 
-    def shown(self, name: str, digits: int = 0) -> Node:
-        """A result as it is shown: exact where no decimal goes in, else to so many digits."""
+    def shown(self, name: str, digits: int = DIGITS) -> Node:
+        """A result as it is shown: exact where no decimal goes in, else to `digits`, or those asked for."""
         own = quantities(self.robot).get(name)
         if own is not None and own.is_read_off and len(own.entry) == 2:
             return entry_of(self.shown(own.whole, digits), own.entry)
         value = self.value(name)
         if isinstance(value, Skipped):
             return tree.Words(f"({value.why})")
-        return rounded(self.plain(name), digits or self.digits) if self.shows_decimals else self(name)
+        return rounded(self.plain(name), self.digits or digits) if self.shows_decimals else self(name)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from sympy import simplify, sympify
 
@@ -205,3 +206,19 @@ state: {q1: 0, q2: 0, q3: 0, q4: -90deg, q5: 0, q6: 90deg, q7: 0}
 find: [nullspace]
 """
     assert dynsolve.solve(arm).to_json()["results"]["nullspace"] == [["1", "0", "-1", "0", "0", "0", "0"]]
+
+
+def test_the_formula_of_weighted_rates_holds_where_the_rank_is_less() -> None:
+    """q̇ = W⁻¹ Jᵀ (J W⁻¹ Jᵀ)⁺ ṙ, with the pseudoinverse of NumPy."""
+    slope = (
+        "gravity: none\ndh: [{d: x*, alpha: 90deg}, {theta: q* + 90deg, alpha: 90deg}, {d: 1 + s*}]\n"
+        "base: Ry(90deg)\npoints: {P: {link: 3, at: origin}}\ntask: [P.x, P.y]\nvelocity: [v, 0]\n"
+        "state: {x: 0, q: 30deg, s: 0}\nweights: {x: 2}\nfind: [Jr, qd]\n"
+    )
+    solution = dynsolve.solve(slope)
+    assert "W}^{-1} \\mathbf{J}_{r}^{T} (\\mathbf{J}_{r} \\mathbf{W}^{-1}" in solution.to_latex()
+    results = solution.to_json()["results"]
+    J = np.array([[1, np.sqrt(3) / 2, 1 / 2], [0, 0, 0]])
+    W = np.diag([1 / 2, 1, 1])
+    ours = [float(sympify(row[0]).subs("v", 1)) for row in results["qd"]]
+    assert ours == pytest.approx(W @ J.T @ np.linalg.pinv(J @ W @ J.T) @ [1, 0])
