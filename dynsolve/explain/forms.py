@@ -444,8 +444,14 @@ class ProductForms:
         if product * coefficient != expr:
             return None
         factors += below
-        factors.sort(key=lambda found: (self.ring.depends_on_coordinates(found[0]), len(found[0])))
+        factors.sort(key=self._place)
         return coefficient, [(self.compactor.form(factor), power) for factor, power in factors]
+
+    def _place(self, factor: tuple[Expr, int]) -> tuple[object, ...]:
+        """What does not move first, short before long, letters in their order."""
+        collector, expr = self.compactor.collector, factor[0]
+        _, mono = collector.decompose(self.compactor.form(expr))
+        return self.ring.depends_on_coordinates(expr), len(expr), collector.order(mono)
 
     def _whole(self, expr: Expr) -> Expr:
         """A factor, not negative where nothing moves, with integers but of decimals."""

@@ -170,9 +170,9 @@ def test_where_a_denominator_is_0_one_result_is_left_out_and_not_all(tmp_path: P
 
 def test_values_beside_numbers_have_the_digits_of_the_page(tmp_path: Path) -> None:
     """m g l = 2 · 9.80665 · 0.7 = 13.72931 N m."""
-    pendulum = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: 0.7}]\nmasses: [{mass: 2, link: 1}]\nvalues: {g: 9.80665}\n"
+    arm = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: 0.7}]\nmasses: [{mass: 2, link: 1}]\n"
     place = tmp_path / "pendulum.yaml"
-    place.write_text(pendulum)
+    place.write_text(arm + "values: {g: 9.80665}\n")
     out = dynsolve("solve", str(place)).out
     assert "6 significant digits" in out and "13.7293 c₁ in N m" in out
     assert "13.73 c₁ in N m" in dynsolve("solve", str(place), "--digits", "4").out

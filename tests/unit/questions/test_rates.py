@@ -220,5 +220,5 @@ def test_the_formula_of_weighted_rates_holds_where_the_rank_is_less() -> None:
     results = solution.to_json()["results"]
     J = np.array([[1, np.sqrt(3) / 2, 1 / 2], [0, 0, 0]])
     W = np.diag([1 / 2, 1, 1])
-    ours = [float(sympify(row[0]).subs("v", 1)) for row in results["qd"]]
+    ours = [float(sympify(rate).subs("v", 1)) for rate in results["qd"]]
     assert ours == pytest.approx(W @ J.T @ np.linalg.pinv(J @ W @ J.T) @ [1, 0])
