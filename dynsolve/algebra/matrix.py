@@ -24,6 +24,7 @@ from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
+from dynsolve.notation.build import times
 from dynsolve.notation.tree import ZERO, Function, Node, Symbol, walk
 
 if TYPE_CHECKING:
@@ -232,8 +233,9 @@ def angle_at(angle: Angle, values: StateValues) -> Angle:
     """An angle with values for the coordinates in it."""
     result = Angle((), angle.degrees)
     for atom, rate in angle.terms:
-        if len(atom) == 1 and atom[0][1] == 1 and (atom[0][0], 0) in values:
-            result = result + angle_from_tree(values[atom[0][0], 0]) * rate
+        if any((name, 0) in values for name, _ in atom):
+            size = times(1, [(values.get((name, 0), Symbol(name)), exponent) for name, exponent in atom])
+            result = result + angle_from_tree(size, radians=len(atom) > 1) * rate
         else:
             result = result + Angle(((atom, rate),))
     return result

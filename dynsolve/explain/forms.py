@@ -394,6 +394,11 @@ class ProductForms:
         numerator, divisor = value.numerator, value.divisor
         if divisor is None:
             return self.form(numerator)
+        for index, inverted in self.ring.inverses.items():  # 1/R² above and below
+            degree = max(int(one.poly.degrees()[index]) for one in (numerator, divisor))
+            if degree > 0:
+                base = Expr(self.ring, inverted) ** degree
+                numerator, divisor = numerator * base, divisor * base
         if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
             numerator, divisor = -numerator, -divisor
         whole, rest = (Expr(self.ring, part) for part in divmod(numerator.poly, divisor.poly))

@@ -57,7 +57,7 @@ from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.errors import VerificationError
-from dynsolve.notation.tree import Node, Number, Symbol
+from dynsolve.notation.tree import Node, Number, Symbol, names_in
 from dynsolve.notation.tree_values import Program, compile_trees, plain_name
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.questions.equilibria.solving import Equilibria, equilibria, wanted_rows
@@ -267,6 +267,9 @@ def verify_linear(robot: Robot, results: Mapping[str, Node], states: int = 5) ->
         if "Lambda" in here:
             _compare("Lambda", _products(here["Lambda"], _mobility(here)), _identity(len(here["Jr"])))
         if "tau" in near:
+            linear = (results[name] for name in ("linear_A", "linear_B") if name in results)
+            if not names_in(*linear).isdisjoint(robot.ring.names):
+                raise VerificationError("the linear model is taken elsewhere; this is a fault of dynsolve")
             _verify_near(robot, near, _equilibrium(robot, values), near_program)
 
 

@@ -147,3 +147,20 @@ def test_beside_a_steady_motion_it_says_that_it_is_about_rest() -> None:
     said = "The equilibrium is one at rest"
     assert said in dynsolve.solve(arm + steady).to_markdown()
     assert said not in dynsolve.solve(arm + "find: [linear_A]\n").to_markdown()
+
+
+def test_an_angle_of_a_rolled_distance_is_taken_at_the_equilibrium() -> None:
+    """A disk with a mass e from its centre, turned upside down, x = π R (by hand)."""
+    disk = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic}
+  bodies:
+    - {mass: M, at: [x, R, 0], turn: -x/R, about: [0, 0, 1], inertia: {zz: J}}
+    - {mass: m, at: [x + e*sin(x/R), R + e*cos(x/R), 0]}
+linearize: {x: pi*R}
+find: [linear_A, linear_B]
+"""
+    found = dynsolve.solve(disk).to_json()["results"]
+    assert found["linear_A"][1][0] == "-m*g*e/(M*R**2 + m*(R - e)**2 + J)"
+    assert found["linear_B"][1][0] == "R**2/(M*R**2 + m*(R - e)**2 + J)"
