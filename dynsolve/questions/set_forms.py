@@ -52,16 +52,23 @@ class SetForms(Inequalities):
             return ()
         return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
 
-    def existence(self, name: str, exist: Sequence[Sequence[Bound]]) -> Iterator[Prose]:
-        """For which parameters the alternatives of a set are there that are not for all."""
+    def existence(
+        self, name: str, exist: Sequence[Sequence[Bound]], is_seen: Sequence[bool] = ()
+    ) -> Iterator[Prose]:
+        """For which parameters the alternatives of a set are there that are not for all.
+
+        Of those of which it `is_seen` that the inequalities are all, else only there.
+        """
         count = len(self.alternatives(name))
-        for bounds in dict.fromkeys(map(tuple, exist)):
+        kinds = list(zip(map(tuple, exist), is_seen or [True] * count, strict=True))
+        for bounds, is_enough in dict.fromkeys(kinds):
             if not bounds:
                 continue
-            places = [k for k, other in enumerate(exist, 1) if tuple(other) == bounds]
+            places = [k for k, other in enumerate(kinds, 1) if other == (bounds, is_enough)]
             these = "This" if count == 1 else "Each case" if len(places) == count else _cases(places)
+            have = "have" if 1 < len(places) < count else "has"
             yield say(
-                f"{these} {'have' if 1 < len(places) < count else 'has'} solutions where {{conditions}}.",
+                f"{these} {have} solutions{'' if is_enough else ' only'} where {{conditions}}.",
                 conditions=side_by_side([*map(self.inequality, bounds)]),
             )
 

@@ -142,7 +142,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         notes.append(say("Every configuration is an equilibrium{where}.", where=where))
     else:
         of_free = [*_never(shown, found), *_arbitrary(robot, cases)]
-        notes += shown.existence("equilibria", found.exist)
+        notes += shown.existence("equilibria", found.exist, found.is_seen)
         notes += _unseen(found)
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
     notes += [note for one in found.special for note in _special(shown, one)]
@@ -198,7 +198,8 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
 
 def _unseen(found: Equilibria) -> Iterator[Prose]:
     """Of which cases it is not known for which parameters they are there."""
-    places = [str(k) for k, is_seen in enumerate(found.is_seen, 1) if not is_seen]
+    seen = zip(found.is_seen, found.exist, strict=False)
+    places = [str(k) for k, (is_seen, exist) in enumerate(seen, 1) if not (is_seen or exist)]
     if places:
         cases = f"case{'s' * (len(places) > 1)} {and_joined(places)}"
         there = f"{cases} {'have' if len(places) > 1 else 'has'}" if len(found.is_seen) > 1 else "this has"

@@ -8,6 +8,8 @@ from math import comb, prod
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Place
+from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.existence import is_seen
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.document.figures import ArmArrow, ArmFigure
@@ -152,12 +154,13 @@ def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:
         "A product is 0 where one of its factors is; each of these cases is enough. "
         "Constant lengths are not 0."
     )
+    seen = [is_seen([each.expr for each in case], ParameterSigns()) for case in found.alternatives]
     return replace(
         step,
         title=_TITLE,
         why=(one if len(cases) == 1 else several,),
         result=tuple(map(vanishing, cases)),
-        notes=(*forms.existence("singular", found.exist), *special),
+        notes=(*forms.existence("singular", found.exist, seen), *special),
         uses=("singular_minors",),
     )
 

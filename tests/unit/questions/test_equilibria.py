@@ -675,3 +675,20 @@ find: [equilibria]
     assert opposite["stable_if"] == ["m1*l1 > m2*l2", "4*k > m2*g*l2"]
     said = " ".join(solution.to_markdown().split())
     assert "In case 2 at $q_{1} = 0$, where $4 k > m_{2} g l_{2}$: not stable." in said
+
+
+def test_what_each_equation_asks_for_is_not_said_to_be_enough_for_all() -> None:
+    """Each is 0 somewhere where a b k + c ≥ m1 g a and a k > m2 g; at m1 = m2 = g = b = k = 1, a = 2, c = 20
+    s1 = -1/2 makes s2 = 4."""
+    two = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  bodies:
+    - {mass: m1, at: [a*cos(q1), a*sin(q1), 0]}
+    - {mass: m2, at: [b*cos(q2), b*sin(q2), 0]}
+springs: [{energy: k*a*b*sin(q1)*sin(q2)}, {energy: c*sin(q1)^2/2}]
+find: [equilibria]
+"""
+    told = " ".join(dynsolve.solve(two).to_markdown().split())
+    assert "Case 1 has solutions only where" in told and "Case 1 has solutions where" not in told
