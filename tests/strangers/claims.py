@@ -699,8 +699,9 @@ def _axes_meet(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "Where the matrix of <the|its> second derivatives[ of the potential energy], without the row<|s> and "
-    "column<|s> of {&}, which are 0 there, is positive definite, the <equilibrium|motion> is stable[...]."
+    "Where the matrix of <the|its> second derivatives[ of the <potential energy|energy {}, the ...>], "
+    "without the row<|s> and column<|s> of {&}, which are 0 there, is positive definite, the "
+    "<equilibrium|motion> is stable[...]."
 )
 def _rows_are_0(m: Mechanism, s: Sentence) -> bool:
     """At the equilibria that are told of behind it."""
@@ -977,8 +978,8 @@ The entries of {}, below, are chosen: independent ones of which all of these are
 Other independent combinations serve as well:
 It is given along axes of its link, and turned into the world.
 Each motion is along or about an axis of the frame that those before it have led to.
-Where the matrix of <the|its> second derivatives[ of the potential energy] is positive definite, the
-  <equilibrium|motion> is stable; where <the energy|it> falls in some direction, it is not.
+Where the matrix of <the|its> second derivatives[ of the <potential energy|energy {}, the ...>] is positive
+  definite, the <equilibrium|motion> is stable; where <the energy|it> falls in some direction, it is not.
 """
 """What is true of every mechanism, or is a step of a proof whose end is held; indented lines go on."""
 

@@ -314,7 +314,11 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     steady = bool(robot.questions.model.steady)
     forces = context.values["g"]
     flat = _flat(robot, found)
-    why: Prose = say(_ENERGY, flat=flat)
+    why: Prose = say(_ENERGY, of="potential energy", flat=flat)
+    if robot.questions.model.inputs_given:
+        why = say(
+            _ENERGY, of=say("energy $𝒫 - 𝛕ᵀ 𝐪$, the forces of the motors staying as they are,"), flat=flat
+        )
     working: tuple[Node, ...] = ()
     second: Node = _DG
     if steady:
@@ -349,8 +353,8 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
 
 
 _ENERGY = (
-    "Where the matrix of the second derivatives of the potential energy{flat} is positive definite, the "
-    "equilibrium is stable; where the energy falls in some direction, it is not."
+    "Where the matrix of the second derivatives of the {of}{flat} is positive definite, the equilibrium is "
+    "stable; where the energy falls in some direction, it is not."
 )
 
 

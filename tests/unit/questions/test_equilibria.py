@@ -678,8 +678,7 @@ find: [equilibria]
 
 
 def test_what_each_equation_asks_for_is_not_said_to_be_enough_for_all() -> None:
-    """Each is 0 somewhere where a b k + c ≥ m1 g a and a k > m2 g; at m1 = m2 = g = b = k = 1, a = 2, c = 20
-    s1 = -1/2 makes s2 = 4."""
+    """At m1 = m2 = g = b = k = 1, a = 2, c = 20 each has a zero, but s1 = -1/2 makes s2 = 4."""
     two = """
 gravity: [0, -g, 0]
 model:
