@@ -9,8 +9,8 @@ accelerations.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import combinations, islice
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import chain, combinations, islice, product
 from math import hypot, radians
 
 from msgspec import Struct
@@ -33,7 +33,14 @@ from dynsolve.questions.equilibria.balance import STATES, never_zero, table_leng
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
 from dynsolve.questions.equilibria.multipliers import Along
-from dynsolve.questions.equilibria.solving import Point, Stability, multipliers, turned, wanted_rows
+from dynsolve.questions.equilibria.solving import (
+    Equilibria,
+    Point,
+    Stability,
+    multipliers,
+    turned,
+    wanted_rows,
+)
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
 
@@ -176,6 +183,31 @@ def verify_equilibria(
             _verify_stability(robot, whole, program, point)
 
 
+def verify_excluded(
+    robot: Robot,
+    found: Equilibria,
+    sets: Iterable[Sequence[Node]],
+    zeros: Sequence[Node],
+    holds: Callable[[Mapping[str, float]], bool],
+) -> None:
+    """Look for what is held in the sets that are left out, where two parameters are equal.
+
+    Raises VerificationError where there is something, and it is not told that there may be.
+    """
+    assumed = [bound.value for bound in robot.questions.model.assumed]
+    told = [case.factor for case in found.special if not case.is_known]
+    pairs = [*combinations(robot.parameters, 2)] if not found.may_be_others else []
+    for one in sets:
+        left_out, held = compile_trees(list(one)), compile_trees([*one, *zeros])
+        for (name, other), start in product(pairs, starts(robot)):
+            near = zero_near(robot, left_out, {**start, name: start[other]})
+            at = near and zero_near(robot, held, near)
+            if at is None or any(evaluate(value, at) <= 0 for value in assumed):
+                continue
+            if holds(at) and not any(abs(evaluate(factor, at)) < _NEAR_ZERO for factor in told):
+                raise VerificationError("special parameters are forgotten; this is a fault of dynsolve")
+
+
 def _lies_in(robot: Robot, case: Program, found: Mapping[str, float]) -> bool:
     """Whether a configuration is one of a case; a zero of higher order is found with fewer digits."""
     if is_zero(case, found):
@@ -316,6 +348,7 @@ def verify(held: Held) -> None:
         zeros, holds = in_balance(forms, balanced), holding(forms, balanced)
         A = forms("Ac") if robot.questions.constraints else None
         verify_equilibria(robot, balanced, zeros, [Case(*case) for case in told], holds, A)
+        verify_excluded(robot, values["equilibria"], chain(*shown.excluded), zeros, holds)
 
 
 def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:

@@ -96,7 +96,7 @@ _AT_REST = (
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
-_NO_MULTIPLIERS = "there is no $𝛌$, and no equilibrium."
+_NO_MULTIPLIERS = "there is no $𝛌$, and no equilibrium"
 _MAY_BE_DEPENDENT = "the rows of $𝐀_c$ may be dependent; there need then be no $𝛌$, and no equilibrium."
 _GIVEN = "Let all parameters be positive{these}. "
 
@@ -188,10 +188,13 @@ def _equilibria(context: Context) -> Iterator[Step]:
 
 def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
     """Where in the alternatives the rows of A_c are dependent, and do not hold the forces."""
+    general = ", but for special values of the parameters" * found.may_be_others
+    known = [shown.comparison(one.factor, "≠") for one in found.special if not one.is_known]
     for number, sets in enumerate(shown.excluded, 1):
         place = f" in case {number}" if len(shown.excluded) > 1 else ""
         for one in sets:
-            yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}", where=vanishing(one))
+            zero = listed([*known, *(equation(value, Number(0)) for value in one)])
+            yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}{general}.", where=as_row(zero))
     if found.may_be_dependent:
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
 
@@ -289,7 +292,7 @@ def _special(shown: EquilibriaForms, case: SpecialCase) -> Iterator[Prose]:
         yield say(f"Where {{where}}, {_MAY_BE_DEPENDENT}", where=where)
     for one in shown.special_exceptions(case):
         zero = [equation(value, Number(0)) for value in one]
-        yield say(f"Where {{where}}, {_NO_MULTIPLIERS}", where=as_row(listed([where, *zero])))
+        yield say(f"Where {{where}}, {_NO_MULTIPLIERS}.", where=as_row(listed([where, *zero])))
 
 
 def _of_special_forces(shown: EquilibriaForms, case: SpecialCase, where: Node) -> Prose:

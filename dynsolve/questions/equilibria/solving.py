@@ -389,6 +389,11 @@ class SpecialCase(Struct, frozen=True):
     is_of_rank: bool = False
     excluded: tuple[Alternative, ...] = ()
 
+    @property
+    def is_known(self) -> bool:
+        """Whether all that is excluded for other parameters is excluded here, too."""
+        return self.is_of_rank and bool(self.excluded)
+
 
 class Equilibria(Struct, frozen=True):
     """Where all of `rows` are 0: at any of the alternatives, with the points of each.
@@ -559,7 +564,11 @@ def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: Parameter
         found = held.where_zero(factor).settled(case, held.rank, special)
     except TooLong:
         return SpecialCase(factor, None, is_of_rank=True)
-    if found.alternatives != tuple(case) or not special.is_empty:
+    is_less = any(
+        not {*known}.issubset(without)
+        for without, known in zip(found.excluded, settled.excluded, strict=True)
+    )
+    if found.alternatives != tuple(case) or is_less or not special.is_empty:
         return SpecialCase(factor, None, is_of_rank=True)
     more = [
         one

@@ -17,7 +17,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Function, Number, Product, Quotient, Relation, Symbol, equation, walk
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
-from dynsolve.questions.equilibria.check import Case, in_balance, verify_equilibria
+from dynsolve.questions.equilibria.check import Case, holding, in_balance, verify_equilibria, verify_excluded
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.solving import Stability
 from dynsolve.render.files import Format
@@ -402,6 +402,33 @@ def test_where_lengths_let_the_rows_be_dependent_what_is_none_is_told() -> None:
     assert "no equilibrium" in str(note)
     results = dynsolve.solve(REACH.replace("a: l2", "a: 2*l1")).to_json()["results"]
     assert results["equilibria_except"] == [folded] and "equilibria_special" not in results
+
+
+PARALLELOGRAM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l1}]
+masses:
+  - {mass: m1, link: 1, center: midpoint}
+  - {mass: m2, link: 2, center: midpoint}
+  - {mass: m1, name: c, link: 3, center: midpoint}
+constraints: [tip.x - l2, tip.y]
+find: [equilibria]
+"""
+
+
+def test_for_special_lengths_what_is_left_out_may_be_an_equilibrium() -> None:
+    """By hand: with l₁ = l₂ it folds to q = (0, 90°, 180°), where A_c is singular and holds g."""
+    solution = dynsolve.solve(PARALLELOGRAM)
+    (step,) = (step for step in solution.steps if step.id == "equilibria")
+    assert "no equilibrium, but for special values of the parameters." in str(step.notes[-1])
+    robot = read_problem(PARALLELOGRAM).robot
+    values = derive(robot)
+    forms, found = Forms(robot, values), values["equilibria"]
+    g, sets = forms("g"), EquilibriaForms(robot, values).excluded[0]
+    given = (sets, in_balance(forms, g), holding(forms, g))
+    verify_excluded(robot, found, *given)
+    with pytest.raises(VerificationError, match="special"):
+        verify_excluded(robot, replace(found, may_be_others=False), *given)
 
 
 def test_a_cusp_holds_nothing() -> None:
