@@ -158,12 +158,15 @@ def _given(context: Context, body: Body, about: str) -> _Told:
     if entering := _entering(context, body):
         return None, (), _left_out(context, body, entering, about), f"tensor {entering, about}"
     zero = tuple(entry.is_zero for entry in body.inertia.entries)
+    is_in_part = any(body.inertia[k, k].is_zero for k in range(3))
     why = say(
         "The tensor of {name} is given, about {about}, along {axes}.{principal}",
         name=name_of(body),
         about=about,
         axes=f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes",
-        principal=_principal(context, body, body.inertia),
+        principal=" What is not given of it is taken as 0."
+        if is_in_part
+        else _principal(context, body, body.inertia),
     )
     return None, (), why, f"tensor {is_moved(body), _in_frame(context, body), zero}"
 

@@ -323,8 +323,9 @@ def _along_z(robot: Robot, joint: Joint, name: str) -> Meaning:
     is_forwards = joint.d == robot.ring.symbol(name)
     if is_forwards and joint.parent == 0 and _is_upright(robot):
         return Meaning("height of o{link} above o{before}", joint.index, "", 0)
+    ends = "o{before} to o{link}" if joint.a.is_zero else "x{before} to x{link}"
     way = f"{'along' if is_forwards else 'against'} {axis}"
-    return Meaning(f"distance from o{{before}} to o{{link}}, {way}", joint.index, "", joint.parent)
+    return Meaning(f"distance from {ends}, {way}", joint.index, "", joint.parent)
 
 
 def _is_upright(robot: Robot) -> bool:

@@ -47,7 +47,7 @@ from dynsolve.notation.tree import (
     Transpose,
     equation,
     mapped,
-    walk,
+    walk_once,
 )
 from dynsolve.notation.unicode import to_unicode
 
@@ -168,10 +168,9 @@ def pythagoras(angle: Node) -> Identity:
 def angles_in(*nodes: Node) -> dict[Angle, set[str]]:
     """The angles whose sines and cosines occur, and which of both."""
     found: dict[Angle, set[str]] = {}
-    for part in walk(*nodes):
-        match part:
-            case Function("sin" | "cos" as name, argument):
-                found.setdefault(angle_from_tree(argument), set()).add(name)
+    for part in dict.fromkeys(part for part in walk_once(*nodes) if isinstance(part, Function)):
+        if part.name in ("sin", "cos"):
+            found.setdefault(angle_from_tree(part.argument), set()).add(part.name)
     return found
 
 

@@ -380,9 +380,8 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
     cancelled = list(_cancelled(context, together, poly))
     with_these = say("the terms with {found} cancel", found=listed(cancelled)) if cancelled else ()
     by = say(
-        "{which} multiplied out{sorted}{cancelled}:",
+        "{which} multiplied out{cancelled}:",
         which=which,
-        sorted=", and sorted" * isinstance(multiplied, Sum),
         cancelled=say("; {these}", these=with_these) if cancelled else "",
     )
     identity = Words(
