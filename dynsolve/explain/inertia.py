@@ -158,15 +158,12 @@ def _given(context: Context, body: Body, about: str) -> _Told:
     if entering := _entering(context, body):
         return None, (), _left_out(context, body, entering, about), f"tensor {entering, about}"
     zero = tuple(entry.is_zero for entry in body.inertia.entries)
-    is_in_part = any(body.inertia[k, k].is_zero for k in range(3))
     why = say(
         "The tensor of {name} is given, about {about}, along {axes}.{principal}",
         name=name_of(body),
         about=about,
         axes=f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes",
-        principal=" What is not given of it is taken as 0."
-        if is_in_part
-        else _principal(context, body, body.inertia),
+        principal=_principal(context, body, body.inertia),
     )
     return None, (), why, f"tensor {is_moved(body), _in_frame(context, body), zero}"
 
@@ -218,10 +215,12 @@ def _principal(context: Context, body: Body, tensor: algebra.Matrix) -> Prose:
     if any(not tensor[i, j].is_zero for i in range(3) for j in range(3) if i != j):
         return ()
     told: Prose = (" They are principal axes: there are no products of inertia.",)
-    absent = [name for i, name in enumerate("xyz") if tensor[i, i].is_zero]
-    if len(absent) == 1:
-        axis = _axis(context, body, absent[0], f"its {absent[0]}")
-        told += say(" The moment about {axis} is taken as 0.", axis=axis)
+    absent = [
+        _axis(context, body, name, f"its {name}") for i, name in enumerate("xyz") if tensor[i, i].is_zero
+    ]
+    if absent:
+        moments = "moments about {axes} are" if len(absent) > 1 else "moment about {axes} is"
+        told += say(f" The {moments} taken as 0.", axes=listed(absent))
     return told
 
 
