@@ -82,7 +82,9 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
             text += "The rank of ${J}$ is {more} that of this matrix. It is less where {of_all}"
             working = (forms.matrix(found.core),)
         else:
-            text += "{pivots} rows and columns are cleared so, and only zeros, or nothing, are left."
+            cleared = "One row and one column" if found.pivots == 1 else "{pivots} rows and columns"
+            is_all = found.pivots == min(rows, columns)
+            text += f"{cleared} are cleared so, and {'no other is' if is_all else 'only zeros are'} left."
     elif rows == columns == found.rank:
         text = "${J}$ is square: it has an inverse unless its determinant is 0."
         results = (formula("det {J} = {minor}", J=J, minor=minors[0]),)
