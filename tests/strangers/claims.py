@@ -603,9 +603,23 @@ def _tip_moves(m: Mechanism, s: Sentence) -> bool:
     return near(tip(m.point())[moving], m.result("r", m.point()))
 
 
-@says("The arm can move and keep the task: infinitely many configurations reach it.")
+@says("The arm can move and keep the task: infinitely many configurations reach what is inside its reach.")
 def _spare(m: Mechanism, s: Sentence) -> bool:
     return all(rank(m.result(m.jacobian, p)) < len(m.coordinates) for p in m.points())
+
+
+@says("That is only where {&}: no joint moves <this|these>.")
+def _kept(m: Mechanism, s: Sentence) -> bool:
+    names = m.solution.robot.questions.reached
+    told = {names_of(one.parts[:1])[0]: one.parts[-1] for one in s.formulas if isinstance(one, tree.Relation)}
+
+    def value(k: int) -> Callable[[Point], Any]:
+        return lambda p: m.result("r", p)[k]
+
+    here, fixed = m.point(), [k for k in range(len(names)) if not m.changes(value(k), m.coordinates)]
+    return {*told} == {names[k] for k in fixed} and all(
+        near(m.value(told[names[k]], here), value(k)(here)) for k in fixed
+    )
 
 
 @says("{} has many solutions, the rank being #: ...", "The rest has many solutions, the rank being #: ...")

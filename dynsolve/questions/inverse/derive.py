@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 NO_CLOSED_FORM = "no closed form was found"
 
 
-REDUNDANT = "the arm can move and keep the task: infinitely many configurations reach it"
+REDUNDANT = (
+    "the arm can move and keep the task: infinitely many configurations reach what is inside its reach"
+)
 
 
 _STEP = 1e-5

@@ -8,6 +8,7 @@ from math import inf, prod
 from msgspec.structs import replace
 
 from dynsolve.algebra.factors import is_nonnegative, is_positive
+from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.document import Prose, Table
@@ -64,14 +65,15 @@ def steps(context: Context) -> Iterator[Step]:
     forms = InverseForms(context.robot, context.values)
     yield _task(context, forms)
     if forms.solved is None:
-        is_free = is_redundant(context.values["pose" if _is_pose(context.robot) else "r"])
+        r = context.values["pose" if _is_pose(context.robot) else "r"]
+        is_free = is_redundant(r)
         yield Step(
             id=_id_of_branches(forms),
             title="No closed form" if is_free else "No closed form was found",
-            why=(
-                f"{opened(REDUNDANT)}."
-                if is_free
-                else "The equations were turned into the frames of the joints, squared and added. No "
+            why=_spare(context, r)
+            if is_free
+            else (
+                "The equations were turned into the frames of the joints, squared and added. No "
                 "equation with one unknown in a known form was among them; that there is none is not shown.",
             ),
             detail=Detail.BRIEF,
@@ -84,6 +86,17 @@ def steps(context: Context) -> Iterator[Step]:
         yield _branches(forms, forms.solved.solving)
     if forms.target is not None:
         yield from target_steps(forms.target)
+
+
+def _spare(context: Context, r: Values) -> Prose:
+    """That the arm can move and keep the task, and what must hold of components that no joint moves."""
+    needed = [
+        equation(Symbol(name), context.show(value))
+        for name, value in zip(context.robot.questions.reached, r.entries, strict=True)
+        if not r.ring.depends_on_coordinates(value)
+    ]
+    only = agreeing(" That is only where {needed}: no joint moves this|these.", len(needed)) if needed else ""
+    return say(f"{opened(REDUNDANT)}.{only}", needed=listed(needed))
 
 
 def _task(context: Context, forms: InverseForms) -> Step:

@@ -6,7 +6,7 @@ import pytest
 
 from dynsolve import solve
 from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Number, Symbol
+from dynsolve.notation.tree import Number, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
@@ -86,7 +86,19 @@ dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l2, alpha: 90deg}, {theta
 find: [inverse]
 """
     (step,) = (step for step in solve(redundant).steps if step.title == "No closed form")
-    assert step.why == ("The arm can move and keep the task: infinitely many configurations reach it.",)
+    why = "The arm can move and keep the task: infinitely many configurations reach what is inside its reach."
+    assert step.why == (why,)
+
+
+def test_a_component_that_no_joint_moves_has_one_value_alone() -> None:
+    rail = """
+dh: [{d: q1*, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+task: [tip.x, tip.y]
+reach: [px, py]
+find: [inverse]
+"""
+    (step,) = (step for step in solve(rail).steps if step.title == "No closed form")
+    assert any(part == equation(Symbol("py"), Number(0)) for part in step.why)
 
 
 # -- what is told of an unknown, and of the rotation that is left ------------------------------------
