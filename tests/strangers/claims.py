@@ -870,6 +870,13 @@ def _rank_where(m: Mechanism, s: Sentence) -> bool:
     )
 
 
+@says("The rank of {} is <# more than|as great as> that of this matrix.")
+def _cleared(m: Mechanism, s: Sentence) -> bool:
+    core = next(block.node for block in s.step[s.place :] if isinstance(block, document.Formula))
+    pivots = int(s.words[1] or 0)
+    return all(rank(s.jacobian(m, p)) == pivots + rank(m.value(core, p)) for p in m.points())
+
+
 @says("The rank is #, and the dimension of this space #.")
 def _dimension(m: Mechanism, s: Sentence) -> bool:
     J = s.jacobian(m, m.point())
