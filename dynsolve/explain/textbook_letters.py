@@ -299,7 +299,7 @@ def _asked(robot: Robot) -> dict[str, Value]:
             {*robot.ring.names, *robot.ring.parameters, *asked.reached}
         )
         found |= {"of_points": _names(names.of_points), "of_turns": _names(names.of_turns)}
-        found["U"] = letters.bold("U")
+        found["U"] = tuple(letters.bold(letter.upper()) for letter in names.turns or ("u",))
     return found
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from dynsolve import document
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Symbol, walk
+from dynsolve.notation.tree import Node, Symbol, names_in, walk
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot.model import Convention
 from tests.strangers.mechanism import NEAR, Mechanism, names_of, near, plain, rank
@@ -601,6 +601,22 @@ def _tip_moves(m: Mechanism, s: Sentence) -> bool:
 
     moving = [k for k in range(3) if m.changes(lambda p, k=k: tip(p)[k], m.coordinates)]
     return near(tip(m.point())[moving], m.result("r", m.point()))
+
+
+@says(
+    "Joint # turns about its axis and does not move this point.",
+    "Only the other joints move it.",
+    "The axes of joints #& meet in one point, which these joints do not move.",
+)
+def _point_on_axes(m: Mechanism, s: Sentence) -> bool:
+    """What the pose tells of the point is where the other joints bring it."""
+    *_, made = (shown.parts[-1] for shown in s.shown())
+    numbers = re.findall(r"\d+", s.text) or re.findall(r"\d+", s.where.rpartition("joint")[2])
+    joints = [m.solution.robot.joints[int(k) - 1] for k in numbers]
+    moving = {name for joint in joints for name in names_in(joint.written[0])}
+    return bool(joints) and not m.changes(
+        lambda p: m.value(made, p), tuple(q for q in m.coordinates if q in moving)
+    )
 
 
 @says("The arm can move and keep the task: infinitely many configurations reach what is inside its reach.")

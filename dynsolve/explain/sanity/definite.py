@@ -61,7 +61,7 @@ LONGEST_ENTRY = 8
 
 def definite_step(context: Context) -> Step | None:
     """What shows that D is positive definite; None where that is not seen."""
-    if context.robot.n < 2:
+    if context.robot.n < 2 or any(_is_of_no_body(context, body) for body in context.robot.bodies):
         return None
     return _by_entries(context) or _by_bodies(context)
 
@@ -107,6 +107,13 @@ def _is_of_a_body(context: Context, body: Body) -> bool:
         for i, row in enumerate(rows)
         for j, entry in enumerate(row)
     )
+
+
+def _is_of_no_body(context: Context, body: Body) -> bool:
+    """Whether a tensor has a negative moment about the mass centre, as one given in part elsewhere may."""
+    rows = context.values[f"I_body{body.name}"].rows
+    moments = (rows[k][k].poly.coeffs() for k in range(3))
+    return any(moment and all(factor < 0 for factor in moment) for moment in moments)
 
 
 _APART = " $𝐃$ consists of {parts}, not coupled with each other: each counts by itself."
