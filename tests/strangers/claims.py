@@ -759,6 +759,13 @@ def _unbalanced(m: Mechanism, s: Sentence) -> bool:
     return k in m.solution.robot.actions.passive and not near(forces[k], 0)
 
 
+@says("{&} cannot hold, as masses and lengths of the table are positive: no parameters will do.")
+def _unbalanced_by_any(m: Mechanism, s: Sentence) -> bool:
+    equations = [one for one in s.formulas if isinstance(one, tree.Relation)]
+    sides = [[m.value(one.parts[0], p) - m.value(one.parts[-1], p) for p in m.points()] for one in equations]
+    return all(min(one) > 0 or max(one) < 0 for one in sides)
+
+
 @says("In case #: <stable|not stable>.")
 def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
     step = next(told for told in sentences(m.document.blocks) if told.text == "It is 0 in these cases:")

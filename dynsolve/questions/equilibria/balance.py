@@ -64,6 +64,11 @@ def _without_factors(expr: Expr, masses: frozenset[str], lengths: frozenset[str]
     return _open_part(expr, masses) if rest.is_number else rest
 
 
+def is_impossible(robot: Robot, condition: Expr) -> bool:
+    """Whether a condition asks for a length of the table to be 0, or for what is positive with these."""
+    return _open_part(condition, never_zero(robot) | table_lengths(robot)).is_number
+
+
 def _open_part(expr: Expr, positive: frozenset[str]) -> Expr:
     """The expression without the factors in which only what is `positive` stands, with positive numbers."""
     ring = expr.ring

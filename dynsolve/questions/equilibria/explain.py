@@ -39,6 +39,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.questions.equilibria import linearization
+from dynsolve.questions.equilibria.balance import is_impossible
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
 from dynsolve.questions.equilibria.solving import (
@@ -464,6 +465,10 @@ def _balance(context: Context) -> Step:
     shown = EquilibriaForms(context.robot, context.values).balance
     goal: Node = _ZERO if wanted is None else context.show(wanted)
     g = equation(letters.G, context.form("g"))
+    conditions = tuple(equation(value, Number(0)) for value in shown)
+    never = [one for one, value in zip(conditions, found, strict=True) if is_impossible(context.robot, value)]
+    outcome = say(_UNBALANCED, never=listed(never)) if never else ()
+    notes = () if shown else (("Gravity is what it should be for all values of the parameters.",),)
     return Step(
         id="balance",
         title="What balances gravity",
@@ -476,9 +481,10 @@ def _balance(context: Context) -> Step:
         formula=equation(letters.G, goal),
         source=spong("7.5.3"),
         working=(g,) if is_small(context.form("g")) else (),
-        result=tuple(equation(value, Number(0)) for value in shown),
+        result=conditions,
         listed=len(shown) > 1,
-        notes=() if shown else (("Gravity is what it should be for all values of the parameters.",),),
+        notes=(outcome,) if outcome else notes,
+        outcome=outcome,
         detail=Detail.BRIEF,
     )
 
@@ -486,6 +492,7 @@ def _balance(context: Context) -> Step:
 # -- near one of them ------------------------------------------------------------------------------
 
 
+_UNBALANCED = "{never} cannot hold, as masses and lengths of the table are positive: no parameters will do."
 _NOT_STEADY = "The equilibrium is one at rest, all rates being 0, and none of the motion above. "
 _SECOND_ORDER = (
     "$𝐂 𝐪̇$ is of second order in the rates and falls away; so does every change of $𝐃$, which stands beside "

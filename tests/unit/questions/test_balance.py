@@ -45,6 +45,12 @@ def test_by_hand(problem: str, conditions: set[str]) -> None:
     assert set(dynsolve.solve(problem).to_json()["results"]["balance"]) == conditions
 
 
+@pytest.mark.parametrize(("problem", "is_possible"), [(ARM, True), (FRACTIONS, True), (RIGID, False)])
+def test_what_asks_for_a_length_of_the_table_to_be_0_cannot_be(problem: str, is_possible: bool) -> None:
+    (step,) = (step for step in dynsolve.solve(problem).steps if step.id == "balance")
+    assert ("cannot hold" in str(step.outcome)) is not is_possible
+
+
 @pytest.mark.parametrize(
     ("problem", "written", "code"),
     [
