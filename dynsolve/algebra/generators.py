@@ -138,11 +138,11 @@ class Relations:
         """The normal form of a polynomial."""
         if not self._pairs and not self._roots and not self._inverses:
             return poly
+        poly = self.reduce_roots(poly)
         degrees = poly.degrees()
         for index, relation in self._pairs:
             if degrees[index] > 1:
                 poly %= relation
-        poly = self.reduce_roots(poly)
         if self._inverses:
             poly = self._without_inverses(poly)
         return poly
@@ -151,8 +151,22 @@ class Relations:
         """A polynomial with √3² = 3, and s² + c² as it stands."""
         for index, degree, relation in self._roots:
             if poly.degrees()[index] >= degree:
-                poly %= relation
+                radicand = self.radicands.get(index)
+                if radicand is None or radicand.is_constant():
+                    poly %= relation
+                else:
+                    poly = self._lowered(poly, index, radicand)
         return poly
+
+    def _lowered(self, poly: fmpq_mpoly, index: int, radicand: fmpq_mpoly) -> fmpq_mpoly:
+        """A polynomial with √p² = p, also where p has generators that stand before the root."""
+        parts: dict[int, dict[tuple[int, ...], Any]] = {}
+        for exponents, factor in poly.to_dict().items():
+            times, left = divmod(int(exponents[index]), 2)
+            rest = tuple(left if i == index else int(e) for i, e in enumerate(exponents))
+            parts.setdefault(times, {})[rest] = factor
+        lowered = (poly.context().from_dict(part) * radicand**times for times, part in parts.items())
+        return sum(lowered, start=poly * 0)
 
     def _without_inverses(self, poly: fmpq_mpoly) -> fmpq_mpoly:
         before = None

@@ -50,6 +50,9 @@ def ring_of(*texts: str, angles: tuple[Angle, ...] = ()) -> tuple[Ring, list[Exp
         ("m1/(m1 + m2) + m2/(m1 + m2)", "1"),
         ("l1*(m1/l1)", "m1"),
         ("sqrt(l1^2 + m1^2)^2", "l1^2 + m1^2"),
+        ("l1*sqrt(m1/l1)^2 - m1", "0"),  # what stands before a root: an inverse, a cosine, a sine
+        ("sqrt(l1^2 + m1^2 - 2*l1*m1*cos(beta))^2", "l1^2 + m1^2 - 2*l1*m1*cos(beta)"),
+        ("sqrt(l1 + m1*sin(beta))^2*sin(beta)", "l1*sin(beta) + m1 - m1*cos(beta)^2"),
         ("sqrt(72)", "6*sqrt(2)"),
         ("1/((m1 + m2)*(m1 - m2))", "1/(m1^2 - m2^2)"),
         ("cos(pi/6)", "sqrt(3)/2"),
