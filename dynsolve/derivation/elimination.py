@@ -8,6 +8,7 @@ The signs of polynomials in parameters, which count as positive, under what is a
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
 from math import hypot, prod
 from operator import mul
 
@@ -197,6 +198,9 @@ class ParameterSigns(Struct, frozen=True):
                 return sign
         if not self.assumed or factor.ring.depends_on_coordinates(factor):
             return 0
+        for sign, bound in product((1, -1), self.assumed):
+            if _is_more(factor * sign, bound):
+                return sign
         known = (*self.assumed, *self._positive(factor))
         return next((sign for sign in (1, -1) if follows(Bound(factor * sign), known)), 0)
 
@@ -207,6 +211,13 @@ class ParameterSigns(Struct, frozen=True):
         for g in ring.generators:
             if g.kind == "symbol" and g.name in ring.parameters and any(d[g.index] > 0 for d in degrees):
                 yield Bound(ring.generator(g.index))
+
+
+def _is_more(value: Expr, bound: Bound) -> bool:
+    """Whether a value is an assumption times what is positive, and a rest that is."""
+    times, rest = (Expr(value.ring, part) for part in divmod(value.poly, bound.value.poly))
+    is_rest = is_positive(rest)
+    return is_positive(times) and (is_rest or (rest.is_zero and bound.is_strict))
 
 
 def _factored(value: Expr) -> tuple[bool, list[tuple[Expr, int]]]:

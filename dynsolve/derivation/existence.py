@@ -176,6 +176,8 @@ def _reach(swings: Swings, held: Sequence[Multiples], signs: ParameterSigns) -> 
         return _bounds([most - constant, most + constant], signs)
     if len(moving) > 1:
         return ()
+    if constant.is_zero:
+        return ()
     ((cosine, sine),) = (swings[n] for n in moving)
     return _bounds([cosine**2 + sine**2 - constant**2], signs)
 

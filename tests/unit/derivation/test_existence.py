@@ -8,6 +8,7 @@ from math import pi
 import pytest
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import build_ring, evaluate
 from dynsolve.derivation.elimination import ParameterSigns
@@ -67,3 +68,18 @@ def test_what_the_parameters_must_satisfy_is_what_a_grid_shows(values: list[Expr
 @pytest.mark.parametrize("values", [[COSINE(Q1), A * SINE(Q1) ** 2 + K], [A * COSINE(Q1) + A + K]])
 def test_what_is_never_0_exists_for_no_parameters(values: list[Expr]) -> None:
     assert conditions(values, ParameterSigns()) is None
+
+
+def test_a_condition_that_always_holds_is_none() -> None:
+    """A cos q + B sin q is 0 somewhere, whatever A and B are."""
+    assert conditions([(A - B) * COSINE(Q1) + K * SINE(Q1)], ParameterSigns()) == ()
+
+
+def test_nor_is_one_that_follows_from_what_is_assumed() -> None:
+    """k (g + l W²) - (M + m) g W² - M l W⁴ = (g + l W²)(k - (M + m) W²) + m l W⁴."""
+    names = ("k", "g", "l", "W", "M", "m")
+    ring = build_ring([], [Symbol(name) for name in names])
+    k, g, length, w, body, point = map(ring.symbol, names)
+    stiff = Bound(k - (body + point) * w * w)
+    value = k * (g + length * w**2) - (body + point) * g * w**2 - body * length * w**4
+    assert ParameterSigns((stiff,)).is_positive(value) and not ParameterSigns().is_positive(value)
