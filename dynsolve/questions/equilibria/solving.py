@@ -260,7 +260,9 @@ class Curvature(Struct, frozen=True):
         if not moves:
             conditions = independent([Bound(sign) for sign in _least(left, signs)], signs.assumed)
         falls = bool(conditions) and not self.may_be_held
-        return Point(values, Stability.UNDECIDED, neutral, conditions, nonzero, falls)
+        inside = self.signs.beside(*conditions)
+        apart = tuple(factor for factor in nonzero if any(inside.open_factors(factor)))
+        return Point(values, Stability.UNDECIDED, neutral, conditions, apart, falls)
 
 
 Minor = Callable[[tuple[int, ...]], Expr]

@@ -404,6 +404,24 @@ def test_where_lengths_let_the_rows_be_dependent_what_is_none_is_told() -> None:
     assert results["equilibria_except"] == [folded] and "equilibria_special" not in results
 
 
+def test_what_an_inequality_says_is_not_said_once_more() -> None:
+    """By hand: below V has the curvature m g + l k - m l W² along both angles; where > 0, it is not 0."""
+    double = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {psi: revolute, q1: revolute, q2: revolute}
+  bodies:
+    - {mass: m, at: [l*sin(q1)*cos(psi), l*sin(q1)*sin(psi), -l*cos(q1)]}
+    - {mass: m, at: [l*sin(q2)*cos(psi), l*sin(q2)*sin(psi), -l*cos(q2)]}
+springs: [{energy: k*l^2*(1 - cos(q1)*cos(q2))}]
+steady: {psi: W}
+find: [equilibria]
+"""
+    told = dynsolve.solve(double).to_json()["results"]["equilibria_stability"][-1]
+    below = next(point for point in told if (point["q1"], point["q2"]) == ("0", "0"))
+    assert below["stable_if"] == ["m*g + l*k > m*l*W**2"]
+
+
 PARALLELOGRAM = """
 gravity: [0, -g, 0]
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l1}]
