@@ -587,6 +587,11 @@ def _linear_parts(m: Mechanism, s: Sentence) -> bool:
 # tasks
 
 
+@says("This is {}.")
+def _same_jacobian(m: Mechanism, s: Sentence) -> bool:
+    return all(near(m.value(s.formulas[0], p), m.result("Jr", p)) for p in m.points())
+
+
 @says("This is {} without the row[s] of #&, zero in every configuration.")
 def _row_is_zero(m: Mechanism, s: Sentence) -> bool:
     left_out = ["xyz".index(axis) for axis in re.findall(r"\b[xyz]\b", s.words[0])]

@@ -13,7 +13,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
-from dynsolve.explain.step import Detail, Group, Line, Step
+from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
 from dynsolve.explain.working.identities import SILENT, Identity, Way, by, identities, said, used_in_product
 from dynsolve.explain.writing import agreeing, and_joined, is_small, listed, spong, sum_over_coordinates
 from dynsolve.notation.build import times, total
@@ -114,6 +114,9 @@ def _jacobian(context: Context, task: Task) -> Step:
         "This is ${Jv}$ without the row|rows of {axes}, zero in every configuration.", len(still)
     )
     is_part = task.is_default and not task.is_twist and bool(still)
+    notes = (say(left_out, Jv=letters.JV, axes=listed(still)),) if is_part else ()
+    if not (still or task.is_twist) and context.values["Jr"] == context.values["Jv"]:
+        notes = (say("This is ${Jv}$.", Jv=letters.JV),)
     return Step(
         id="Jr",
         title="The Jacobian of the task",
@@ -121,7 +124,8 @@ def _jacobian(context: Context, task: Task) -> Step:
         formula=general,
         source=spong("4.6.3" if task.is_twist else "4.8"),
         result=(equation(letters.J_TASK, context.form("Jr")),),
-        notes=(say(left_out, Jv=letters.JV, axes=listed(still)),) if is_part else (),
+        notes=notes,
+        normal=NOTED,
         detail=Detail.BRIEF,
     )
 
