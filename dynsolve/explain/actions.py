@@ -250,7 +250,7 @@ def passive_prose(context: Context) -> Prose:
     if not passive:
         return ()
     forces = [equation(letters.force(q), Number(0)) for q in passive]
-    names = listed([Symbol(q.name) for q in passive])
+    names = listed([Symbol(q.name) for q in passive], "or")
     return say(" No motor drives {names}: {forces}.", names=names, forces=side_by_side(forces))
 
 

@@ -555,7 +555,7 @@ def _actions(forms: Forms) -> Iterator[Prose]:
         yield actions.part(act.kind, "explain").given(forms, act)
     if acting.passive:
         names = [Symbol(forms.robot.coordinates[k].name) for k in acting.passive]
-        yield ("No motor drives ", *listed(names), ".")
+        yield ("No motor drives ", *listed(names, "or"), ".")
 
 
 def _indices(robot: Robot) -> Prose:

@@ -142,7 +142,7 @@ def _split(parts: tuple[document.Inline, ...]) -> Iterator[tuple[str, tuple[Node
 Claim = Callable[[Mechanism, Sentence], bool]
 CLAIMS: dict[re.Pattern[str], Claim] = {}
 
-SIGNS = {"{&}": r"\{\}(?:(?:, \{\})* and \{\})?", "{}": r"\{\}", "#&": r"(\w+(?:(?:, \w+)* and \w+)?)",
+SIGNS = {"{&}": r"\{\}(?:(?:, \{\})* (?:and|or) \{\})?", "{}": r"\{\}", "#&": r"(\w+(?:(?:, \w+)* and \w+)?)",
          "#": r"(\w+)", "...": ".*", "[": "(?:", "]": ")?", "<": "(", "|": "|", ">": ")"}  # fmt: skip
 
 

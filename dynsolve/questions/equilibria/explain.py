@@ -537,7 +537,7 @@ def _state_matrix(context: Context) -> Step:
             if any(map(robot.ring.depends_on_coordinates, context.values["D"].entries))
             else "",
             friction=say(", $𝐅$ the factors of the rates in the friction") if has_friction else "",
-            balanced=say(balanced, passive=listed(passive), which="it" if len(passive) == 1 else "them")
+            balanced=say(balanced, passive=listed(passive, "or"), which="it" if len(passive) == 1 else "them")
             if passive
             else "",
             rests=side_by_side(rests),
@@ -588,7 +588,7 @@ def why(context: Context) -> Prose:
     robot = context.robot
     rates = robot.questions.model.steady
     passive = {robot.coordinates[k].name for k in robot.actions.passive}
-    free = listed([Symbol(name) for name, _ in rates if name in passive])
+    free = listed([Symbol(name) for name, _ in rates if name in passive], "or")
     driven = listed([Symbol(name) for name, _ in rates if name not in passive])
     return say(
         "In this motion {held} all the time; the other rates and all accelerations are 0. {driven}{free}Of "

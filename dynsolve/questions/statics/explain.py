@@ -151,7 +151,7 @@ def _holding(context: Context) -> Step:
             beside=beside,
             passive=say(
                 agreeing(" No motor drives {q}: its|their entry|entries must be 0.", len(passive)),
-                q=listed([Symbol(q.name) for q in passive]),
+                q=listed([Symbol(q.name) for q in passive], "or"),
             )
             if passive and not beside
             else "",
