@@ -1,6 +1,7 @@
 """Equilibria, the balance of gravity, and the linearized equations of motion.
 
-solving        where forces are 0, and how stable that is
+solving        where forces are 0
+stability      how stable that is
 multipliers    what constraints hold, and how the energy is curved along what they leave free
 balance        conditions on the parameters for gravity to move nothing
 linearization  the motion near an equilibrium; equilibria of steady motion

@@ -33,14 +33,8 @@ from dynsolve.questions.equilibria.balance import STATES, never_zero, table_leng
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
 from dynsolve.questions.equilibria.multipliers import Along
-from dynsolve.questions.equilibria.solving import (
-    Equilibria,
-    Point,
-    Stability,
-    multipliers,
-    turned,
-    wanted_rows,
-)
+from dynsolve.questions.equilibria.solving import Equilibria, multipliers, wanted_rows
+from dynsolve.questions.equilibria.stability import Point, Stability, turned
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
 

@@ -42,15 +42,8 @@ from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.balance import is_impossible
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
-from dynsolve.questions.equilibria.solving import (
-    Equilibria,
-    Point,
-    SpecialCase,
-    Stability,
-    multipliers,
-    turned,
-    wanted_rows,
-)
+from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase, multipliers, wanted_rows
+from dynsolve.questions.equilibria.stability import Point, Stability, turned
 from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.questions.set_forms import SetForms, vanishing
 from dynsolve.robot.model import JointType, Robot

@@ -12,7 +12,8 @@ from dynsolve.notation.build import times
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.solving import Equilibria, Point, SpecialCase, Stability, turned
+from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase
+from dynsolve.questions.equilibria.stability import Point, Stability, turned
 from dynsolve.questions.export import Export, alternatives, existence, inequalities, plain_inequality, skipped
 
 

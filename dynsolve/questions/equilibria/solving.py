@@ -15,364 +15,36 @@ With constraints g = A_cᵀ λ and h = 0 (`multipliers`).
 Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.2 (1994).
 
 Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
-
-How stable equilibria are, by the second derivatives of the potential energy.
-
-An equilibrium is stable where the potential energy has a strict minimum, the matrix of its second
-derivatives being positive definite (Lagrange and Dirichlet): where all its leading minors are
-positive (Sylvester).  It is unstable where the matrix has a negative direction, which it has where
-any principal minor is negative.  Parameters count as positive; a leading minor whose sign they leave
-open is a condition for stability: where it is negative the equilibrium is unstable, and only where
-it is 0 the second derivatives do not decide.
-
-Where rates are held constant the energy is that of steady motion, and forces across the motion, which
-do no work, may hold what would fall: then nothing is called unstable.
-
-Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from enum import StrEnum
-from fractions import Fraction
-from functools import partial
-from itertools import combinations, product
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import replace
 
-from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.generators import Pair
-from dynsolve.algebra.inequality import Bound, independent
-from dynsolve.algebra.linear_systems import part, rank_parts
-from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
-from dynsolve.derivation.existence import DEGREES, conditions, is_seen, without_ends
+from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.existence import conditions, is_seen, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
+from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.questions.equilibria.multipliers import Along, Multipliers, Settled, remainder
+from dynsolve.questions.equilibria.multipliers import Multipliers, Settled, remainder
+from dynsolve.questions.equilibria.stability import MOST_SHOWN_TERMS, Curvature, Point
 from dynsolve.questions.parameters.derive import generators
 from dynsolve.robot.model import Robot
-
-# How stable equilibria are, by the second derivatives of the potential energy
-
-MOST_POINTS = 16
-"""With more points in a case their stability is not told one by one."""
-
-MOST_TURNING = 6
-"""With more sines and cosines the least value of an expression is not looked for."""
-
-MOST_PRODUCTS = 50_000
-"""Second derivatives whose determinant may come to more products of terms are not looked at."""
-
-Values = tuple[tuple[Pair, int, int], ...]
-"""(angle, sine, cosine): quarter turns."""
-
-
-def turned(values: Values) -> list[tuple[Angle, Fraction]]:
-    """The angles that are turned, each with how far in degrees; q/2 by 90° is q by 180°."""
-    found = []
-    for pair, sine, cosine in values:
-        angle, degrees = pair.angle, Fraction(DEGREES[sine, cosine])
-        if degrees > 180:
-            degrees -= 360
-        rates = {rate for _, rate in angle.terms}
-        if len(rates) == 1 and (count := 1 / rates.pop()).denominator == 1:
-            angle, degrees = angle * count, degrees * count
-        found.append((angle, degrees))
-    return found
-
-
-Here = Callable[[Matrix], Matrix]
-"""What a matrix is where something is known."""
-
-
-class Stability(StrEnum):
-    """What second derivatives say of an equilibrium."""
-
-    STABLE = "stable"
-    UNSTABLE = "unstable"
-    UNDECIDED = "undecided"
-
-
-class Point(Struct, frozen=True):
-    """Quarter turns of angles in a case, and how stable the arm is there.
-
-    `neutral` are the coordinates, from 0, along which nothing changes; where the arm `drifts`, nothing does
-    in any motion along the equilibria, in which the others follow these.  Where the stability is
-    undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
-    them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
-    sides are equal nothing is said, nor where one of `nonzero` is 0.  Coordinates stand in conditions
-    where their values are not known; `is_open` says that these are too long to be told.  All this is so
-    where the case is there and none of its bounds, `inside`, is an equality.  `along` is what constraints
-    leave of the second derivatives.
-    """
-
-    values: Values
-    stability: Stability
-    neutral: tuple[int, ...] = ()
-    conditions: tuple[Bound, ...] = ()
-    nonzero: tuple[Expr, ...] = ()
-    falls: bool = False
-    is_open: bool = False
-    drifts: bool = False
-    inside: tuple[Bound, ...] = ()
-    along: Along | None = None
-
-    @property
-    def is_told(self) -> bool:
-        """Whether something is known."""
-        return bool(self.conditions or self.nonzero) or self.stability is not Stability.UNDECIDED
-
-
-class Curvature(Struct, frozen=True):
-    """The second derivatives of the energy, n×n, and the signs of what stands in them.
-
-    `may_be_held` says that forces which do no work act, too; with multipliers the energy is looked at along
-    what the constraints leave free.
-    """
-
-    second: Matrix
-    signs: ParameterSigns
-    may_be_held: bool
-    held: Multipliers | None = None
-
-    def points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
-        """The quarter turns that a case allows, each with its stability where the case `exists`."""
-        inside = [Bound(bound.value) for bound in exists]
-        known = {point.values: point for point in self._possible(alternative, inside)}
-        for point in self._possible(alternative, exists):
-            told = known.get(point.values, point)
-            if told == point or not told.is_told:
-                yield point
-            elif told.stability is Stability.STABLE:  # where a bound is an equality nothing is known
-                yield replace(point, conditions=tuple(inside), nonzero=(), falls=False, is_open=False)
-            else:
-                yield replace(told, inside=tuple(inside))
-
-    def _possible(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
-        """Points without factors that are 0 nowhere in the case; stable where nothing else is asked."""
-        for point in self._points(alternative, exists):
-            nonzero = tuple(factor for factor in point.nonzero if self._may_vanish(factor, alternative))
-            is_stable = point.nonzero and not (nonzero or point.conditions)
-            stability = Stability.STABLE if is_stable else point.stability
-            yield replace(point, nonzero=nonzero, stability=stability)
-
-    def _may_vanish(self, factor: Expr, alternative: Alternative) -> bool:
-        values = [condition.expr for condition in alternative]
-        return not factor.ring.depends_on_coordinates(factor) or _may_be_zero([*values, factor], self.signs)
-
-    def _points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
-        if 2 ** len(alternative) > MOST_POINTS:
-            return
-        turns = [found for one in alternative if (found := quarter_turns(one))]
-        others = [one for one in alternative if not quarter_turns(one)]
-        known = [turn for one in others if (turn := turn_of(one.expr)) is not None and turn.is_one_sided]
-        nonzero = [f for turn in known for f in self.signs.open_factors(turn.cosine + turn.sine)]
-        signs = self.signs.beside(*exists, nonzero=nonzero)
-        ring = self.second.ring
-        free = [
-            k
-            for k in range(len(ring.names))
-            if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
-        ]
-        for values in product(*turns):
-            left = _put(Matrix.column(ring, [other.expr for other in others]), values).entries
-            if conditions(left, signs) is None:
-                continue
-            here = partial(_there, values=values, zeros=left)
-            if self.held is not None:
-                along = self.held.along(self.second, here)
-                point = Point(values, Stability.UNDECIDED)
-                yield point if along is None else self._held_point(values, along, signs, here)
-                continue
-            at = here(self.second)
-            drifting = self._drifting(values, at, signs, len(alternative))
-            yield drifting or self._point(values, at, signs, free, here)
-
-    def _held_point(self, values: Values, along: Along, signs: ParameterSigns, here: Here) -> Point:
-        """The stability along what constraints leave free, where their rows are independent."""
-        apart = signs.beside(nonzero=signs.open_factors(along.divisor))
-        point = replace(self._point(values, along.without_fractions, apart, (), here), along=along)
-        dependent = tuple(signs.open_factors(along.size))
-        if not dependent or not point.is_told or point.stability is Stability.UNSTABLE:
-            return point
-        nonzero = tuple(dict.fromkeys((*point.nonzero, *dependent)))
-        return replace(point, stability=Stability.UNDECIDED, nonzero=nonzero)
-
-    def _drifting(self, values: Values, second: Matrix, signs: ParameterSigns, held: int) -> Point | None:
-        """The stability where equilibria, of which `held` conditions are asked, are all that is flat.
-
-        None where the coordinates that are not flat are all others, or a sign is not seen.
-        """
-        n = len(second.rows)
-        if self.may_be_held or work(second) > MOST_PRODUCTS:
-            return None
-        rows = rank_parts(second).rows
-        others = [k for k in range(n) if k not in rows]
-        flat = all(second[k, j].is_zero for k in others for j in range(n))
-        if flat or len(rows) != held:
-            return None
-        leading = (determinant(part(second, rows[:k], rows[:k])) for k in range(1, held + 1))
-        is_stable = all(map(signs.is_positive, leading))
-        return Point(values, Stability.STABLE, tuple(others), drifts=True) if is_stable else None
-
-    def _point(
-        self, values: Values, second: Matrix, signs: ParameterSigns, free: Sequence[int], here: Here
-    ) -> Point:
-        """The stability at quarter turns where `free` coordinates may have any value.
-
-        `here` puts in what is known there, up to a positive factor.
-        """
-
-        def minor(chosen: tuple[int, ...]) -> Expr:
-            return here(Matrix.of(second.ring, [[determinant(part(second, chosen, chosen))]]))[0, 0]
-
-        neutral = tuple(k for k in free if all(entry.is_zero for entry in second.rows[k]))
-        rest = tuple(k for k in range(len(second.rows)) if k not in neutral)
-        if not rest or work(part(second, rest, rest)) > MOST_PRODUCTS:
-            return Point(values, Stability.UNDECIDED, neutral, is_open=bool(rest))
-        if not self.may_be_held and _falls(minor, rest, signs):
-            return Point(values, Stability.UNSTABLE, neutral)
-        leading = [minor(rest[:k]) for k in range(1, len(rest) + 1)]
-        nonzero = tuple(dict.fromkeys(factor for one in leading for factor in signs.even_factors(one)))
-        signs = signs.beside(nonzero=nonzero)
-        left: list[Expr] = []
-        for one in leading:
-            sign = signs.beside(*(Bound(before) for before in left if not before.is_number)).open_part(one)
-            if not (sign.is_number and sign.number > 0) and not _is_positive_throughout(sign, signs):
-                left.append(sign)
-        if not left and not nonzero:
-            return Point(values, Stability.STABLE, neutral)
-        moves = any(sign.ring.depends_on_coordinates(sign) for sign in (*left, *nonzero))
-        if any(sign.is_number for sign in left):
-            return Point(values, Stability.UNDECIDED, neutral, is_open=not _never_falls(minor, rest, signs))
-        if moves and max(map(len, (*left, *nonzero))) > MOST_SHOWN_TERMS:
-            return Point(values, Stability.UNDECIDED, neutral, is_open=True)
-        conditions = tuple(map(Bound, dict.fromkeys(left)))
-        if not moves:
-            conditions = independent([Bound(sign) for sign in _least(left, signs)], signs.assumed)
-        falls = bool(conditions) and not self.may_be_held
-        inside = self.signs.beside(*conditions)
-        apart = tuple(factor for factor in nonzero if any(inside.open_factors(factor)))
-        return Point(values, Stability.UNDECIDED, neutral, conditions, apart, falls)
-
-
-Minor = Callable[[tuple[int, ...]], Expr]
-"""The principal minor of some rows."""
-
-
-def _falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
-    """Whether the energy surely falls in some direction: a principal minor is negative."""
-    return any(signs.is_positive(-minor(chosen)) for chosen in _principal(rest))
-
-
-def _never_falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
-    """Whether it surely falls in none, to second order: no principal minor is negative anywhere."""
-    minors = map(minor, _principal(rest))
-    return all(one.is_zero or signs.is_positive(signs.open_part(one)) for one in minors)
-
-
-def _principal(rest: Sequence[int]) -> Iterator[tuple[int, ...]]:
-    """The rows of the principal minors."""
-    return (chosen for size in range(1, len(rest) + 1) for chosen in combinations(rest, size))
-
-
-def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
-    """Whether k - m g l cos q > 0 for all q: what is linear in each sine and cosine is least at ±1."""
-    ring, degrees = value.ring, value.poly.degrees()
-    turning = [i for pair in ring.pairs for i in (pair.sine, pair.cosine) if degrees[i] > 0]
-    if not turning or len(turning) > MOST_TURNING or any(degrees[index] > 1 for index in turning):
-        return False
-    return all(
-        signs.is_positive(with_numbers(value, dict(zip(turning, ends, strict=True))))
-        for ends in product((1, -1), repeat=len(turning))
-    )
-
-
-def _least(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
-    """The values without those that are another one and something positive."""
-    return [
-        value
-        for value in values
-        if not any(signs.is_positive(value - other) for other in values if other != value)
-    ]
-
-
-def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
-    """A matrix at quarter turns where further expressions are 0, up to a positive factor."""
-    matrix = _put(matrix, values)
-    for zero in zeros:
-        if zero.is_zero:
-            continue
-        turn = turn_of(zero)
-        if turn is not None and turn.is_one_sided:
-            matrix = _at_turn(matrix, turn)
-        else:
-            size = matrix.shape[1]
-            flat = Condition(zero).reduced_together(matrix.entries)
-            matrix = Matrix.of(matrix.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
-    return matrix
-
-
-def _at_turn(second: Matrix, turn: Turn) -> Matrix:
-    """The matrix where A x + C = 0 for the sine or the cosine x of an angle, times A to an even power."""
-    ring, pair = second.ring, turn.pair
-    known, other = (pair.cosine, pair.sine) if turn.sine.is_zero else (pair.sine, pair.cosine)
-    factor, rest = turn.cosine + turn.sine, turn.rest
-    degrees = (int(e[known]) + int(e[other]) for entry in second.entries for e in entry.poly.monoms())
-    most = max(degrees, default=0)
-    highest, y = most + most % 2, ring.generator(other)
-
-    def put(expr: Expr) -> Expr:
-        total = ring.zero
-        for exponents, number in expr.poly.to_dict().items():
-            i, j = int(exponents[known]), int(exponents[other])
-            plain = tuple(0 if k in (known, other) else e for k, e in enumerate(exponents))
-            squares = (factor * factor - rest * rest) ** (j // 2)  # A² y² = A² - C²
-            power = highest - i - 2 * (j // 2)
-            own = Expr(ring, ring.ctx.from_dict({plain: number}))
-            total += own * (-rest) ** i * squares * factor**power * y ** (j % 2)
-        return total
-
-    return second.map(put)
-
-
-def quarter_turns(condition: Condition) -> list[tuple[Pair, int, int]]:
-    """The quarter turns at which sin q, cos q, or one of these less ±1, is 0; none of other conditions."""
-    ring = condition.expr.ring
-    quarters = ((0, 1), (1, 0), (0, -1), (-1, 0))
-    for pair in ring.pairs:
-        used = {i for i, degree in enumerate(condition.expr.poly.degrees()) if degree > 0}
-        if used and used <= {pair.sine, pair.cosine}:
-            column = Matrix.column(ring, [condition.expr])
-            return [(pair, s, c) for s, c in quarters if _put(column, ((pair, s, c),)).is_zero]
-    return []
-
-
-def _put(matrix: Matrix, values: Values) -> Matrix:
-    """The matrix at quarter turns."""
-    numbers = {pair.sine: sine for pair, sine, _ in values} | {
-        pair.cosine: cosine for pair, _, cosine in values
-    }
-    return matrix.map(lambda entry: with_numbers(entry, numbers))
-
 
 MOST_TERMS = 200
 """Forces with more terms are not taken apart."""
 
 MOST_SPECIAL = 4
 """So many factors that may be 0 are told."""
-
-MOST_SHOWN_TERMS = 12
-"""Factors with more terms are not told."""
 
 TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 
@@ -585,17 +257,6 @@ def _modulo(factor: Expr, forces: Iterable[Expr]) -> tuple[Expr, ...]:
     """What is left of forces where a factor is 0, without those that are 0, too."""
     rests = (remainder(force, factor) for force in forces)
     return tuple(dict.fromkeys(rest for rest in rests if not rest.is_zero))
-
-
-def _may_be_zero(values: Sequence[Expr], signs: ParameterSigns) -> bool:
-    """Whether expressions are 0 together somewhere, as far as is found, for some parameters."""
-    exactly = Special(signs)
-    try:
-        sets = common_zeros(values, exactly)
-    except TooLong:
-        return True
-    there = any(conditions([one.expr for one in case], signs) is not None for case in sets)
-    return there or not exactly.is_empty
 
 
 def combined(robot: Robot, forces: Sequence[Expr], use: Callable[[Expr], None]) -> Iterator[Expr]:

@@ -19,7 +19,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.check import Case, holding, in_balance, verify_equilibria, verify_excluded
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.solving import Stability
+from dynsolve.questions.equilibria.stability import Stability
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
