@@ -923,7 +923,7 @@ def _not_zero(m: Mechanism, s: Sentence) -> bool:
     )
 
 
-@says("A force[ {}][ and a moment] along it need[s] no ....")
+@says("A force[ {}][ and a moment] along <it|them> need[s] no ....")
 def _no_torque(m: Mechanism, s: Sentence) -> bool:
     """The vectors that the step shows, against the Jacobian that it shows, where it is singular."""
     where = [nodes[0] for text, nodes in s.before() if text.startswith("Where ") and nodes]
@@ -932,6 +932,16 @@ def _no_torque(m: Mechanism, s: Sentence) -> bool:
     columns = [node for shown in s.shown() for node in walk(shown.parts[-1]) if isinstance(node, tree.Matrix)]
     vectors = [m.value(node, point) for node in columns if (len(node.rows), len(node.rows[0])) == (len(J), 1)]
     return bool(vectors) and all(near(J.T @ vector, 0) for vector in vectors if vector is not J)
+
+
+@says("In general {&} <are independent|is not 0>.")
+def _independent(m: Mechanism, s: Sentence) -> bool:
+    """Of the vectors that the step shows by these letters, at some pose where it is singular."""
+    where = [nodes[0] for text, nodes in s.before() if text.startswith("Where ") and nodes]
+    point = m.where(where[0]) if where else m.point()
+    shown = [one.parts[-1] for one in s.shown() if one.parts[0] in s.formulas]
+    columns = np.hstack([m.value(node, point) for node in shown])
+    return len(shown) == len(s.formulas) and rank(columns) == len(shown)
 
 
 GENERAL = """

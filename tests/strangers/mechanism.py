@@ -323,15 +323,15 @@ class Mechanism:
     ) -> Point | None:
         """A state in which `off` is 0, by Newton's method."""
         here = start or self.point(seed=seed)
-        for _ in range(40):
+        for _ in range(60):
             slopes = np.transpose([self.slope(off, here, seed, {q: 1.0}) for q in free])
             change = np.linalg.lstsq(slopes, off(here), rcond=1e-9)[0]
             here = self.point(
                 here.names | {q: here.names[q] - d for q, d in zip(free, change, strict=True)}, seed
             )
-            if np.max(np.abs(off(here))) < 1e-11:
+            if np.max(np.abs(off(here))) < 1e-11 and np.max(np.abs(change)) < 1e-9:  # also of a double zero
                 return here
-        return None
+        return here if np.max(np.abs(off(here))) < 1e-11 else None
 
 
 def near(a: Any, b: Any, size: float = 0.0) -> bool:

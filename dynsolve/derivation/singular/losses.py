@@ -99,7 +99,10 @@ def _parted(
     if not directions or not everywhere:
         return directions, 0
     ring = directions[0][0].ring
-    kept = [_without_shared(_reduced(one, conditions)) for one in everywhere]
+    there = [_reduced(one, conditions) for one in everywhere]
+    if any(all(value.is_zero for value in one) for one in there):
+        return directions, 0
+    kept = [_without_shared(one) for one in there]
     if not _has_rank(Matrix.of(ring, kept), len(kept), conditions):
         return directions, 0
     found: list[Direction] = []

@@ -115,3 +115,18 @@ find: [singular]
     (step,) = (step for step in dynsolve.solve(text).steps if step.id == "singular_minors")
     names = [to_unicode(one).partition(" = ")[0] for one in step.result]
     assert names == ["minor (columns 1, 2)", "minor (columns 1, 3)", "minor (columns 2, 3)"]
+
+
+def test_what_is_lost_anyhow_may_vanish_in_a_singular_configuration() -> None:
+    """Three joints about one axis, two of them with lengths behind: the direction across is 0 at a pose."""
+    arm = """
+gravity: none
+dh:
+  - {theta: theta1*}
+  - {theta: theta2*}
+  - {theta: theta3* - theta2*, a: L, alpha: 45deg}
+  - {theta: theta4* + 90deg, a: L, alpha: 45deg}
+  - {theta: theta5* + 45deg, alpha: 90deg}
+find: [singular]
+"""
+    assert dynsolve.solve(arm).to_json()["results"]["singular"]
