@@ -106,6 +106,11 @@ class Angle(Struct, frozen=True):
         return not self.terms
 
 
+def name_alone(atom: Atom) -> str:
+    """The name that an atom is; '' of x/r, of a number of radians, of any other."""
+    return atom[0][0] if len(atom) == 1 and atom[0][1] == 1 else ""
+
+
 def _angle(terms: _Laurent, degrees: Fraction) -> Angle:
     return Angle(tuple(sorted((a, r) for a, r in terms.items() if r)), Fraction(degrees))
 

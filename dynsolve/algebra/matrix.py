@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node, names_of
+from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node, name_alone, names_of
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
@@ -235,7 +235,7 @@ def angle_at(angle: Angle, values: StateValues) -> Angle:
     for atom, rate in angle.terms:
         if any((name, 0) in values for name, _ in atom):
             size = times(1, [(values.get((name, 0), Symbol(name)), exponent) for name, exponent in atom])
-            result = result + angle_from_tree(size, radians=len(atom) > 1) * rate
+            result = result + angle_from_tree(size, radians=True) * rate
         else:
             result = result + Angle(((atom, rate),))
     return result
@@ -252,8 +252,8 @@ def direction_at(angle: Angle, values: StateValues) -> SurdAngle:
 
     found = SurdAngle.of_degrees(angle.degrees)
     for atom, rate in angle.terms:
-        (name, _), *more = atom
-        value = None if more or (name, 0) not in values else exact_value(values[name, 0], {})
+        name = name_alone(atom)
+        value = exact_value(values[name, 0], {}) if (name, 0) in values else None
         if isinstance(value, Surd) and value.is_zero:  # a plain 0 is the angle 0
             continue
         if not isinstance(value, SurdAngle):

@@ -21,7 +21,7 @@ from math import pi
 from random import Random
 from typing import Any
 
-from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.angles import Angle, name_alone
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.tree import Function
@@ -128,8 +128,7 @@ class Transfer:
         """An angle with the given angles in place of coordinates."""
         result = Angle((), angle.degrees)
         for atom, rate in angle.terms:
-            name = atom[0][0] if len(atom) == 1 and atom[0][1] == 1 else ""
-            result = result + self._angles.get(name, Angle(((atom, 1),))) * rate  # type: ignore[arg-type]
+            result = result + self._angles.get(name_alone(atom), Angle(((atom, 1),))) * rate  # type: ignore[arg-type]
         return result
 
     @cached_property

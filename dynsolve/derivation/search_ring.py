@@ -8,7 +8,7 @@ from math import lcm
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.angles import Angle, Contents
+from dynsolve.algebra.angles import Angle, Contents, name_alone
 from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import ring_of
@@ -31,7 +31,7 @@ def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, An
     plan = ring.plan.extended(constants, 0) if given_angles else ring.plan
     fixed = dict(plan.fixed)
     for atom, rate in (term for angle in given_angles.values() for term in angle.terms):
-        if atom[0][0] not in names:
+        if name_alone(atom) not in names:
             fixed[atom] = rational_gcd((rate, fixed.get(atom, rate)))
     symbols = tuple(dict.fromkeys((*plan.symbols, *values)))
     return ring_of(
@@ -44,8 +44,8 @@ def _put(angle: Angle, angles: Mapping[str, Angle]) -> Angle:
     """An angle with others for coordinates."""
     found = angle
     for atom, rate in angle.terms:
-        if atom[0][0] in angles:
-            found = found + (angles[atom[0][0]] - Angle.of(atom[0][0])) * rate
+        if (name := name_alone(atom)) in angles:
+            found = found + (angles[name] - Angle.of(name)) * rate
     return found
 
 

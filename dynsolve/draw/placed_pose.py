@@ -16,7 +16,7 @@ from random import Random
 
 from msgspec import Struct
 
-from dynsolve.algebra.angles import names_of
+from dynsolve.algebra.angles import name_alone, names_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_sqrt
 from dynsolve.algebra.ring import Expr, Ring
@@ -200,7 +200,7 @@ def _piece(ring: Ring, start: Place, end: Place, vector: Place) -> Piece:
 def angles(ring: Ring) -> frozenset[str]:
     """The names that stand in an angle alone: not the radius R of x/R."""
     atoms = (atom for pair in ring.pairs for atom, _ in pair.angle.terms)
-    return frozenset(atom[0][0] for atom in atoms if len(atom) == 1 and atom[0][1] == 1)
+    return frozenset(map(name_alone, atoms)) - {""}
 
 
 def swept(ring: Ring, angle: str, *values: Expr) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import asdict, replace
 
+from dynsolve.algebra.angles import name_alone
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps, potential_steps
@@ -269,13 +270,14 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
         if len(pair.angle.terms) != 1 or pair.angle.degrees:
             continue
         ((atom, rate),) = pair.angle.terms
-        if rate != 1 or atom[0][0] not in ring.names:
+        name = name_alone(atom)
+        if rate != 1 or name not in ring.names:
             continue
-        if not ring.diff(energy, ring.names.index(atom[0][0])).is_zero:
+        if not ring.diff(energy, ring.names.index(name)).is_zero:
             continue
         sines, cosines = ([d for d in entries if d[k] > 0] for k in (pair.sine, pair.cosine))  # of 0 -1
         if sines and cosines and (len(sines) > 1 or sines != cosines):
-            yield say("The speed does not depend on {angle}.", angle=Symbol(atom[0][0]))
+            yield say("The speed does not depend on {angle}.", angle=Symbol(name))
             return
 
 

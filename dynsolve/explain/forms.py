@@ -401,7 +401,8 @@ class ProductForms:
                 numerator, divisor = numerator * base, divisor * base
         if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
             numerator, divisor = -numerator, -divisor
-        whole, rest = (Expr(self.ring, part) for part in divmod(numerator.poly, divisor.poly))
+        parts = divmod(numerator.poly, divisor.poly)
+        whole, rest = (Expr(self.ring, self.ring.reduce(part)) for part in parts)
         if len(whole) + len(rest) < len(numerator) and not rest.is_zero:
             return total([self.form(whole), self._quotient(RationalExpr(rest, divisor))])
         above, over = self._factors(numerator)

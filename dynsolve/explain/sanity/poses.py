@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import chain
 from math import isqrt
 
-from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.angles import Angle, name_alone
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.kinematics import joint_frame
@@ -178,8 +178,8 @@ def at(ring: Ring, expr: Expr, pose: Pose) -> Expr:
 def _angle_at(angle: Angle, pose: Pose) -> Angle:
     moved = Angle((), angle.degrees)
     for atom, rate in angle.terms:
-        name = atom[0][0]
-        fixed = atom == ((name, 1),) and name in pose
+        name = name_alone(atom)
+        fixed = name in pose
         moved = moved + (Angle((), rate * pose[name]) if fixed else Angle(((atom, rate),)))
     return moved
 

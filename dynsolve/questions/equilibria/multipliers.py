@@ -15,7 +15,7 @@ from math import prod
 
 from msgspec import Struct
 
-from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.angles import Angle, name_alone
 from dynsolve.algebra.factors import halves, is_positive
 from dynsolve.algebra.fraction import RationalExpr, cancelled, multiply
 from dynsolve.algebra.linear_systems import (
@@ -281,8 +281,7 @@ def _angle_given(factor: Sequence[Expr]) -> tuple[str, Angle] | None:
         return None
     angle, ((sine, cosine),) = found
     for atom, rate in angle.terms:
-        if abs(rate) == 1:
-            name = atom[0][0]
+        if abs(rate) == 1 and (name := name_alone(atom)):
             rest = Angle((), Fraction(DEGREES[sine, cosine])) - angle + Angle.of(name, rate)
             return name, rest * rate
     return None
@@ -293,7 +292,9 @@ def _turns(condition: Condition) -> list[tuple[str, Fraction]]:
     found = quarter_turn(condition.expr)
     if found is None or len(found[0].terms) != 1 or found[0].terms[0][1] != 1:
         raise Unsolved
-    name = found[0].terms[0][0][0][0]
+    name = name_alone(found[0].terms[0][0])
+    if not name:
+        raise Unsolved
     return [(name, Fraction(DEGREES[turn])) for turn in found[1]]
 
 
@@ -304,9 +305,9 @@ def _at_points(
     at = dict(turns)
     total = angle.degrees
     for atom, rate in angle.terms:
-        if atom[0][0] not in at:
+        if name_alone(atom) not in at:
             raise Unsolved
-        total += rate * at[atom[0][0]]
+        total += rate * at[name_alone(atom)]
     if total % 90:
         raise Unsolved
     return tuple(_at_turn(ring, one, degrees) for one, degrees in (*at.items(), (name, total)))

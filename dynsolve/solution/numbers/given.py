@@ -16,7 +16,7 @@ from fractions import Fraction
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.angles import angle_from_tree
+from dynsolve.algebra.angles import angle_from_tree, name_alone
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, Finding, InputError, ReadError
 from dynsolve.explain.writing import and_joined
@@ -431,6 +431,6 @@ def _angle_names(robot: Robot) -> frozenset[str]:
     """The names that are angles by themselves."""
     angles = [pair.angle for pair in robot.ring.pairs]
     angles += [angle for joint in robot.joints for angle in (joint.theta, joint.alpha)]
-    alone = {atom[0][0] for angle in angles for atom, _ in angle.terms if len(atom) == 1 and atom[0][1] == 1}
+    alone = {name_alone(atom) for angle in angles for atom, _ in angle.terms} - {""}
     turning = {q.name for q in robot.coordinates if q.type is JointType.REVOLUTE}
     return frozenset((alone | turning) - {q.name for q in robot.coordinates if q.name not in turning})

@@ -164,3 +164,25 @@ find: [linear_A, linear_B]
     found = dynsolve.solve(disk).to_json()["results"]
     assert found["linear_A"][1][0] == "-m*g*e/(M*R**2 + m*(R - e)**2 + J)"
     assert found["linear_B"][1][0] == "R**2/(M*R**2 + m*(R - e)**2 + J)"
+
+
+@pytest.mark.parametrize(
+    ("place", "wire", "expected"),
+    [
+        ("a", "x/a", "(m*g*h*cos(1) - a**2*k)/(m*(a**2 + h**2*sin(1)**2))"),
+        ("0.3", "x/2", "(m*g*h*cos(3/20) - 4*k)/(m*(4 + h**2*sin(3/20)**2))"),
+        ("pi*a/2", "x/a", "-a**2*k/(m*(h**2 + a**2))"),
+    ],
+)
+def test_a_length_in_an_angle_counts_radians(place: str, wire: str, expected: str) -> None:
+    """A bead on y = h cos(x/a): A₂₁ = -(k - m g h cos(x/a)/a²)/(m (1 + h² sin²(x/a)/a²)) (by hand)."""
+    bead = f"""
+gravity: [0, -g, 0]
+model: {{coordinates: {{x: prismatic}}, bodies: [{{mass: m, at: [x, h*cos({wire}), 0]}}]}}
+springs: [{{stiffness: k, of: x}}]
+linearize: {{x: {place}}}
+find: [linear_A]
+"""
+    solution = dynsolve.solve(bead)
+    assert solution.to_json()["results"]["linear_A"][1][0] == expected
+    assert solution.steps
