@@ -169,9 +169,11 @@ class ParameterSigns(Struct, frozen=True):
             if sign or times % 2 or factor not in self.nonzero:
                 left = left * (ring.constant(sign) if sign else factor) ** (2 - times % 2)
         for bound in self.assumed:  # 1 - 4 cos² β is assumed, and neither of its factors
-            size = ratio(left, bound.value)
-            if bound.is_strict and not left.is_number and size.is_number and left == bound.value * size:
-                return ring.one if size.number > 0 else -ring.one
+            if bound.is_strict and not left.is_number and not bound.value.is_number:
+                quotient = Expr(ring, divmod(left.poly, bound.value.poly)[0])
+                left = quotient if quotient * bound.value == left else left
+        if left.is_number:
+            return ring.one if left.number > 0 else -ring.one
         return left
 
     def even_factors(self, value: Expr) -> list[Expr]:

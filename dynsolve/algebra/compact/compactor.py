@@ -25,6 +25,7 @@ from dynsolve.algebra.compact.terms import (
     TermLayout,
     Terms,
     exact,
+    factors_of,
     multiply,
     primitive,
     read_terms,
@@ -370,6 +371,15 @@ class Compactor:
             split = split_tail(terms, len(layout.rates))
             inner = layout.without_rates()
             return self._merged(split, layout.rates, lambda part: self._without_angles(inner, part))
+        plain = self._of_symbols(layout, terms)
+        factors = factors_of(terms) if len(terms) >= SMALLEST_SQUARE and not self.collector.decimal else ()
+        if not factors:
+            return plain
+        parts = [(self._of_symbols(layout, part), exponent) for part, exponent in factors]
+        return min(plain, times(1, parts), key=self.collector.cost)
+
+    def _of_symbols(self, layout: TermLayout, terms: Terms) -> Node:
+        """The terms with the symbols of a layout, collected."""
         poly: Polynomial = {}
         for e, f in terms.items():
             mono = self._atoms.monomial(layout.symbols, e)

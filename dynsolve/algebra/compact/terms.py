@@ -23,6 +23,7 @@ from fractions import Fraction
 from math import gcd, isqrt, lcm
 from typing import Any, NamedTuple, TypeVar
 
+from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -172,6 +173,30 @@ def _read(text: str, known: dict[str, tuple[int, int]], width: int) -> Iterator[
                 found = known[part] = (known[name][0], int(exponent))
             exponents[found[0]] = found[1]
         yield tuple(exponents), number
+
+
+def factors_of(terms: Terms) -> tuple[tuple[Terms, int], ...]:
+    """(factor, exponent), a monomial with a number first, where a polynomial is a product of several sums.
+
+    >>> factors_of({(2, 0): 2, (1, 1): 4, (0, 2): 2})
+    (({(0, 0): 2}, 1), ({(1, 0): 1, (0, 1): 1}, 2))
+    """
+    scale = lcm(*(f.denominator for f in terms.values()))
+    ctx = fmpz_mpoly_ctx.get(("x", len(next(iter(terms)))), Ordering.lex)
+    number, found = ctx.from_dict({e: int(f * scale) for e, f in terms.items()}).factor()
+    sums = [(_whole_terms(factor), int(n)) for factor, n in found if len(factor) > 1]
+    sums.sort(key=lambda one: len(one[0]))
+    if sum(n for _, n in sums) < 2:
+        return ()
+    monomial = [0] * ctx.nvars()
+    for factor, n in found:
+        if len(factor) == 1:
+            monomial = [x + n * int(y) for x, y in zip(monomial, factor.monoms()[0], strict=True)]
+    return (({tuple(monomial): exact(int(number), scale)}, 1), *sums)
+
+
+def _whole_terms(poly: fmpz_mpoly) -> Terms:
+    return {tuple(map(int, e)): int(f) for e, f in poly.to_dict().items()}
 
 
 # Polynomials in atoms as dictionaries {monomial

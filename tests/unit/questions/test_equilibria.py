@@ -736,3 +736,25 @@ find: [equilibria]
 """
     told = " ".join(dynsolve.solve(two).to_markdown().split())
     assert "Case 1 has solutions only where" in told and "Case 1 has solutions where" not in told
+
+
+def test_a_product_is_not_lost_when_rows_are_combined() -> None:
+    """By hand: s2 (r c1 + l c12 - x0) = 0, and on the line s2 = 0 is s1 = 0."""
+    crank = CRANK.replace("gravity: [0, -g, 0]", "gravity: none").replace("l > r", "l > r, x0 < l - r")
+    spring = "springs: [{energy: k/2*(r*cos(q1) + l*cos(q1 + q2) - x0)^2}]\nfind:"
+    solution = dynsolve.solve(crank.replace("find:", spring))
+    assert solution.to_json()["results"]["equilibria"][1] == ["sin(q2) = 0", "sin(q1) = 0"]
+    assert "-k r l (r + l) (r + l - x_{0})" in solution.to_markdown()
+
+
+def test_what_a_case_asks_for_is_no_factor_of_a_condition() -> None:
+    """By hand, with u = m g - R k: sin(θ/2) = -k c/(2 u), and the slope of g there has the sign of -u."""
+    chord = """
+gravity: [0, -g, 0]
+model: {coordinates: {theta: revolute}, bodies: [{mass: m, at: [R*sin(theta), R*cos(theta), 0]}]}
+springs: [{energy: k/2*(2*R*sin(theta/2) - c)^2}]
+assume: [c < 2*R]
+find: [equilibria]
+"""
+    first, *_ = dynsolve.solve(chord).to_json()["results"]["equilibria_stability"][0]
+    assert first["stable_if"][-1] == "R*k > m*g"

@@ -56,6 +56,7 @@ def compact(text: str) -> str:
         ("m1*a*cos(q1) + m2*b*cos(q1) + m2*c*cos(q1 + q2)", "(m1*a + m2*b)*cos(q1) + m2*c*cos(q1 + q2)"),
         ("I1*sin(q2)^2 + I2*cos(q2)^2", "I1*sin(q2)**2 + I2*cos(q2)**2"),
         ("m1*(a + b)^2", "m1*(a + b)**2"),
+        ("m1*(a + b)*(a + b + 2*c)*cos(q1)", "m1*(a + b)*(a + b + 2*c)*cos(q1)"),
         ("m1*(a - d)^2*q1_dot", "m1*(d - a)**2*q1_dot"),
         ("a*q1_dot + a*q2_dot", "a*(q1_dot + q2_dot)"),
         ("I1*q1_dot^2/2 + I1*q1_dot*q2_dot + I1*q2_dot^2/2", "I1*(q1_dot + q2_dot)**2/2"),
