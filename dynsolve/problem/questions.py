@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
+from dynsolve.notation.tree import Node, Reference, has_part, names_in
 from dynsolve.problem.base import ParsedRotation
 from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames, ParsedPlace, read_link, read_place
 from dynsolve.problem.cells import Cell, forbid, read_point_expression
@@ -226,7 +227,18 @@ def _read_task(
         for i, item in enumerate(listed, 1)
     ]
     found = tuple(cell for cell in cells if cell)
+    for i, cell in enumerate(found, 1):
+        if not (has_part(cell.tree, _is_point) or names_in(cell.tree) & {*coordinates}):
+            message = f"no joint moves component {i} of the task, in which no coordinate stands"
+            help = (
+                f"write it in {', '.join(sorted(coordinates))}; the angle of a link is a sum of joint angles"
+            )
+            faults.warn(cell.span, message, help, "constant-task")
     return ParsedTask(found) if found and len(found) == len(cells) else None
+
+
+def _is_point(part: Node) -> bool:
+    return isinstance(part, Reference)
 
 
 # The robot's `Questions`

@@ -30,6 +30,7 @@ FINDINGS = {
     "unasked velocity": "«velocity»: [vx, vy]\nfind: [Jr]\n" + PLANAR,
     "unasked state": "«state»: {theta1: 0}\nfind: [Jr, det]\n" + PLANAR,
     "unasked task": "«task»: [tip.x]\n" + PLANAR,
+    "constant-task": "task: [tip.x, «phi»]\nfind: [Jr]\n" + PLANAR,
     "ambiguous-name c1": body("mass: «c1», link: 1"),
     "ambiguous-name s12": body("mass: «s12», link: 1"),
     "ambiguous-name c_2": body("mass: «c_2», link: 1"),
