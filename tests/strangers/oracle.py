@@ -24,7 +24,7 @@ from dynsolve.notation.tree import Node, walk
 CONDITIONAL = (
     "conserved", "simple poses", "gravity is balanced", "positive definite",  # checks, at poses of their own
     "Checks", "Given", "What decouples", "equilibri", "configurations:", "conditions for balance:",
-    "inverse kinematics:", "equations without multipliers:",
+    "cannot hold", "inverse kinematics:", "equations without multipliers:",
     "Frames from the drawing", "has solutions where", "stable", "do not decide",
     "depend on the configuration", "Summary > At",
     "Singular", "Inverse", "Rates ", "Statics", "Forces from outside", "Equilib", "Balance", "Linearization",
