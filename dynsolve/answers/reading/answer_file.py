@@ -45,6 +45,7 @@ from dynsolve.answers.reading.left_side import (
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.matrix_parts import shown
 from dynsolve.answers.reading.name_splitting import keep_symbol
+from dynsolve.answers.reading.plain import plain_member
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.set_text import span_text
 from dynsolve.answers.reading.sources import HIDDEN, PlacedText, Source, hidden, placed
@@ -358,6 +359,8 @@ def _key(reader: EquationReader, name: str) -> LeftSide:
 def _given(reader: EquationReader, candidates: tuple[str, ...], origin: Origin) -> list[Answer]:
     """The answers that the members of a value are."""
     found = reader.found
+    if plain := plain_member(reader.vocabulary, origin.display.text, 0, 0, candidates):
+        return found.value([candidates], plain, origin)
     try:
         members = chain(prepared(origin.display.text, reader.macros))
         if len(members) > MAX_MEMBERS:

@@ -158,14 +158,15 @@ class AnswerList(Struct, dict=True):
         self.vocabulary.gives(candidates[0])
         if isinstance(found, ReadError):
             return self.unreadable(candidates, found, origin, member.index)
-        start, end = tokens[0].start, max(token.end for token in tokens)
+        start, end = tokens[0].start, _end(display.text, tokens)
         fits = fitted(self.vocabulary, candidates, found.value)
         if not fits:
             error = misfit(self.vocabulary, candidates, found.value, start, end)
             return self.unreadable(candidates, error, origin, member.index)
         name, node, note = fits[0]
         node = self._of_task(with_own_entries(self.vocabulary, name, node))
-        of_task = (part.quantity for part in walk(node) if isinstance(part, Reference))
+        may_refer = self.vocabulary.reached or self.vocabulary.defined
+        of_task = (part.quantity for part in walk(node) if isinstance(part, Reference)) if may_refer else ()
         note = "" if display.plain and "row" in note else note
         notes = [one for one in found.notes if one != SYMMETRIC_NOTE or _is_symmetric(node)]
         return Answer(
@@ -429,6 +430,14 @@ class AnswerList(Struct, dict=True):
         given = {answer.name for answer in read if answer.occurrence[0] not in self.in_case}
         within = self.vocabulary.quantities.within
         return {part for name in given for part in within(name)} if with_parts else given
+
+
+def _end(text: str, tokens: list[Token]) -> int:
+    """Where a value ends: behind the braces around its last token, which are no tokens."""
+    start, end = tokens[0].start, max(token.end for token in tokens)
+    while text[end : end + 1] == "}" and text.count("{", start, end) > text.count("}", start, end):
+        end += 1
+    return end
 
 
 def _is_symmetric(node: Node) -> bool:

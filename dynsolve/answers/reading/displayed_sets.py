@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence, Set
+from functools import cached_property
 from itertools import islice
 
 from msgspec import Struct, field
@@ -298,12 +299,17 @@ class DisplayedSets(Struct, dict=True):
     told: Set[str] = frozenset()
     found: dict[str, tuple[Place, list[str]]] = field(default_factory=dict)
 
+    @cached_property
+    def _asked(self) -> list[str]:
+        """The sets that are asked for."""
+        return [name for name in ANNOUNCED if name in self.reader.vocabulary.quantities]
+
     def read_display(self, offset: int, display: Display) -> None:
         """Read a display without the equations of a set, which are kept."""
-        if len(display.text) > _LONGEST:
+        display = self._space(display) or display
+        if len(display.text) > _LONGEST or not self._asked:
             self.reader.read_display(display)
             return
-        display = self._space(display) or display
         rows = [self._without_own(display, row) for row in _rows(display.text)]
         words = self.text[max(offset - _BEFORE, 0) : offset] + _plain(display.text.partition("=")[0])
         spoken, end = self._spoken_of(words), offset + len(display.text)
@@ -458,8 +464,7 @@ class DisplayedSets(Struct, dict=True):
 
     def _set_of(self, words: str, text: str) -> str | None:
         """The answer that the equations of a display belong to; `words` stand before them."""
-        vocabulary = self.reader.vocabulary
-        asked = [name for name in ANNOUNCED if name in vocabulary.quantities]
+        vocabulary, asked = self.reader.vocabulary, self._asked
         if self.told >= set(asked) or not _IS_STATEMENT.search(text) or self._gives_an_answer(text):
             return None
         spoken = self._spoken_of(words + text)
@@ -498,8 +503,7 @@ class DisplayedSets(Struct, dict=True):
 
     def _spoken_of(self, words: str) -> str:
         """Which of the sets that are asked for the words speak of last."""
-        asked = [name for name in ANNOUNCED if name in self.reader.vocabulary.quantities]
-        ends = {name: [found.end() for found in ANNOUNCED[name].finditer(words)] for name in asked}
+        ends = {name: [found.end() for found in ANNOUNCED[name].finditer(words)] for name in self._asked}
         told = {name: found[-1] for name, found in ends.items() if found}
         return max(told, key=lambda name: told[name]) if told else ""
 

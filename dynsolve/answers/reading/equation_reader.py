@@ -56,9 +56,10 @@ from dynsolve.answers.reading.left_side import (
 from dynsolve.answers.reading.lexer import Macro, Token
 from dynsolve.answers.reading.matrix_parts import entry_of, fitted, model_parts, part_of, shown
 from dynsolve.answers.reading.name_splitting import gives_new_meaning, keep_symbol
+from dynsolve.answers.reading.plain import plain_member
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import CONDITION, CONSTANT
-from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, defined_order, order_of_pair
+from dynsolve.answers.reading.vocabulary import USUAL, Meaning, Vocabulary, defined_order, order_of_pair
 from dynsolve.answers.verdict import Answer, NotRecognized
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Node, Reference, names_in
@@ -94,6 +95,11 @@ _CONTROL = re.compile(
     r"|(?:q|theta|phi|x)_?\{?[0-9,]*(?:d|des|desired|ref|soll)[0-9,]*\}?)`"
 )
 """What a controller's gains, errors and desired motion are told as: what holds them is no answer."""
+
+_OF_SEVERAL_KINDS = frozenset({"det", "friction"})
+"""Answers whose equations may say something else."""
+
+_MOST_HEADS = 1_000
 
 _DEFINITION = "it defines an abbreviation"
 _MORE_THAN_NAME = "its left side is more than a name"
@@ -156,7 +162,7 @@ class EquationReader:
 
     def read_display(self, display: Display) -> None:
         """Read the equations of one display; each becomes an answer, a definition, or is listed."""
-        if not display.text.strip():
+        if not display.text.strip() or self._reads_plain(display):
             return
         try:
             tokens = prepared(display.text, self.macros)
@@ -174,6 +180,46 @@ class EquationReader:
                 self._read_equation(equation, self.origin(display, equation.label or display.label))
             else:
                 self.found.not_recognized.append(origin.of(equation.members, _TOO_MANY_ANSWERS))
+
+    def _reads_plain(self, display: Display) -> bool:
+        """Read `D = ...`, a name and a formula that can be nothing else; whether it is one."""
+        head, sign, _ = display.text.partition("=")
+        if not sign or self.macros or len(self.found.answers) >= MAX_ANSWERS:
+            return False
+        candidates = self._plainly_named(head)
+        member = candidates and plain_member(self.vocabulary, display.text, len(head) + 1, 1, candidates)
+        if not member or not isinstance(member.found, RightSide) or isinstance(member.found.value, Function):
+            return False
+        if isinstance(member.found.value, Node):
+            is_called = candidates[0] in {q.force for q in self.vocabulary.coordinates}
+        else:
+            is_called = states_constant(self.vocabulary, [prepared(head)], [candidates], [member.found])
+        if not is_called:
+            self.found.answers += self.found.value([candidates], member, self.origin(display, display.label))
+        return not is_called
+
+    def _plainly_named(self, head: str) -> tuple[str, ...]:
+        """The answers that a left side names by the very name of one, which is nothing else as well."""
+        vocabulary = self.vocabulary
+        known = vocabulary.heads
+        if head not in known:
+            if len(known) > _MOST_HEADS:
+                known.clear()
+            known[head] = ()
+            names = vocabulary.fresh()
+            try:
+                tokens = prepared(head)[:-1]
+                side = read_left_side(names, tokens) if tokens else None
+            except ReadError:
+                return ()
+            if not isinstance(side, NamedAnswers) or entry_of(names, tokens) is not None:
+                return ()
+            is_named = name_alone(names, tokens) in side.candidates and not part_of(names, tokens)
+            is_other = side.candidates[0] in _OF_SEVERAL_KINDS or names.missed or names.missed_entries
+            has_forces = vocabulary.passive or _NAMES[0] in vocabulary.quantities
+            if is_named and not is_other and not (side.candidates[0] == "tau" and has_forces):
+                known[head] = side.candidates
+        return known[head] if vocabulary.orders == USUAL else ()
 
     def origin(self, display: Display, label: str) -> Origin:
         """Where the next equation stands."""

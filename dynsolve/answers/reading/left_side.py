@@ -385,9 +385,9 @@ def _read_anew(vocabulary: Vocabulary, member: list[Token], owners: tuple[str, .
             if not piece:
                 return ReadError(_BLANKS, tokens[0].start, 1, "write commas between the entries")
         found = _read(vocabulary, piece, owners, frozenset({way} - {""}))
-        if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners[:1]):
+        if isinstance(found, RightSide) and has_shape(vocabulary, found, owners[:1]):
             return found
-        if isinstance(found, RightSide) and fits is None and _has_shape(vocabulary, found, owners):
+        if isinstance(found, RightSide) and fits is None and has_shape(vocabulary, found, owners):
             fits = found  # [a b; c d] is one column of products, too, where the name may be that of a vector
         is_better = isinstance(first, ReadError) and isinstance(found, RightSide) and way != "vectors"
         if first is None or is_better:
@@ -473,7 +473,7 @@ def why_no_value(found: RightSide) -> str:
     return found.value.why if isinstance(found.value, Abstract) else "it holds names of the derivation alone"
 
 
-def _has_shape(vocabulary: Vocabulary, found: RightSide, owners: tuple[str, ...]) -> bool:
+def has_shape(vocabulary: Vocabulary, found: RightSide, owners: tuple[str, ...]) -> bool:
     """Whether a value has the shape of one of the answers it is given for."""
     value = found.value
     if isinstance(value, Abstract) or not owners:

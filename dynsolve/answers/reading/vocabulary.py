@@ -15,7 +15,7 @@ the index that the term with the minus is derived by.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any
@@ -152,7 +152,8 @@ class Vocabulary(Struct):
     `defined` is what the student defined, `remembered` what was read since, `shared` what was read by all
     hand-ins before they said anything of their own; `from_zero` are the names whose
     indices count from 0; `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that
-    have an index.
+    have an index; `spelled` are the symbols and functions that spellings mean in every hand-in, with what
+    was looked for in vain, `heads` what left sides name in it (`plain`).
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -180,6 +181,8 @@ class Vocabulary(Struct):
     from_zero: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
     shared: dict[Any, Any] = field(default_factory=dict)
+    spelled: dict[str, tuple[Node | None, Set[str]]] = field(default_factory=dict)
+    heads: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
@@ -188,13 +191,19 @@ class Vocabulary(Struct):
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
             self.asked, subscripts=self.subscripts, base_is_world=self.base_is_world,
             from_zero=self.from_zero, letters=self.letters, shared=self.shared,
+            spelled=self.spelled, heads=self.heads,
         )  # fmt: skip
+
+    @property
+    def has_no_other_names(self) -> bool:
+        """Whether no name of the problem means anything else in this hand-in."""
+        return not (self.defined or self.derived or self.broken or self.angles)
 
     @property
     def is_untouched(self) -> bool:
         """Whether the names are those of the problem alone, as in every other hand-in."""
-        own = self.defined, self.derived, self.broken, self.angles, self.own_entries, self.from_zero
-        return not any(own) and self.orders == USUAL
+        own = self.own_entries or self.from_zero
+        return self.has_no_other_names and not own and self.orders == USUAL
 
     def define(self, name: str, meaning: Meaning) -> None:
         """Keep what the student says a name is, from here on."""
