@@ -87,6 +87,7 @@ _AT_REST = (
     "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion {left} is left. "
     "{loads}"
 )
+_COULOMB = "Coulomb friction is left out: where it holds what gravity and springs do, there is rest, too."
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
@@ -144,6 +145,8 @@ def _equilibria(context: Context) -> Iterator[Step]:
         notes.append(("For special values of the parameters there may be others.",))
     notes += _without_multipliers(shown, found)
     steady = bool(robot.questions.model.steady)
+    if _has_coulomb(robot) and not steady:
+        notes.append((_COULOMB,))
     forces: Node = FORCES if steady else letters.G
     values = context.show(forces_of_motion(context)) if steady else context.form("g")
     is_held = robot.questions.model.inputs_given
@@ -239,6 +242,10 @@ def _at_rest(robot: Robot, left: Node) -> Prose:
         left=left,
         loads="Without the forces from outside. " * bool(robot.questions.loads),
     )
+
+
+def _has_coulomb(robot: Robot) -> bool:
+    return any(act.functions(robot) for act in robot.actions.resisting)
 
 
 def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
@@ -544,7 +551,7 @@ def _state_matrix(context: Context) -> Step:
         source=_SOURCE,
         working=tuple(working),
         result=(equation(letters.LINEAR_A, context.form("linear_A")),),
-        notes=((jumps,),) if any(act.functions(robot) for act in robot.actions.resisting) else (),
+        notes=((jumps,),) if _has_coulomb(robot) else (),
         detail=Detail.BRIEF,
     )
 

@@ -40,8 +40,8 @@ def steps(context: Context) -> Iterator[Step]:
         id="qdd_forward",
         title="The accelerations that the forces make",
         why=say(
-            "The equations of motion, {equations}, are linear in the accelerations, and $𝐃$ has an "
-            "inverse.{motors}",
+            "The equations of motion, {equations}, are linear in the accelerations; $𝐃$ has an inverse "
+            "where its determinant is not 0.{motors}",
             equations=equations_of_motion(context),
             motors=motors_prose(context),
         ),

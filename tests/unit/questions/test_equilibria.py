@@ -758,3 +758,16 @@ find: [equilibria]
 """
     first, *_ = dynsolve.solve(chord).to_json()["results"]["equilibria_stability"][0]
     assert first["stable_if"][-1] == "R*k > m*g"
+
+
+def test_that_coulomb_friction_holds_more_is_said() -> None:
+    """With f_c = 1 a mass on a spring rests wherever the spring pulls with less than that."""
+    spring = """
+gravity: none
+model: {coordinates: {x: prismatic}, bodies: [{mass: m, at: [x, 0, 0]}]}
+springs: [{stiffness: k, of: x}]
+find: [equilibria]
+"""
+    friction = spring.replace("find:", "friction: {x: {coulomb: fc}}\nfind:")
+    assert "there is rest, too" in str(told_of(friction).outcome)
+    assert "there is rest, too" not in str(told_of(spring).outcome)
