@@ -20,14 +20,14 @@ and gives the value of a formula in it, and that of an element in numbers.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
-from dynsolve.algebra.angles import Angle, Atom, names_of
+from dynsolve.algebra.angles import Angle, Atom, name_alone, names_of
 from dynsolve.algebra.generators import (
     Generator,
     Pair,
@@ -418,12 +418,29 @@ class Ring:
     def at_rest(self, expr: Expr) -> Expr:
         """The expression at q = 0."""
         used = expr.poly.degrees()
-        point = list(self._gens)
-        for name in self.names:
-            point[self.symbol_indices[(name, 0)]] = self.ctx.constant(0)
+        there = {self.symbol_indices[(name, 0)]: self.ctx.constant(0) for name in self.names}
         for pair in {pair for pairs in self._rates for pair, _ in pairs}:
             if used[pair.sine] or used[pair.cosine]:
-                point[pair.cosine], point[pair.sine] = self._turn(self.plan.at_rest(pair.angle))
+                there[pair.cosine], there[pair.sine] = self._turn(self.plan.at_rest(pair.angle))
+        return self.put(expr, there)
+
+    def at_pose(self, expr: Expr, pose: Mapping[str, Fraction | int]) -> Expr:
+        """The value where some coordinates have so many degrees in its sines and cosines."""
+        there, used = {}, expr.poly.degrees()
+        for pair in self.pairs:
+            if used[pair.sine] > 0 or used[pair.cosine] > 0:
+                angle = Angle((), pair.angle.degrees)
+                for atom, rate in pair.angle.terms:
+                    at = pose.get(name_alone(atom))
+                    angle = angle + (Angle(((atom, rate),)) if at is None else Angle((), rate * at))
+                there[pair.cosine], there[pair.sine] = self._turn(angle)
+        return self.put(expr, there)
+
+    def put(self, expr: Expr, images: Mapping[int, fmpq_mpoly]) -> Expr:
+        """The expression with polynomials for some generators."""
+        if not expr.poly:
+            return expr
+        point = [images.get(i, g) for i, g in enumerate(self._gens)]
         return Expr(self, self.reduce(expr.poly.compose(*point, ctx=self.ctx)))
 
     @cached_property

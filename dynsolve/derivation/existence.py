@@ -6,12 +6,12 @@ angles φ are independent, takes every value between -Σ √(A² + B²) and Σ �
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
-from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.angles import Angle, name_alone, names_of
 from dynsolve.algebra.fourier import Multiples, fourier_form, positive
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound
@@ -21,6 +21,9 @@ from dynsolve.derivation.elimination import ParameterSigns, rank
 
 DEGREES = {(0, 1): 0, (1, 0): 90, (0, -1): 180, (-1, 0): 270}
 """The quarter turns in degrees, by their sine and cosine."""
+
+MOST_TURNING = 3
+"""With more angles their quarter turns are not looked at."""
 
 MOST_BRANCHES = 16
 """With more combinations of quarter turns nothing is said."""
@@ -49,13 +52,107 @@ def conditions(values: Iterable[Expr], signs: ParameterSigns) -> tuple[Bound, ..
 
 
 def is_seen(values: Iterable[Expr], signs: ParameterSigns) -> bool:
-    """Whether `conditions` are enough for these to be 0 together: no angle stands in two of their swings."""
+    """Whether `conditions` are enough for these to be 0 together.
+
+    Those in which the same coordinates stand are looked at together.  They are 0 where no angle stands in two
+    of their swings, where they are so at quarter turns without lengths, whatever the parameters, or where one
+    stands alone and is positive somewhere and negative elsewhere.
+    """
+    return all(
+        _swing_apart(group, signs)
+        or any(all(map(_is_zero, at)) for at in _at_quarters(group))
+        or (len(group) == 1 and _changes_sign(group[0], signs))
+        for group in _apart(values)
+    )
+
+
+def _apart(values: Iterable[Expr]) -> list[list[Expr]]:
+    """The values in groups that share no coordinate."""
+    found: list[tuple[set[str], list[Expr]]] = []
+    for value in values:
+        names, group = set(_coordinates(value)), [value]
+        for one in [one for one in found if one[0] & names]:
+            found.remove(one)
+            names |= one[0]
+            group = [*one[1], *group]
+        found.append((names, group))
+    return [group for _, group in found]
+
+
+def _coordinates(value: Expr) -> list[str]:
+    ring, degrees = value.ring, value.poly.degrees()
+    turning = {
+        name
+        for pair in _turning(ring)
+        if degrees[pair.sine] > 0 or degrees[pair.cosine] > 0
+        for name in names_of(pair.angle)
+    }
+    return [name for name in ring.names if name in turning or degrees[ring.symbol_indices[name, 0]] > 0]
+
+
+def _swing_apart(values: Sequence[Expr], signs: ParameterSigns) -> bool:
+    """Whether no angle stands in two of the swings, of each of which the size is known."""
     known = [_swings(value) for value in values]
     angles = [[float(i) for i in n] for swings in known if swings is not None for n in swings if any(n)]
     if None in known or (angles and rank(angles, 0.1) < len(angles)):
         return False
     moving = [[both for n, both in swings.items() if any(n)] for swings in known if swings is not None]
     return all(len(parts) == 1 or all(_size(both, signs) is not None for both in parts) for parts in moving)
+
+
+def _is_zero(value: Expr) -> bool:
+    return value.is_zero
+
+
+def _at_quarters(values: Sequence[Expr]) -> Iterator[list[Expr]]:
+    """The values at all quarter turns of their angles, where their lengths are 0."""
+    ring = values[0].ring
+    names = dict.fromkeys(name for value in values for name in _coordinates(value))
+    turning = [name for name, kind in ring.coordinates if name in names and kind == "revolute"]
+    if len(turning) > MOST_TURNING:
+        return
+    for quarters in product((0, 1, 2, -1), repeat=len(turning)):
+        pose = {name: 90 * k / _rate(ring, name) for name, k in zip(turning, quarters, strict=True)}
+        bare = {ring.symbol_indices[name, 0]: _radians(ring, pose.get(name, 0)) for name in names}
+        images = {index: image.poly for index, image in bare.items() if image is not None}
+        at = [ring.put(ring.at_pose(value, pose), images) for value in values]
+        if not any(map(ring.depends_on_coordinates, at)):
+            yield at
+
+
+def _rate(ring: Ring, name: str) -> Fraction:
+    """The rate r of the angle r q in the ring; 1 where there is none."""
+    rates = (rate for pair in ring.pairs for atom, rate in pair.angle.terms if name_alone(atom) == name)
+    return next(rates, Fraction(1))
+
+
+def _radians(ring: Ring, degrees: Fraction | int) -> Expr | None:
+    """So many degrees as a part of π; None where the ring does not have that."""
+    if not degrees:
+        return ring.zero
+    return ring.symbol("pi") * Fraction(degrees, 180) if ring.has_symbol("pi") else None
+
+
+def _changes_sign(value: Expr, signs: ParameterSigns) -> bool:
+    """Whether a value is positive somewhere and negative elsewhere: at quarter turns, or far out."""
+    seen = {sign for (at,) in _at_quarters([value]) for sign in (1, -1) if signs.is_positive(at * sign)}
+    ring, degrees = value.ring, value.poly.degrees()
+    for name in _coordinates(value):
+        degree = int(degrees[ring.symbol_indices[name, 0]])
+        if degree > 0 and not ring.depends_on_coordinates(leading := _leading(value, name, degree)):
+            ways = (1, -1) if degree % 2 else (1,)
+            seen |= {way * sign for sign in (1, -1) if signs.is_positive(leading * sign) for way in ways}
+    return len(seen) == 2
+
+
+def _leading(value: Expr, name: str, degree: int) -> Expr:
+    """The coefficient of a coordinate to its highest power."""
+    ring, index = value.ring, value.ring.symbol_indices[name, 0]
+    return Expr(ring, ring.ctx.from_dict({
+        (*exponents[:index], 0, *exponents[index + 1 :]): number
+        for exponents, number in value.poly.to_dict().items()
+        if int(exponents[index]) == degree
+    }))  # fmt: skip
 
 
 def without_ends(

@@ -14,7 +14,7 @@ from dynsolve.derivation.kinematics import base_transform, dh_matrix, origin
 from dynsolve.document import Prose
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.poses import at, turning_in
+from dynsolve.explain.sanity.poses import turning_in
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import Identity, said, used_in_product
 from dynsolve.explain.writing import listed
@@ -103,7 +103,7 @@ def at_zero_angles(context: Context) -> Prose:
     turning = turning_in(context.robot, *end.entries)
     if not turning:
         return ()
-    place = [context.show(at(ring, entry, dict.fromkeys(turning, 0))) for entry in end.entries]
+    place = [context.show(ring.at_pose(entry, dict.fromkeys(turning, 0))) for entry in end.entries]
     values = [_in_numbers(context, entry) for entry in place]
     known = [value for value in values if value is not None]
     entries: list[Node] = place

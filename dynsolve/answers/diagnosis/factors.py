@@ -18,7 +18,6 @@ from msgspec import Struct
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.answers.diagnosis.mends import put_polynomials
 from dynsolve.errors import AlgebraError
 
 MOST_SYMBOLS = 16
@@ -134,7 +133,7 @@ class FactorPairs:
                 t = Fraction(k + 2, k + 5)
                 images[pair.sine] = self.ring.constant(2 * t / (1 + t * t)).poly
                 images[pair.cosine] = self.ring.constant((1 - t * t) / (1 + t * t)).poly
-        return put_polynomials(off, images)
+        return off.ring.put(off, images)
 
     def _divisor(self, place: int) -> Divisor:
         """The difference of a pair of functions, made free of sines; each is made once."""
@@ -143,7 +142,7 @@ class FactorPairs:
             norm, conjugates = a - b, self.ring.one
             for pair in (self.ring.pairs[k] for k in angles):
                 if pair.sine in norm.used:
-                    turned = put_polynomials(norm, {pair.sine: -self.ring.generator(pair.sine).poly})
+                    turned = norm.ring.put(norm, {pair.sine: -self.ring.generator(pair.sine).poly})
                     conjugates, norm = conjugates * turned, norm * turned
             self._divisors[place] = Divisor(conjugates, norm)
         return self._divisors[place]

@@ -150,7 +150,7 @@ class Renaming(Struct, frozen=True):
 
     def applied(self, mine: Expr) -> Expr:
         """The answer with the right generators in these terms."""
-        return mine - self.have + put_polynomials(self.have, self.images)
+        return mine - self.have + self.have.ring.put(self.have, self.images)
 
 
 class Redoing(Struct, frozen=True):
@@ -176,12 +176,3 @@ def mends(all_of: Iterable[Mend], mine: Expr, expected: Expr) -> bool:
             return False
         mended = one.applied(mended)
     return mended == expected
-
-
-def put_polynomials(expr: Expr, images: Mapping[int, Any]) -> Expr:
-    """The expression with polynomials for some generators."""
-    ring = expr.ring
-    if not expr.poly:
-        return expr
-    point = [images.get(i, g) for i, g in enumerate(ring.ctx.gens())]
-    return Expr(ring, ring.reduce(expr.poly.compose(*point, ctx=ring.ctx)))

@@ -10,7 +10,7 @@ from flint import fmpq
 
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, put_polynomials
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.wrong_entry import TermWriter
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -47,7 +47,7 @@ class _Pair:
             moved = [images[i](*self.point) if i in images else x for i, x in enumerate(self.point)]
             if self.expected.poly(*moved) != self.value:
                 return False
-        return put_polynomials(self.expected, images) == self.mine
+        return self.expected.ring.put(self.expected, images) == self.mine
 
     def back(self, images: dict[int, Any]) -> Renaming:
         """The mend that puts polynomials for generators of the answer."""

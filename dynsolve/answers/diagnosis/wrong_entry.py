@@ -24,7 +24,7 @@ from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr
-from dynsolve.answers.diagnosis.mends import Exchange, is_small, monomial_expr, parts, put_polynomials
+from dynsolve.answers.diagnosis.mends import Exchange, is_small, monomial_expr, parts
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
@@ -101,7 +101,7 @@ def _of(g: Generator, absent: list[Generator], mine: Expr, expected: Expr) -> Fo
     if number is None:
         return None
     ring = mine.ring
-    put = put_polynomials(expected, {g.index: ring.constant(number).poly}).poly.to_dict()
+    put = expected.ring.put(expected, {g.index: ring.constant(number).poly}).poly.to_dict()
     moved = {_without(exponents, [g]) for exponents in right if exponents[g.index]}
     there = {bare for bare in moved if bare in ours and ours[bare] == put.get(bare)}
     if not there:

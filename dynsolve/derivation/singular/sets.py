@@ -314,12 +314,7 @@ def _at_quarter_turns(one: Alternative) -> list[Alternative]:
 
 def with_numbers(value: Expr, numbers: Mapping[int, int]) -> Expr:
     """A value with numbers for some generators, by their places."""
-    ring = value.ring
-    images = [
-        (ring.constant(numbers[g.index]) if g.index in numbers else ring.generator(g.index)).poly
-        for g in ring.generators
-    ]
-    return Expr(ring, ring.reduce(value.poly.compose(*images, ctx=ring.ctx)))
+    return value.ring.put(value, {i: value.ring.constant(number).poly for i, number in numbers.items()})
 
 
 def _merged(alternatives: Sequence[Alternative]) -> list[Alternative]:

@@ -8,7 +8,6 @@ from fractions import Fraction
 from itertools import chain
 from math import isqrt
 
-from dynsolve.algebra.angles import Angle, name_alone
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.kinematics import joint_frame
@@ -105,7 +104,7 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
     straight: Pose = dict.fromkeys(names, 0)
     found: dict[Expr, Pose] = {}
     for simple in (straight, *({**straight, name: angle} for name in names for angle in (90, 180))):
-        found.setdefault(at(ring, value, simple), simple)
+        found.setdefault(ring.at_pose(value, simple), simple)
     forms = [context.show(there) for there in found]
     if max(map(cost, forms)) > LONGEST:
         return
@@ -132,12 +131,14 @@ def _summed(context: Context, q: Coordinate, pose: Pose) -> Node:
     values, k = context.values, q.index - 1
     terms: list[Node] = []
     for body in context.robot.bodies:
-        linear, angular = (at(context.robot.ring, values[f"D{part}{body.name}"][k, k], pose) for part in "vw")
+        linear, angular = (
+            context.robot.ring.at_pose(values[f"D{part}{body.name}"][k, k], pose) for part in "vw"
+        )
         if not linear.is_zero:
             in_numbers = linear.is_number and body.mass.is_number
             terms.append(_mass_at_a_distance(context, body, k, pose) if in_numbers else context.show(linear))
         terms += [] if angular.is_zero else [context.show(angular)]
-    rotors = at(context.robot.ring, values["Dm"][k, k], pose) if context.robot.actions.rotors else None
+    rotors = context.robot.ring.at_pose(values["Dm"][k, k], pose) if context.robot.actions.rotors else None
     return sum_of([*terms, *([] if rotors is None or rotors.is_zero else [context.show(rotors)])])
 
 
@@ -145,7 +146,7 @@ def _mass_at_a_distance(context: Context, body: Body, k: int, pose: Pose) -> Nod
     """1.2·0.65², or 1.2 (0.5² + 0.15²) along the base's axes where the distance has no exact decimals."""
     ring = context.robot.ring
     there = {q.name: 0 for q in context.robot.coordinates} | dict(pose)
-    along = [at(ring, row[k], there) for row in context.values[f"Jv{body.name}"].rows]
+    along = [ring.at_pose(row[k], there) for row in context.values[f"Jv{body.name}"].rows]
     squared = sum((part * part for part in along), start=ring.zero)
     root = Fraction(isqrt(squared.number.numerator), isqrt(squared.number.denominator))
     if root**2 == squared.number:
@@ -162,26 +163,6 @@ def _mass_at_a_distance(context: Context, body: Body, k: int, pose: Pose) -> Nod
 
 Pose = Mapping[str, int]
 """Angles in degrees by the names of coordinates."""
-
-
-def at(ring: Ring, expr: Expr, pose: Pose) -> Expr:
-    """The value where the angles of a pose have their values."""
-    point = [ring.generator(g.index).poly for g in ring.generators]
-    used = expr.poly.degrees()
-    for pair in ring.pairs:
-        if used[pair.sine] > 0 or used[pair.cosine] > 0:
-            angle = _angle_at(pair.angle, pose)
-            point[pair.sine], point[pair.cosine] = ring.sin(angle).poly, ring.cos(angle).poly
-    return Expr(ring, ring.reduce(expr.poly.compose(*point, ctx=ring.ctx)))
-
-
-def _angle_at(angle: Angle, pose: Pose) -> Angle:
-    moved = Angle((), angle.degrees)
-    for atom, rate in angle.terms:
-        name = name_alone(atom)
-        fixed = name in pose
-        moved = moved + (Angle((), rate * pose[name]) if fixed else Angle(((atom, rate),)))
-    return moved
 
 
 def turning_in(robot: Robot, *values: Expr) -> list[str] | None:

@@ -44,13 +44,20 @@ class EquilibriaForms(SetForms):
         ]
 
     def _length(self, condition: Condition) -> Node | None:
-        """x = b/a where a x = b, and a is a parameter that is not 0; nothing of x = 0."""
+        """x = b/a where a x = b, and a is a parameter that is not 0; of an angle where b is one, too.
+
+        Nothing of x = 0.
+        """
         ring, expr = condition.expr.ring, condition.expr
         for q in self.robot.coordinates:
             factor = ring.coefficient(expr, q.name, 0)
             rest = expr - factor * ring.symbol(q.name)
-            is_linear = q.type is JointType.PRISMATIC and ring.coefficient(rest, q.name, 0).is_zero
-            if is_linear and not (factor.is_zero or rest.is_zero or ring.depends_on_coordinates(factor)):
+            is_alone = q.type is JointType.PRISMATIC or not ring.depends_on_coordinates(rest)
+            if (
+                is_alone
+                and ring.coefficient(rest, q.name, 0).is_zero
+                and not (factor.is_zero or rest.is_zero or ring.depends_on_coordinates(factor))
+            ):
                 return self._quotient(Symbol(q.name), -rest, factor)
         return None
 

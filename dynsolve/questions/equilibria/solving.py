@@ -202,7 +202,9 @@ def _is_seen(alternative: Alternative, signs: ParameterSigns) -> bool:
 def _has_parameter(condition: Condition) -> bool:
     ring, degrees = condition.expr.ring, condition.expr.poly.degrees()
     return any(
-        degrees[g.index] > 0 for g in ring.generators if g.kind == "symbol" and g.name in ring.parameters
+        degrees[g.index] > 0
+        for g in ring.generators
+        if g.kind == "symbol" and g.name in ring.parameters and g.name != "pi"
     )
 
 

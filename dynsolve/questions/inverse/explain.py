@@ -367,10 +367,9 @@ def _may_vanish(factors: Sequence[Expr]) -> bool:
         if not any(pair.sine in each and each <= lengths for each in held):
             continue
         for cosine in (1, -1):
-            point = [ring.generator(g.index).poly for g in ring.generators]
-            point[pair.sine], point[pair.cosine] = ring.zero.poly, (ring.one * cosine).poly
-            there = [Expr(ring, ring.reduce(factor.poly.compose(*point, ctx=ring.ctx))) for factor in factors]
-            if not any(is_positive(value * value) for value in there):
+            there = {pair.sine: ring.zero.poly, pair.cosine: ring.constant(cosine).poly}
+            values = [ring.put(factor, there) for factor in factors]
+            if not any(is_positive(value * value) for value in values):
                 return True
         return False
     return True

@@ -113,7 +113,7 @@ def test_a_factor_that_may_be_0_is_told_with_the_equilibria_there() -> None:
 
 def test_that_parameters_may_forbid_a_case_is_said_where_it_is_not_seen() -> None:
     """φ stands outside of a sine, so that it is not seen how far the others reach."""
-    energy = "k1*r*r/2 + k2*phi*phi/2 - m*g*r*cos(phi)"
+    energy = "k1*(r*phi - b)^2/2 + k2*phi - m*g*r"
     model = "model: {coordinates: {r: prismatic, phi: revolute}, D: [[m, 0], [0, J]], P: '%s'}\n"
     for text, is_said in ((model % energy, True), (ARM, False)):
         shown = report(dynsolve.solve(text + "find: [equilibria]\n" * is_said), Format.TEXT).decode()
@@ -771,3 +771,33 @@ find: [equilibria]
     friction = spring.replace("find:", "friction: {x: {coulomb: fc}}\nfind:")
     assert "there is rest, too" in str(told_of(friction).outcome)
     assert "there is rest, too" not in str(told_of(spring).outcome)
+
+
+SPRUNG = """
+gravity: {gravity}
+model: {{coordinates: {{{coordinates}}}, bodies: [{{mass: m, at: [0, 0, 0]}}]}}
+springs: [{{energy: "{energy}"}}]
+find: [equilibria]
+"""
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "energy", "is_there"),
+    [
+        ("a: revolute", "k*(a^2/2 + L*sin(a))", True),  # far to both sides it has both signs
+        ("a: revolute, b: revolute", "k*((a - b)^2/2 + L*cos(a + b) + cos(a))", True),  # a = b = 0
+        ("x: prismatic, y: prismatic", "k*(x^2 + y^2 - L^2)^2 + x^2 - y*x", True),
+        ("a: revolute, x: prismatic", "k*(a*x - L)^2/2 + c*x + d*a", False),
+    ],
+)
+def test_that_there_are_solutions_for_all_parameters_is_seen(
+    coordinates: str, energy: str, is_there: bool
+) -> None:
+    text = SPRUNG.format(gravity="none", coordinates=coordinates, energy=energy)
+    assert ("not told here" not in str(told_of(text).outcome)) == is_there
+
+
+def test_an_angle_that_a_spring_holds_is_solved_for() -> None:
+    text = SPRUNG.format(gravity="none", coordinates="a: revolute", energy="k*(2*a - pi)^2/2")
+    (row,) = told_of(text).result
+    assert to_unicode(row) == "a = π/2" and not told_of(text).outcome
