@@ -9,12 +9,27 @@ The atoms of a ring's generators, and of the sines and cosines of angles: how ea
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import IntEnum
+from fractions import Fraction
 from itertools import combinations
 
 from dynsolve.algebra.angles import Angle, angle_node
-from dynsolve.algebra.compact.terms import Monomial, Polynomial, Rational, add_term, multiply
+from dynsolve.algebra.compact.terms import (
+    MASSES,
+    RATES,
+    SYMBOLS,
+    Exponents,
+    Monomial,
+    Numbered,
+    Parts,
+    Polynomial,
+    Rational,
+    Terms,
+    Value,
+    add_term,
+    multiply,
+)
 from dynsolve.algebra.compact.trig_forms import AngleGroup, TrigMonomial
 from dynsolve.algebra.fourier import TrigFunction
 from dynsolve.algebra.generators import Generator, is_sign
@@ -81,12 +96,27 @@ class AtomTable:
 _OTHER = {"sin": "cos", "cos": "sin"}
 
 
+class _Products(dict[int, int]):
+    """For the number of each part of a monomial that of its product with a factor."""
+
+    def __init__(self, numbers: Numbered[Value], times: Callable[[Value], Value]) -> None:
+        self._numbers, self._times = numbers, times
+
+    def __missing__(self, number: int) -> int:
+        found = self[number] = self._numbers.number(self._times(self._numbers.values[number]))
+        return found
+
+
+def _raised(powers: Exponents, place: int, exponent: int) -> Exponents:
+    return (*powers[:place], powers[place] + exponent, *powers[place + 1 :])
+
+
 class RingAtoms:
     """The atoms of one ring, numbered in printing order.
 
-    `kinds` says of every generator whether it is `leading` (named in `leading`), another
-    `parameter`, a `rate` (velocity or acceleration) or an `angle`; `groups` are the ring's
-    angles; `form` writes the denominator that an inverse stands for.  The atom of a sine or
+    `leading` are the names of masses and inertias, `groups` the ring's
+    angles; `form` writes the denominator that an inverse stands for.  `monomials` numbers those of
+    masses, of other symbols and of rates that occur.  The atom of a sine or
     cosine is made once: PUMA 560 would take a fifth longer without.
     """
 
@@ -99,23 +129,30 @@ class RingAtoms:
     ) -> None:
         self.ring = ring
         self.table = AtomTable()
+        self.monomials = Numbered[Monomial](())
         self._groups = groups
         self._form = form
         self._order = {name: i for i, name in enumerate(leading)}
-        self.kinds = {g.index: self._kind(g) for g in ring.generators}
         self._symbols: dict[int, tuple[int, int]] = {}
         self._number_symbols()
-        self._trig: dict[tuple[int, TrigFunction], tuple[int, int]] = {}
+        self._places = dict(zip(ring.ctx.names(), self._of_generators(), strict=False))
+        self._factors: dict[str, tuple[int, _Products]] = {}
+        self._trig: dict[tuple[int, int], tuple[int, Monomial]] = {}
+        self._trig_atoms: dict[tuple[int, TrigFunction], tuple[int, int]] = {}
         self._functions: dict[int, tuple[str, Angle]] = {}
         self._of_functions: dict[tuple[str, Angle], int] = {}
         self._adds_angles = any(self._is_constant(pair.angle) for pair in ring.pairs)
 
-    def _kind(self, g: Generator) -> str:
-        if g.kind in ("sin", "cos", "constant"):
-            return "angle"
+    def _of_generators(self) -> Iterator[tuple[int, int]]:
+        """(the part in which each generator stands, its place there; of a symbol its index)"""
+        angles = {i: (g, k) for g, group in enumerate(self._groups) for k, i in enumerate(group.places)}
+        return (angles.get(g.index, (self._part(g), g.index)) for g in self.ring.generators)
+
+    def _part(self, g: Generator) -> int:
+        """The place of the part of a monomial in which a generator stands that is no sine or cosine."""
         if (g.kind == "symbol" and g.dots) or is_sign(g.node):
-            return "rate"
-        return "leading" if g.name in self._order else "parameter"
+            return RATES
+        return MASSES if g.name in self._order else SYMBOLS
 
     # -- symbols and roots -------------------------------------------------------------------------
 
@@ -130,22 +167,12 @@ class RingAtoms:
         return self._rank(g), order, g.dots != 2, g.name != "g", g.kind != "symbol", g.index
 
     def _rank(self, g: Generator) -> Rank:
-        kind = self.kinds[g.index]
         if isinstance(g.node, Number):
             return Rank.ROOT
-        if kind == "parameter":
+        part = self._part(g)
+        if part == SYMBOLS:
             return Rank.COORDINATE if g.name in self.ring.names else Rank.PARAMETER
-        return Rank.LEADING if kind == "leading" else Rank.RATE
-
-    def monomial(self, generators: Sequence[int], exponents: Sequence[int]) -> Monomial:
-        """The monomial in atoms of some generators' exponents."""
-        parts = []
-        for i, e in zip(generators, exponents, strict=True):
-            if e:
-                atom, sign = self._symbol(i)
-                parts.append((atom, sign * e))
-        parts.sort()
-        return tuple(parts)
+        return Rank.LEADING if part == MASSES else Rank.RATE
 
     def _symbol(self, index: int) -> tuple[int, int]:
         """(atom, ±1) of a generator; an inverse is what it inverts, to the power -1."""
@@ -155,10 +182,63 @@ class RingAtoms:
             found = self._symbols[index] = self.table.number(inverted), -1
         return found
 
+    # -- terms -------------------------------------------------------------------------------------
+
+    def terms(self, text: str) -> Terms:
+        """The terms of a polynomial as FLINT writes it; its own lists have an object for each exponent."""
+        terms: Terms = {}
+        for term in text.replace(" - ", " + -").split(" + "):
+            sign, product = (-1, term[1:]) if term[0] == "-" else (1, term)
+            number: Rational = sign
+            parts = [0] * (len(self._groups) + 3)
+            for written in product.split("*"):
+                if written[0].isdigit():
+                    p, _, q = written.partition("/")
+                    number = sign * (Fraction(int(p), int(q)) if q else int(p))
+                else:
+                    part, products = self._factors.get(written) or self._new_factor(written)
+                    parts[part] = products[parts[part]]
+            terms[tuple(parts)] = number
+        return terms
+
+    def _new_factor(self, written: str) -> tuple[int, _Products]:
+        """(the part of a monomial in which a factor stands, what it makes of it)"""
+        name, _, exponent = written.partition("^")
+        part, place = self._places[name]
+        e = int(exponent or 1)
+        if part >= 0:
+            products = _Products(self._groups[part].powers, lambda powers: _raised(powers, place, e))
+        else:
+            atom, sign = self._symbol(place)
+            products = _Products(self.monomials, lambda mono: multiply(mono, ((atom, sign * e),)))
+        found = self._factors[written] = part, products
+        return found
+
+    def kind_of_rates(self, number: int) -> tuple[int, int]:
+        """(how many accelerations, how many velocities) a monomial has."""
+        dots = [(getattr(self.table.nodes[atom], "dots", 1), e) for atom, e in self.monomials.values[number]]
+        accelerations = sum(e for order, e in dots if order == 2)
+        return accelerations, sum(e for _, e in dots) - accelerations
+
+    def is_square(self, parts: Parts) -> bool:
+        """Whether all but the masses are squared; `parts` may lack those before the last ones."""
+        groups = parts[:MASSES]
+        trig = (group.powers.values[number] for group, number in zip(self._groups, groups, strict=False))
+        if any(e % 2 for powers in trig for e in powers):
+            return False
+        return not any(e % 2 for number in parts[SYMBOLS:] for _, e in self.monomials.values[number])
+
     # -- sines and cosines -------------------------------------------------------------------------
 
-    def trig_monomial(self, mono: TrigMonomial, group: int) -> tuple[int, Monomial]:
-        """(±1, the monomial in atoms) of sines and cosines in the angles of a group."""
+    def trig(self, group: int, number: int) -> tuple[int, Monomial]:
+        """(±1, the monomial in atoms) of sines and cosines in the angles of a group, by its number there."""
+        found = self._trig.get((group, number))
+        if found is None:
+            mono = self._groups[group].monomials.values[number]
+            found = self._trig[group, number] = self._trig_monomial(mono, group)
+        return found
+
+    def _trig_monomial(self, mono: TrigMonomial, group: int) -> tuple[int, Monomial]:
         sign, parts = 1, []
         for function, e in mono:
             turned, atom = self._trig_atom(group, function)
@@ -174,12 +254,12 @@ class RingAtoms:
             for place, e in enumerate(exponents)
             if e
         ]
-        return self.trig_monomial(tuple(mono), group)
+        return self._trig_monomial(tuple(mono), group)
 
     def _trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
-        found = self._trig.get((group, function))
+        found = self._trig_atoms.get((group, function))
         if found is None:
-            found = self._trig[group, function] = self._new_trig_atom(group, function)
+            found = self._trig_atoms[group, function] = self._new_trig_atom(group, function)
         return found
 
     def _new_trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:

@@ -26,6 +26,7 @@ from dynsolve.algebra.compact.terms import (
     content,
     divide,
     exact,
+    factors_of,
     join,
     joined_pair,
     multiply,
@@ -51,6 +52,9 @@ from dynsolve.notation.tree import (
 
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
+
+SMALLEST_PRODUCT = 3
+"""The terms of (a + b)², multiplied out."""
 
 JOINED = 60
 """Up to this number of terms sums that recur as a whole are looked for."""
@@ -91,6 +95,20 @@ class Collector:
             return self.product(factor, mono, ())
         factor, mono, rest = self.primitive(poly)
         return self.product(factor, mono, (self._sum(rest),))
+
+    def factored(self, poly: Polynomial) -> Node:
+        """The collected tree of a polynomial, or the product of sums that it is, where that is shorter."""
+        plain = self.form(poly)
+        factors = factors_of(poly) if len(poly) >= SMALLEST_PRODUCT and not self.decimal else ()
+        if not factors:
+            return plain
+        factor: Rational = 1
+        mono: Monomial = ()
+        for part, exponent in factors:
+            own, atoms = self.whole(part)
+            factor *= own**exponent
+            mono = multiply(mono, tuple((atom, e * exponent) for atom, e in atoms))
+        return min(plain, self.product(factor, mono, ()), key=self.cost)
 
     def whole(self, poly: Polynomial) -> tuple[Rational, Monomial]:
         """A polynomial as (factor, monomial), a sum with whole numbers as one atom: ½ and (2 q̇₁ + q̇₂)."""

@@ -9,7 +9,7 @@ inside, masses outside or inside), the result with fewer operations is taken.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
 
@@ -18,23 +18,22 @@ from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.proof import Proof, plain_form
 from dynsolve.algebra.compact.spelling import in_one_spelling
 from dynsolve.algebra.compact.terms import (
-    Exponents,
+    MASSES,
+    RATES,
+    SYMBOLS,
     Monomial,
+    Parts,
     Polynomial,
     Rational,
-    TermLayout,
     Terms,
     exact,
-    factors_of,
     multiply,
     primitive,
-    read_terms,
-    split_middle,
-    split_tail,
+    split_at,
     square_in,
     whole_content,
 )
-from dynsolve.algebra.compact.trig_forms import TrigMonomial, TrigPolynomial, angle_groups
+from dynsolve.algebra.compact.trig_forms import angle_groups
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.errors import attempted, warn_left_out
@@ -93,8 +92,7 @@ class Compactor:
         self._large = large
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
         self._forms: dict[str, Node] = {}
-        self._coefficients: dict[tuple[TermLayout, frozenset[tuple[Exponents, Rational]]], Node] = {}
-        self._grouped_by_angles: dict[tuple[TermLayout, frozenset[tuple[Exponents, Rational]]], Node] = {}
+        self._made: dict[tuple[str, frozenset[tuple[Parts, Rational]]], Node] = {}
 
     # -- the entrance ------------------------------------------------------------------------------
 
@@ -106,83 +104,73 @@ class Compactor:
         found = self._forms.get(key)
         if found is None:
             plain = partial(plain_form, expr)
-            found = attempted(partial(self._collected, expr), plain, "a compact form")
+            found = attempted(partial(self._collected, key), plain, "a compact form")
             if not self._proof.holds(expr, found):
                 warn_left_out("a compact form", "it is not equal to its value")
                 found = plain()
             self._forms[key] = found
         return found
 
-    def _collected(self, expr: Expr) -> Node:
-        layout, terms = read_terms(expr, [group.places for group in self._groups], self._atoms.kinds)
-        return in_one_spelling(self._by_rates(layout, terms))
+    def _collected(self, text: str) -> Node:
+        return in_one_spelling(self._by_rates(self._atoms.terms(text)))
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:
         """The compact trees of a matrix's entries."""
         return tree.Matrix(tuple(tuple(map(self.form, row)) for row in matrix.rows))
 
+    def _once(self, make: Callable[[Terms], Node], terms: Terms) -> Node:
+        """What is made of terms, once: the pieces of expressions come again in others."""
+        key = make.__name__, frozenset(terms.items())
+        found = self._made.get(key)
+        if found is None:
+            found = self._made[key] = make(terms)
+        return found
+
     # -- velocities and accelerations --------------------------------------------------------------
 
-    def _by_rates(self, layout: TermLayout, terms: Terms) -> Node:
+    def _by_rates(self, terms: Terms) -> Node:
         """The terms with accelerations, those with velocities and all others, each collected separately."""
-        if not layout.rates:
-            return self._coefficient(layout, terms)
-        accelerations = sum(self.ring.generators[i].dots == 2 for i in layout.rates)
-        start = len(layout.symbols) + sum(width for _, width in layout.groups) - len(layout.rates)
+        if not any(e[RATES] for e in terms):
+            return self._coefficient(terms)
         kinds: dict[tuple[int, int], Terms] = {}
+        of_rates = {number: self._atoms.kind_of_rates(number) for number in {e[RATES] for e in terms}}
         for e, f in terms.items():
-            rates = e[start:]
-            kind = sum(rates[:accelerations]), sum(rates[accelerations:])
-            kinds.setdefault(kind, {})[e] = f
-        return total(
-            [self._one_kind(layout, part, kind) for kind, part in sorted(kinds.items(), reverse=True)]
-        )
+            kinds.setdefault(of_rates[e[RATES]], {})[e] = f
+        return total([self._one_kind(part, kind) for kind, part in sorted(kinds.items(), reverse=True)])
 
-    def _one_kind(self, layout: TermLayout, terms: Terms, kind: tuple[int, int]) -> Node:
+    def _one_kind(self, terms: Terms, kind: tuple[int, int]) -> Node:
         """Velocities outside; or angles outside and velocities inside, where that is much cheaper."""
-        if kind == (0, 2) and not self.collector.decimal and self._is_energy(layout, terms):
+        if kind == (0, 2) and not self.collector.decimal and self._is_energy(terms):
             half = Fraction(1, 2)  # an energy: its ½ in front
             terms = {e: exact(f, half) for e, f in terms.items()}
-            return times(half, [(self._outside_or_inside(layout, terms, kind), 1)])
-        return self._outside_or_inside(layout, terms, kind)
+            return times(half, [(self._outside_or_inside(terms, kind), 1)])
+        return self._outside_or_inside(terms, kind)
 
-    @staticmethod
-    def _is_energy(layout: TermLayout, terms: Terms) -> bool:
+    def _is_energy(self, terms: Terms) -> bool:
         """Whether a square has a factor ½, m (l q̇)²/2: in a force only what is no square has one."""
-        start = sum(width for _, width in layout.groups)
-        stop = start + len(layout.leading)
-        return any(
-            f.denominator % 2 == 0 and not any(x % 2 for x in (*e[:start], *e[stop:]))
-            for e, f in terms.items()
-        )
+        return any(f.denominator % 2 == 0 and self._atoms.is_square(e) for e, f in terms.items())
 
-    def _outside_or_inside(self, layout: TermLayout, terms: Terms, kind: tuple[int, int]) -> Node:
-        split = split_tail(terms, len(layout.rates))
-        inner = layout.without_rates()
-        parts = self._grouped(
-            self._monomials(split, layout.rates), lambda part: self._coefficient(inner, part)
-        )
+    def _outside_or_inside(self, terms: Terms, kind: tuple[int, int]) -> Node:
+        split = split_at(terms, RATES)
+        parts = self._grouped(self._monomials(split), self._coefficient)
         outside = self.collector.sum_of(parts)
         if len(split) == 1:
             return outside
         if len(terms) <= self._large:
-            inside = self._by_angles(layout, terms)
+            inside = self._by_angles(terms)
             cost = self.collector.cost
-            shortest = kind == (0, 1) and (not layout.leading or cost(outside) > LONG)
+            has_masses = any(e[MASSES] for e in terms)
+            shortest = kind == (0, 1) and (not has_masses or cost(outside) > LONG)
             if cost(inside) < cost(outside) * (1 if shortest else MUCH_CHEAPER):
                 return inside
         return self.collector.apart(parts)
 
-    def _merged(
-        self, split: Mapping[Exponents, Terms], places: Sequence[int], form: Callable[[Terms], Node]
-    ) -> Node:
+    def _merged(self, split: Mapping[int, Terms], form: Callable[[Terms], Node]) -> Node:
         """Σ part · monomial, where monomials whose parts differ by a rational factor are summed first."""
-        return self.collector.sum_of(self._grouped(self._monomials(split, places), form))
+        return self.collector.sum_of(self._grouped(self._monomials(split), form))
 
-    def _monomials(
-        self, split: Mapping[Exponents, Terms], places: Sequence[int]
-    ) -> Iterator[tuple[Monomial, Terms]]:
-        return ((self._atoms.monomial(places, key), part) for key, part in split.items())
+    def _monomials(self, split: Mapping[int, Terms]) -> Iterator[tuple[Monomial, Terms]]:
+        return ((self._atoms.monomials.values[number], part) for number, part in split.items())
 
     def _grouped(
         self, parts: Iterable[tuple[Monomial, Terms]], form: Callable[[Terms], Node]
@@ -192,8 +180,8 @@ class Compactor:
         shared: dict[object, tuple[Terms, Rational, Polynomial]] = {}
         for mono, part in parts:
             if len(part) == 1:
-                ((exponents, number),) = part.items()
-                if not any(exponents):
+                ((others, number),) = part.items()
+                if not any(others):
                     numbers.append((number, mono, tree.ONE))
                     continue
             key, scale = primitive(part)
@@ -204,29 +192,29 @@ class Compactor:
 
     # -- coefficients: no velocities ---------------------------------------------------------------
 
-    def _coefficient(self, layout: TermLayout, terms: Terms) -> Node:
+    def _coefficient(self, terms: Terms) -> Node:
         """The cheaper of two: angles outside and masses inside, or masses outside."""
         if self._angles_outside:
-            return self._by_angles(layout, terms)
-        scale: Rational = 1
-        if len(terms) > self._large and not self.collector.decimal:
-            numbers, scale = primitive(terms)
-            key = layout, numbers
-        else:
-            key = layout, frozenset(terms.items())
-        found = self._coefficients.get(key)
-        if found is None:
-            shared, rest = self._without_common(layout, dict(key[1]))
-            size, rest = self._usual(layout, rest)
-            found = self._by_angles(layout, rest)
-            if layout.leading and len(terms) <= self._large:
-                found = min(self._by_masses(layout, rest), found, key=self.collector.cost)
-            if size != 1:
-                found = self.collector.sum_of([(size, (), found)])
-            found = self._coefficients[key] = self.collector.sum_of([(*shared, found)])
-        return found if scale == 1 else times(scale, [(found, 1)])
+            return self._by_angles(terms)
+        if len(terms) <= self._large or self.collector.decimal:
+            return self._once(self._in_cheaper_order, terms)
+        scale = whole_content(terms.values())
+        if next(reversed(terms.values())) < 0:
+            scale = -scale
+        whole = {e: exact(f, scale) for e, f in terms.items()}
+        return times(scale, [(self._once(self._in_cheaper_order, whole), 1)])
 
-    def _usual(self, layout: TermLayout, terms: Terms) -> tuple[Rational, Terms]:
+    def _in_cheaper_order(self, terms: Terms) -> Node:
+        shared, rest = self._without_common(terms)
+        size, rest = self._usual(rest)
+        found = self._by_angles(rest)
+        if len(terms) <= self._large and any(e[MASSES] for e in terms):
+            found = min(self._by_masses(rest), found, key=self.collector.cost)
+        if size != 1:
+            found = self.collector.sum_of([(size, (), found)])
+        return self.collector.sum_of([(*shared, found)])
+
+    def _usual(self, terms: Terms) -> tuple[Rational, Terms]:
         """(size, terms / size): a polynomial and twice it are spelled alike.
 
         The size is the largest factor of a square of lengths, where that is the same beside each mass; where
@@ -235,15 +223,13 @@ class Compactor:
         """
         if self.collector.decimal or len(terms) > LARGE:
             return 1, terms
-        angles = sum(width for _, width in layout.groups)
-        lengths = angles + len(layout.leading)
-        sizes: dict[Exponents, Rational] = {e: f if f > 0 else -f for e, f in terms.items()}
-        squares = {e: f for e, f in sizes.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])}
+        sizes: dict[Parts, Rational] = {e: f if f > 0 else -f for e, f in terms.items()}
+        squares = {e: f for e, f in sizes.items() if e[SYMBOLS] and self._atoms.is_square(e[SYMBOLS:])}
         if len(squares) == len(terms):
             return 1, terms
-        of_masses: dict[Exponents, Rational] = {e[angles:lengths]: 0 for e in terms}
+        of_masses: dict[int, Rational] = {e[MASSES]: 0 for e in terms}
         for e, f in squares.items():
-            of_masses[e[angles:lengths]] = max(f, of_masses[e[angles:lengths]])
+            of_masses[e[MASSES]] = max(f, of_masses[e[MASSES]])
         if len(set(of_masses.values())) > 1:
             return 1, terms
         counts = Counter(sizes.values())
@@ -252,136 +238,126 @@ class Compactor:
         finer = whole_content(rest.values()).denominator > 2 * whole_content(terms.values()).denominator
         return (1, terms) if finer else (size, rest)
 
-    def _without_common(self, layout: TermLayout, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
+    def _without_common(self, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
         """(the parameters and numbers that all terms share, the rest): l² + l a c keeps its l."""
-        start = sum(width for _, width in layout.groups)
-        symbols = zip(*(e[start:] for e in terms), strict=True)
-        least = tuple(min(powers) if len(set(powers)) == 1 else 0 for powers in symbols)
         factor = self.collector.content(terms.values())
-        if factor.denominator != 1 and len({f.denominator for f in terms.values()}) > 1:
-            stop = start + len(layout.leading)
-            if len({e[start:stop] for e in terms}) > 1:  # m₁ r²/2 + m₂ l²/12
-                factor = 1
-        if factor == 1 and not any(least):
+        denominators = {f.denominator for f in terms.values()}
+        if factor.denominator != 1 and len(denominators) > 1 and len({e[MASSES] for e in terms}) > 1:
+            factor = 1  # m₁ r²/2 + m₂ l²/12
+        monomials = self._atoms.monomials
+        shared: Monomial = ()
+        for place in (MASSES, SYMBOLS):
+            found = {e[place] for e in terms}
+            powers = [set(monomials.values[number]) for number in found]
+            shared += tuple(sorted(set.intersection(*powers)))
+        if factor == 1 and not shared:
             return (1, ()), terms
+        left: dict[int, int] = {}
+        for number in {number for e in terms for number in e[MASSES:RATES]}:
+            left[number] = monomials.number(
+                tuple(power for power in monomials.values[number] if power not in shared)
+            )
         rest = {
-            (*e[:start], *(x - y for x, y in zip(e[start:], least, strict=True))): exact(f, factor)
-            for e, f in terms.items()
+            (*e[:MASSES], left[e[MASSES]], left[e[SYMBOLS]], 0): exact(f, factor) for e, f in terms.items()
         }
-        return (factor, self._atoms.monomial(layout.symbols, least)), rest
+        return (factor, shared), rest
 
-    def _by_masses(self, layout: TermLayout, terms: Terms) -> Node:
+    def _by_masses(self, terms: Terms) -> Node:
         """Σ mass · factor; masses with equal factors are summed first."""
-        start = sum(width for _, width in layout.groups)
-        split = split_middle(terms, start, start + len(layout.leading))
-        inner = layout.without_leading()
-        return self._merged(split, layout.leading, lambda part: self._beside_mass(inner, part))
+        return self._merged(split_at(terms, MASSES), partial(self._once, self._beside_mass))
 
-    def _beside_mass(self, layout: TermLayout, terms: Terms) -> Node:
+    def _beside_mass(self, terms: Terms) -> Node:
         """The factor of a mass: with a square where that is no longer, completed where it is shorter."""
-        size, terms = self._usual(layout, terms)
-        cost, best = self.collector.cost, self._by_angles(layout, terms)
-        squared = self._with_square(layout, terms)
+        size, terms = self._usual(terms)
+        cost, best = self.collector.cost, self._by_angles(terms)
+        squared = self._with_square(terms)
         if squared is not None and cost(squared) <= cost(best):
             best = squared
-        completed = self._with_square(layout, terms, completed=True)
-        inside = self._squares_inside(layout, terms)
+        completed = self._with_square(terms, completed=True)
+        inside = self._squares_inside(terms)
         for other in (completed, inside):
             if other is not None and cost(other) < cost(best):
                 best = other
         return best if size == 1 else self.collector.product(size, (), (best,))
 
-    def _squares_inside(self, layout: TermLayout, terms: Terms) -> Node | None:
+    def _squares_inside(self, terms: Terms) -> Node | None:
         """(e - l s₃)² + c₂² (a + l c₃)²: squares beside what stands there of the first of several groups."""
-        if len(layout.groups) <= 1 or layout.rates:
+        g, terms = self._from_next_group(terms)
+        if not any(any(e[1:MASSES]) for e in terms):
             return None
-        (g, width), inner = layout.groups[0], layout.without_group()
-        split: dict[Exponents, Terms] = {}
+        split: dict[int, Terms] = {}
         for e, f in terms.items():
-            split.setdefault(e[:width], {})[e[width:]] = f
+            split.setdefault(e[0], {})[e[1:]] = f
         if all(len(part) < SMALLEST_SQUARE for part in split.values()):
             return None
         parts = []
-        for exponents, part in split.items():
-            sign, trig = self._atoms.basic_trig_monomial(exponents, g)
-            parts.append((sign, trig, self._beside_mass(inner, part)))
+        for number, part in split.items():
+            sign, trig = self._atoms.basic_trig_monomial(self._groups[g].powers.values[number], g)
+            parts.append((sign, trig, self._once(self._beside_mass, part)))
         return self.collector.sum_of(parts)
 
-    def _with_square(self, layout: TermLayout, terms: Terms, *, completed: bool = False) -> Node | None:
+    def _with_square(self, terms: Terms, *, completed: bool = False) -> Node | None:
         """(Σ root)² + the rest, where sines and cosines of one angle group make a square."""
-        while layout.groups and not any(any(e[: layout.groups[0][1]]) for e in terms):
-            terms = {e[layout.groups[0][1] :]: f for e, f in terms.items()}
-            layout = layout.without_group()
-        if not layout.groups or layout.rates or len(terms) < SMALLEST_SQUARE:
+        g, terms = self._from_next_group(terms)
+        if g == len(self._groups) or len(terms) < SMALLEST_SQUARE or any(any(e[1:MASSES]) for e in terms):
             return None
-        g, width = layout.groups[0]
-        inner = sum(more for _, more in layout.groups[1:])
-        if any(any(e[width : width + inner]) for e in terms):
-            return None
-        found = square_in(terms, width + inner, completed=completed)
+        powers, monomials = self._groups[g].powers, self._atoms.monomials
+        written = {(powers.values[e[0]], monomials.values[e[SYMBOLS]]): f for e, f in terms.items()}
+        found = square_in(written, completed=completed)
         if found is None:
             return None
         root: Polynomial = {}
-        for factor, exponents in found.roots:
-            sign, trig = self._atoms.basic_trig_monomial(exponents[:width], g)
-            symbols = self._atoms.monomial(layout.symbols, exponents[width + inner :])
-            root[multiply(trig, symbols)] = sign * factor
+        for factor, (trig, symbols) in found.roots:
+            sign, mono = self._atoms.basic_trig_monomial(trig, g)
+            root[multiply(mono, symbols)] = sign * factor
         if self.collector.starts_negative(root):
             root = {mono: -factor for mono, factor in root.items()}
         number, mono = self.collector.decompose(tree.Power(self.collector.form(root), tree.Number(2)))
-        rest = self._by_angles(layout, found.rest) if found.rest else ZERO
-        return self.collector.sum_of([(number, mono, tree.ONE), (1, (), rest)])
+        others = (0,) * (len(self._groups) - g - 1)
+        rest: Terms = {
+            (powers.number(trig), *others, 0, monomials.number(symbols), 0): f
+            for (trig, symbols), f in found.rest.items()
+        }
+        return self.collector.sum_of(
+            [(number, mono, tree.ONE), (1, (), self._by_angles(rest) if rest else ZERO)]
+        )
 
     # -- angle groups from the base outwards -------------------------------------------------------
 
-    def _by_angles(self, layout: TermLayout, terms: Terms) -> Node:
-        """Σ b · X_b over the monomials b of one angle group, the X_b by the next group and so on."""
-        while layout.groups:
-            width = layout.groups[0][1]
-            if any(any(e[:width]) for e in terms):
-                key = layout, frozenset(terms.items())
-                found = self._grouped_by_angles.get(key)
-                if found is None:
-                    found = self._grouped_by_angles[key] = self._by_group(layout, terms)
-                return found
-            terms = {e[width:]: f for e, f in terms.items()}
-            layout = layout.without_group()
-        return self._without_angles(layout, terms)
+    def _from_next_group(self, terms: Terms) -> tuple[int, Terms]:
+        """(the first angle group that occurs, or their number; the terms without those before it)"""
+        left = len(next(iter(terms))) + MASSES
+        absent = next((g for g in range(left) if any(e[g] for e in terms)), left)
+        if absent:
+            terms = {e[absent:]: f for e, f in terms.items()}
+        return len(self._groups) - left + absent, terms
 
-    def _by_group(self, layout: TermLayout, terms: Terms) -> Node:
+    def _by_angles(self, terms: Terms) -> Node:
+        """Σ b · X_b over the monomials b of one angle group, the X_b by the next group and so on."""
+        g, terms = self._from_next_group(terms)
+        return self._once(self._without_angles if g == len(self._groups) else self._by_group, terms)
+
+    def _by_group(self, terms: Terms) -> Node:
         """The same, where the first angle group occurs: its polynomials in the forms that are chosen."""
-        (g, width), inner = layout.groups[0], layout.without_group()
-        polynomials: dict[Exponents, TrigPolynomial] = {}
+        g = len(self._groups) - len(next(iter(terms))) - MASSES
+        polynomials: dict[Parts, dict[int, Rational]] = {}
         for e, f in terms.items():
-            polynomials.setdefault(e[width:], {})[e[:width]] = f
-        collected: dict[TrigMonomial, Terms] = {}
-        for rest, form, factor in self._groups[g].forms.choose(polynomials):
-            for mono, f in form:
-                collected.setdefault(mono, {})[rest] = f * factor
+            polynomials.setdefault(e[1:], {})[e[0]] = f
+        collected: dict[int, Terms] = {}
+        for rest, form, factor in self._groups[g].choose(polynomials):
+            for number, f in form:
+                collected.setdefault(number, {})[rest] = f * factor
         parts = []
-        for mono, part in collected.items():
-            sign, trig = self._atoms.trig_monomial(mono, g)
+        for number, part in collected.items():
+            sign, trig = self._atoms.trig(g, number)
             parts.append((trig, part if sign > 0 else {e: -f for e, f in part.items()}))
-        poly = self.collector.added(self._grouped(parts, lambda part: self._by_angles(inner, part)))
+        poly = self.collector.added(self._grouped(parts, self._by_angles))
         return self.collector.form(self._atoms.with_angles_added(poly))
 
-    def _without_angles(self, layout: TermLayout, terms: Terms) -> Node:
+    def _without_angles(self, terms: Terms) -> Node:
         """The terms without angles: parameters, and velocities if these were not split off before."""
-        if layout.rates:
-            split = split_tail(terms, len(layout.rates))
-            inner = layout.without_rates()
-            return self._merged(split, layout.rates, lambda part: self._without_angles(inner, part))
-        plain = self._of_symbols(layout, terms)
-        factors = factors_of(terms) if len(terms) >= SMALLEST_SQUARE and not self.collector.decimal else ()
-        if not factors:
-            return plain
-        parts = [(self._of_symbols(layout, part), exponent) for part, exponent in factors]
-        return min(plain, times(1, parts), key=self.collector.cost)
-
-    def _of_symbols(self, layout: TermLayout, terms: Terms) -> Node:
-        """The terms with the symbols of a layout, collected."""
-        poly: Polynomial = {}
-        for e, f in terms.items():
-            mono = self._atoms.monomial(layout.symbols, e)
-            poly[mono] = poly.get(mono, 0) + f
-        return self.collector.form(poly)
+        if any(e[RATES] for e in terms):
+            return self._merged(split_at(terms, RATES), self._without_angles)
+        values = self._atoms.monomials.values
+        poly = {multiply(values[e[MASSES]], values[e[SYMBOLS]]): f for e, f in terms.items()}
+        return self.collector.factored(poly)

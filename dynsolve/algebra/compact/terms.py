@@ -1,9 +1,9 @@
 """A polynomial as a dictionary of terms, laid out for collecting.
 
-The exponents of a term stand in the order in which a person collects: the angle
-groups from the base outwards, masses and inertias, the other parameters and
-coordinates, velocities and accelerations.  So each step of collecting cuts a
-piece off an end, and keys only become shorter.
+The monomial of a term is cut into parts in the order in which a person collects: one for each
+angle group from the base outwards, masses and inertias, the other parameters and
+coordinates, velocities and accelerations.  Each part is known by its number (`Numbered`), so that
+one polynomial is one dictionary, whatever expression it is a piece of.
 
 Polynomials in atoms as dictionaries {monomial: factor}: products, common factors, recurring sums.
 
@@ -21,13 +21,9 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import gcd, isqrt, lcm
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
-from msgspec import Struct
-from msgspec.structs import replace
-
-from dynsolve.algebra.ring import Expr
 
 # A polynomial as a dictionary of terms, laid out for collecting
 
@@ -35,7 +31,14 @@ Rational = int | Fraction
 """A rational factor: an int wherever it is whole, since those are fast."""
 
 Exponents = tuple[int, ...]
-Terms = dict[Exponents, Rational]
+
+Parts = tuple[int, ...]
+"""Of a term the numbers of its parts: those of the angle groups that are left, and three more."""
+
+Terms = dict[Parts, Rational]
+
+MASSES, SYMBOLS, RATES = -3, -2, -1
+"""The places of the last parts: of masses and inertias, of other parameters and coordinates, of rates."""
 
 _Key = TypeVar("_Key", bound=Hashable)
 
@@ -79,124 +82,31 @@ def primitive(poly: Mapping[_Key, Rational]) -> tuple[frozenset[tuple[_Key, Rati
     return key, shared if denominator == 1 else exact(shared, denominator)
 
 
-class TermLayout(Struct, frozen=True):
-    """Which generator each place of the exponents belongs to.
-
-    `groups` are (number of the angle group, how many places it has), the next one
-    first; `leading`, `parameters` and `rates` are generators' indices.
-    """
-
-    groups: tuple[tuple[int, int], ...]
-    leading: tuple[int, ...]
-    parameters: tuple[int, ...]
-    rates: tuple[int, ...]
-
-    def without_rates(self) -> TermLayout:
-        """The layout after the velocities have been split off."""
-        return replace(self, rates=())
-
-    def without_leading(self) -> TermLayout:
-        """The layout after the masses have been split off."""
-        return replace(self, leading=())
-
-    def without_group(self) -> TermLayout:
-        """The layout after the first angle group has been split off."""
-        return replace(self, groups=self.groups[1:])
-
-    @property
-    def symbols(self) -> tuple[int, ...]:
-        """The generators of the places that are no angles."""
-        return self.leading + self.parameters + self.rates
+Value = TypeVar("Value", bound=Hashable)
 
 
-def split_tail(terms: Terms, width: int) -> dict[Exponents, Terms]:
-    """The terms by their last `width` exponents."""
-    result: dict[Exponents, Terms] = {}
-    for e, f in terms.items():
-        result.setdefault(e[-width:], {})[e[:-width]] = f
+class Numbered(Generic[Value]):
+    """Values, and the number that stands for each: 0 for the first."""
+
+    def __init__(self, first: Value) -> None:
+        self.values = [first]
+        self._numbers = {first: 0}
+
+    def number(self, value: Value) -> int:
+        """The number of a value, the same for equal ones."""
+        found = self._numbers.setdefault(value, len(self.values))
+        if found == len(self.values):
+            self.values.append(value)
+        return found
+
+
+def split_at(terms: Terms, place: int) -> dict[int, Terms]:
+    """The terms by one of their parts, counted from the end."""
+    result: dict[int, Terms] = {}
+    for parts, f in terms.items():
+        after = parts[place:][1:]
+        result.setdefault(parts[place], {})[(*parts[:place], 0, *after)] = f
     return result
-
-
-def split_middle(terms: Terms, start: int, stop: int) -> dict[Exponents, Terms]:
-    """The terms by their exponents from `start` to `stop`."""
-    result: dict[Exponents, Terms] = {}
-    for e, f in terms.items():
-        result.setdefault(e[start:stop], {})[e[:start] + e[stop:]] = f
-    return result
-
-
-def read_terms(
-    expr: Expr, groups: Sequence[Sequence[int]], kinds: Mapping[int, str]
-) -> tuple[TermLayout, Terms]:
-    """The terms of an expression in the layout of the generators it uses.
-
-    `groups` are the angle groups' generators, sines and cosines in turn; `kinds`
-    says `leading`, `parameter` or `rate` of the others.
-    """
-    used = {i for i, degree in enumerate(expr.poly.degrees()) if degree}
-    present = [(g, places) for g, places in enumerate(groups) if not used.isdisjoint(places)]
-    rest = {
-        kind: tuple(i for i in sorted(used) if kinds.get(i) == kind)
-        for kind in ("leading", "parameter", "rate")
-    }
-    layout = TermLayout(
-        tuple((g, len(places)) for g, places in present), rest["leading"], rest["parameter"], rest["rate"]
-    )
-    order = [*(i for _, places in present for i in places), *layout.symbols]
-    names = expr.poly.context().names()
-    known = {names[i]: (place, 1) for place, i in enumerate(order)}
-    return layout, dict(sorted(_read(str(expr.poly), known, len(order)), reverse=True))
-
-
-def _read(text: str, known: dict[str, tuple[int, int]], width: int) -> Iterator[tuple[Exponents, Rational]]:
-    """The terms of a polynomial as FLINT writes it; its own lists have an object for each exponent.
-
-    `known` says place and exponent of a factor, and is added to.
-
-    >>> list(_read("-2*x*y^2 + 1/3*x", {"x": (0, 1), "y": (1, 1)}, 2))
-    [((1, 2), -2), ((1, 0), Fraction(1, 3))]
-    """
-    for term in text.replace(" - ", " + -").split(" + "):
-        exponents = [0] * width
-        sign, factor = (-1, term[1:]) if term[0] == "-" else (1, term)
-        number: Rational = sign
-        for part in factor.split("*"):
-            found = known.get(part)
-            if found is None and part[0].isdigit():
-                numerator, _, denominator = part.partition("/")
-                number = sign * (
-                    Fraction(int(numerator), int(denominator)) if denominator else int(numerator)
-                )
-                continue
-            if found is None:
-                name, _, exponent = part.partition("^")
-                found = known[part] = (known[name][0], int(exponent))
-            exponents[found[0]] = found[1]
-        yield tuple(exponents), number
-
-
-def factors_of(terms: Terms) -> tuple[tuple[Terms, int], ...]:
-    """(factor, exponent), a monomial with a number first, where a polynomial is a product of several sums.
-
-    >>> factors_of({(2, 0): 2, (1, 1): 4, (0, 2): 2})
-    (({(0, 0): 2}, 1), ({(1, 0): 1, (0, 1): 1}, 2))
-    """
-    scale = lcm(*(f.denominator for f in terms.values()))
-    ctx = fmpz_mpoly_ctx.get(("x", len(next(iter(terms)))), Ordering.lex)
-    number, found = ctx.from_dict({e: int(f * scale) for e, f in terms.items()}).factor()
-    sums = [(_whole_terms(factor), int(n)) for factor, n in found if len(factor) > 1]
-    sums.sort(key=lambda one: len(one[0]))
-    if sum(n for _, n in sums) < 2:
-        return ()
-    monomial = [0] * ctx.nvars()
-    for factor, n in found:
-        if len(factor) == 1:
-            monomial = [x + n * int(y) for x, y in zip(monomial, factor.monoms()[0], strict=True)]
-    return (({tuple(monomial): exact(int(number), scale)}, 1), *sums)
-
-
-def _whole_terms(poly: fmpz_mpoly) -> Terms:
-    return {tuple(map(int, e)): int(f) for e, f in poly.to_dict().items()}
 
 
 # Polynomials in atoms as dictionaries {monomial
@@ -296,75 +206,110 @@ def join(poly: Polynomial, x: int, y: int, whole: int) -> Polynomial:
     return result
 
 
+def factors_of(poly: Polynomial) -> tuple[tuple[Polynomial, int], ...]:
+    """(factor, exponent), a monomial with a number first, where a polynomial is a product of several sums.
+
+    >>> a, b = ((0, 1),), ((1, 1),)
+    >>> factors_of({multiply(a, a): 2, multiply(a, b): 4, multiply(b, b): 2})
+    (({(): 2}, 1), ({((0, 1),): 1, ((1, 1),): 1}, 2))
+    """
+    powers = [{(a, e > 0): abs(e) for a, e in mono} for mono in poly]
+    letters = sorted(set().union(*powers), reverse=True)
+    scale = lcm(*(f.denominator for f in poly.values()))
+    ctx = fmpz_mpoly_ctx.get(("x", len(letters)), Ordering.lex)
+    terms = zip(powers, poly.values(), strict=True)
+    dense = {tuple(exponents.get(a, 0) for a in letters): int(f * scale) for exponents, f in terms}
+    number, found = ctx.from_dict(dense).factor()
+    factors = [(_in_atoms(factor, letters), int(n)) for factor, n in found]
+    sums = sorted((one for one in factors if len(one[0]) > 1), key=lambda one: len(one[0]))
+    if sum(n for _, n in sums) < 2:
+        return ()
+    single = [(a, e * n) for factor, n in factors if len(factor) == 1 for mono in factor for a, e in mono]
+    return (({tuple(sorted(single)): exact(int(number), scale)}, 1), *sums)
+
+
+def _in_atoms(poly: fmpz_mpoly, letters: Sequence[tuple[int, bool]]) -> Polynomial:
+    """A polynomial in atoms and inverses of atoms, which are not `True`."""
+    result: Polynomial = {}
+    for exponents, factor in poly.to_dict().items():
+        powers = ((a, int(e) if up else -int(e)) for (a, up), e in zip(letters, exponents, strict=True) if e)
+        result[tuple(sorted(powers))] = int(factor)
+    return result
+
+
 # Squares of sums of sines and cosines
 
 SQUARED = 2
+
+
+Product = tuple[Exponents, Monomial]
+"""Sines and cosines in turn of the angles of a group, by their exponents, and the symbols beside them."""
 
 
 class Root(NamedTuple):
     """factor · monomial, with one sine or cosine in it or none."""
 
     factor: Rational
-    exponents: Exponents
+    monomial: Product
 
 
 class Square(NamedTuple):
     """(Σ root)² + rest"""
 
     roots: tuple[Root, ...]
-    rest: Terms
+    rest: dict[Product, Rational]
 
 
-def square_in(terms: Terms, width: int, *, completed: bool = False) -> Square | None:
+def square_in(terms: Mapping[Product, Rational], *, completed: bool = False) -> Square | None:
     """The square with most roots in a polynomial, and what is left without it; None where there is none.
 
-    The first `width` exponents are those of sines and cosines in turn.  `completed`: of three roots or more
-    one may be told by its products alone; of (a + l c/2)² + l² c²/12 a book writes a² + a l c + l² c²/3.
+    `completed`: of three roots or more one may be told by its products alone; of (a + l c/2)² + l² c²/12 a
+    book writes a² + a l c + l² c²/3.
 
-    >>> c2, c23 = (0, 1, 0, 0), (0, 0, 0, 1)
-    >>> found = square_in({(0, 2, 0, 0, 2, 0): 1, (0, 1, 0, 1, 1, 1): 2, (0, 0, 0, 2, 0, 2): 1}, 4)
-    >>> [root.exponents for root in found.roots], found.rest
-    ([(0, 1, 0, 0, 1, 0), (0, 0, 0, 1, 0, 1)], {})
+    >>> a, b, both = ((0, 2),), ((1, 2),), ((0, 1), (1, 1))
+    >>> found = square_in({((0, 2, 0, 0), a): 1, ((0, 1, 0, 1), both): 2, ((0, 0, 0, 2), b): 1})
+    >>> [root.monomial for root in found.roots], found.rest
+    ([((0, 1, 0, 0), ((0, 1),)), ((0, 0, 0, 1), ((1, 1),))], {})
     """
     best: tuple[Root, ...] = ()
-    roots = list(_roots(terms, width))
-    others, most = (list(_others(terms, width)), 2) if completed else ([], 1)
+    roots = list(_roots(terms))
+    others, most = (list(_others(terms)), 2) if completed else ([], 1)
     for first in roots:
-        found = _together(first, roots, others, terms, width)
-        if len(found) > max(len(best), most) and any(any(root.exponents[:width]) for root in found):
+        found = _together(first, roots, others, terms)
+        if len(found) > max(len(best), most) and any(any(root.monomial[0]) for root in found):
             best = found
-    return Square(best, _without(terms, best, width)) if best else None
+    return Square(best, _without(terms, best)) if best else None
 
 
-def _roots(terms: Terms, width: int) -> Iterator[Root]:
+def _roots(terms: Mapping[Product, Rational]) -> Iterator[Root]:
     """The roots of the terms that are squares: cosines of those with a plus, sines of those with a minus."""
-    for exponents, factor in terms.items():
-        root = _rational_root(-factor if factor < 0 and any(exponents[:width]) else factor)
-        half = _half(exponents, width, sine=factor < 0)
+    for monomial, factor in terms.items():
+        root = _rational_root(-factor if factor < 0 and any(monomial[0]) else factor)
+        half = _half(monomial, sine=factor < 0)
         if root is not None and half is not None:
             yield Root(root, half)
 
 
-def _others(terms: Terms, width: int) -> Iterator[Exponents]:
+def _others(terms: Mapping[Product, Rational]) -> Iterator[Product]:
     """What is squared in a term of which the number is no square."""
-    for exponents, factor in terms.items():
-        half = _half(exponents, width, sine=factor < 0)
+    for monomial, factor in terms.items():
+        half = _half(monomial, sine=factor < 0)
         if half is not None and _rational_root(factor if factor > 0 else -factor) is None:
             yield half
 
 
-def _half(exponents: Exponents, width: int, *, sine: bool) -> Exponents | None:
-    """The exponents of the root of a square, with one sine or cosine in it or none."""
-    trig, others = exponents[:width], exponents[width:]
-    if any(e % 2 for e in others):
+def _half(monomial: Product, *, sine: bool) -> Product | None:
+    """The root of a square, with one sine or cosine in it or none."""
+    trig, symbols = monomial
+    if any(e % 2 for _, e in symbols):
         return None
-    root = [e // 2 for e in others]
+    root = tuple((atom, e // 2) for atom, e in symbols)
     if not any(trig):
-        return (*trig, *root)
+        return trig, root
     if sum(trig) != SQUARED or SQUARED not in trig[1::2]:
         return None
     place = trig.index(SQUARED) - sine
-    return (*(int(i == place) for i in range(width)), *root)
+    return tuple(int(i == place) for i in range(len(trig))), root
 
 
 def _rational_root(value: Rational) -> Rational | None:
@@ -376,43 +321,44 @@ def _rational_root(value: Rational) -> Rational | None:
 
 
 def _together(
-    first: Root, roots: list[Root], others: list[Exponents], terms: Terms, width: int
+    first: Root, roots: list[Root], others: list[Product], terms: Mapping[Product, Rational]
 ) -> tuple[Root, ...]:
     """The roots, with their signs, of which twice the product with each other stands among the terms."""
     found = [first]
     for root in roots:
-        ratios = {_ratio(one, root, terms, width) for one in found}
+        ratios = {_ratio(one, root, terms) for one in found}
         if root != first and ratios in ({1}, {-1}):
-            found.append(Root(root.factor * int(ratios.pop()), root.exponents))
-    for exponents in others:
-        ratios = {_ratio(one, Root(1, exponents), terms, width) for one in found}
+            found.append(Root(root.factor * int(ratios.pop()), root.monomial))
+    for monomial in others:
+        ratios = {_ratio(one, Root(1, monomial), terms) for one in found}
         if len(ratios) == 1 and ratios != {0}:
-            found.append(Root(ratios.pop(), exponents))
+            found.append(Root(ratios.pop(), monomial))
     return tuple(found)
 
 
-def _ratio(a: Root, b: Root, terms: Terms, width: int) -> Rational:
+def _ratio(a: Root, b: Root, terms: Mapping[Product, Rational]) -> Rational:
     """How many times twice the product of two roots stands among the terms."""
-    (place, factor), *_ = _product(a, b, width)
+    (place, factor), *_ = _product(a, b)
     return exact(terms.get(place, 0), 2 * factor)
 
 
-def _product(a: Root, b: Root, width: int) -> tuple[tuple[Exponents, Rational], ...]:
+def _product(a: Root, b: Root) -> tuple[tuple[Product, Rational], ...]:
     """The product of two roots in normal form: of one sine twice, s² = 1 - c², the term with c² is first."""
     factor = a.factor * b.factor
-    product = tuple(x + y for x, y in zip(a.exponents, b.exponents, strict=True))
-    sine = next((place for place in range(0, width, 2) if product[place] == SQUARED), None)
+    trig = tuple(x + y for x, y in zip(a.monomial[0], b.monomial[0], strict=True))
+    symbols = multiply(a.monomial[1], b.monomial[1])
+    sine = next((place for place in range(0, len(trig), 2) if trig[place] == SQUARED), None)
     if sine is None:
-        return ((product, factor),)
-    before, after = product[:sine], product[sine + 2 :]
-    return ((*before, 0, SQUARED, *after), -factor), ((*before, 0, 0, *after), factor)
+        return (((trig, symbols), factor),)
+    before, after = trig[:sine], trig[sine + 2 :]
+    return (((*before, 0, SQUARED, *after), symbols), -factor), (((*before, 0, 0, *after), symbols), factor)
 
 
-def _without(terms: Terms, roots: tuple[Root, ...], width: int) -> Terms:
+def _without(terms: Mapping[Product, Rational], roots: tuple[Root, ...]) -> dict[Product, Rational]:
     """The terms less the square of the sum of the roots."""
     rest = dict(terms)
     for i, a in enumerate(roots):
         for j, b in enumerate(roots[i:]):
-            for place, factor in _product(a, b, width):
+            for place, factor in _product(a, b):
                 add_term(rest, place, -factor if j == 0 else -2 * factor)
     return rest

@@ -9,7 +9,7 @@ linear angles, with rational factors.  `trig_forms` gives those worth considerin
 - the same over the other choices of two basic angles: θ₂ and θ₃ in place of θ₂ and θ₂ + θ₃;
 - the Fourier form (`algebra.ring`): sines and cosines of integer combinations of angles.
 
-`Choice` picks one of them.  A polynomial is a dictionary {exponents: factor}, the
+`AngleGroup.choose` picks one of them.  A polynomial is a dictionary {exponents: factor}, the
 exponents those of (s₁, c₁, s₂, c₂, …) in the basic angles.
 
 Choosing the form of each of many small trigonometric polynomials.
@@ -34,14 +34,13 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations, product
-from math import comb
+from math import comb, inf
 from typing import NamedTuple
 
 from flint import fmpq, fmpq_poly, fmpz_poly
-from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle, coordinates_in
-from dynsolve.algebra.compact.terms import Exponents, Rational, add_term, exact, primitive
+from dynsolve.algebra.compact.terms import Exponents, Numbered, Parts, Rational, add_term, exact, primitive
 from dynsolve.algebra.fourier import FourierForm, Multiples, TrigFunction, fourier_form, positive, terms_of
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.rationals import fraction, rational
@@ -247,68 +246,95 @@ SHARED = 0.75
 
 
 class _Option(NamedTuple):
-    """A form, its price, and the share of the price for the sines and cosines of each term."""
+    """A form by the numbers of its monomials, and its price; the least it may cost beside others."""
 
-    items: tuple[tuple[TrigMonomial, Rational], ...]
+    items: tuple[tuple[int, Rational], ...]
     price: float
     trig_prices: tuple[float, ...]
+    least: float
 
 
-class FormChoice:
-    """Chooses among the forms that `forms` gives of a polynomial.
+class AngleGroup:
+    """Basic angles that combine, and the choice among the forms of polynomials in their sines and cosines.
 
-    The forms of every polynomial met so far are kept, up to a rational factor: the
+    `places` are the indices of their generators, `powers` and `monomials` number what is given and what is
+    chosen.  The forms of every polynomial met so far are kept, up to a rational factor: the
     entries of D, C and the torques share a few dozen, and PUMA 560 would take 70 %
     longer without.
     """
 
-    def __init__(self, forms: Callable[[TrigPolynomial], list[TrigForm]] = trig_forms) -> None:
+    def __init__(
+        self,
+        angles: Sequence[Angle],
+        places: Sequence[int],
+        forms: Callable[[TrigPolynomial], list[TrigForm]] = trig_forms,
+    ) -> None:
+        self.angles = angles
+        self.places = places
+        self.powers = Numbered[Exponents]((0,) * len(places))
+        self.monomials = Numbered[TrigMonomial](())
         self._forms = forms
-        self._made: dict[frozenset[tuple[Exponents, Rational]] | Exponents, list[_Option]] = {}
+        self._made: dict[frozenset[tuple[int, Rational]] | int, list[_Option]] = {}
+
+    def angle(self, multiples: Sequence[int]) -> Angle:
+        """The angle of these multiples of the basic ones."""
+        total = Angle()
+        for basic, multiple in zip(self.angles, multiples, strict=True):
+            total = total + basic * multiple
+        return total
 
     def choose(
-        self, polynomials: Mapping[Exponents, TrigPolynomial]
-    ) -> Iterator[tuple[Exponents, tuple[tuple[TrigMonomial, Rational], ...], Rational]]:
+        self, polynomials: Mapping[Parts, dict[int, Rational]]
+    ) -> Iterator[tuple[Parts, tuple[tuple[int, Rational], ...], Rational]]:
         """(key, the terms of the chosen form, the factor of all of them) of each polynomial.
 
         The keys are the monomials in parameters whose coefficients the polynomials are.
         """
         options = {key: self._options(polynomial) for key, polynomial in polynomials.items()}
         chosen = {key: made[0] for key, (made, _) in options.items()}
-        uses = Counter(mono for option in chosen.values() for mono, _ in option.items)
+        uses = Counter(number for option in chosen.values() for number, _ in option.items)
         for key, (made, _) in options.items():
             if len(made) > 1:
-                uses.subtract(mono for mono, _ in chosen[key].items)
-                chosen[key] = min(made, key=lambda option: _price_beside(option, uses))
-                uses.update(mono for mono, _ in chosen[key].items)
+                for number, _ in chosen[key].items:
+                    uses[number] -= 1
+                chosen[key] = _cheapest(made, uses)
+                for number, _ in chosen[key].items:
+                    uses[number] += 1
         return ((key, chosen[key].items, factor) for key, (_, factor) in options.items())
 
-    def _options(self, polynomial: TrigPolynomial) -> tuple[list[_Option], Rational]:
+    def _options(self, polynomial: dict[int, Rational]) -> tuple[list[_Option], Rational]:
         """(forms, the cheapest first; the factor they are to be multiplied with)"""
-        key: frozenset[tuple[Exponents, Rational]] | Exponents
+        key: frozenset[tuple[int, Rational]] | int
         if len(polynomial) == 1:
             ((key, scale),) = polynomial.items()
         else:
             key, scale = primitive(polynomial)
         made = self._made.get(key)
         if made is None:
-            whole: TrigPolynomial = {key: 1} if isinstance(key, tuple) else dict(key)
-            made = self._made[key] = sorted(map(_option, self._forms(whole)), key=lambda o: o.price)
+            whole = {self.powers.values[number]: exact(f, scale) for number, f in polynomial.items()}
+            made = self._made[key] = sorted(map(self._option, self._forms(whole)), key=lambda o: o.price)
         return made, scale
 
+    def _option(self, form: TrigForm) -> _Option:
+        trig_prices = tuple(
+            float(sum(2 + _angle_price(multiples) + (e > 1) for (_, multiples), e in mono)) for mono in form
+        )
+        odd = sum(0.5 * (abs(f) != 1) + (f.denominator != 1) for f in form.values())
+        price = TERM * len(form) + sum(trig_prices) + odd
+        items = tuple((self.monomials.number(mono), f) for mono, f in form.items())
+        return _Option(items, price, trig_prices, price - SHARED * sum(trig_prices))
 
-def _option(form: TrigForm) -> _Option:
-    trig_prices = tuple(
-        float(sum(2 + _angle_price(multiples) + (e > 1) for (_, multiples), e in mono)) for mono in form
-    )
-    odd = sum(0.5 * (abs(f) != 1) + (f.denominator != 1) for f in form.values())
-    return _Option(tuple(form.items()), TERM * len(form) + sum(trig_prices) + odd, trig_prices)
 
-
-def _price_beside(option: _Option, uses: Counter[TrigMonomial]) -> float:
-    """The price where other coefficients are written with some monomials."""
-    terms = zip(option.items, option.trig_prices, strict=True)
-    return option.price - SHARED * sum(price for (mono, _), price in terms if uses.get(mono))
+def _cheapest(options: list[_Option], uses: Counter[int]) -> _Option:
+    """The option that costs least where other coefficients are written with some monomials."""
+    best, least = options[0], inf
+    for option in options:
+        if option.least < least:
+            terms = zip(option.items, option.trig_prices, strict=True)
+            price = option.price - SHARED * sum(price for (number, _), price in terms if uses[number])
+            if price < least:
+                best, least = option, price
+    return best
 
 
 def _angle_price(multiples: Multiples) -> int:
@@ -397,33 +423,17 @@ class ConstantForms:
 # Angles that turn about parallel axes, together: only they combine in sums like θ₂ + θ₃
 
 
-class AngleGroup(Struct, frozen=True):
-    """Basic angles that combine, the indices of their generators, and the choice of form for them."""
-
-    angles: tuple[Angle, ...]
-    places: tuple[int, ...]
-    forms: FormChoice
-
-    def angle(self, multiples: Sequence[int]) -> Angle:
-        """The angle of these multiples of the basic ones."""
-        total = Angle()
-        for basic, multiple in zip(self.angles, multiples, strict=True):
-            total = total + basic * multiple
-        return total
-
-
 def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[AngleGroup]:
     """The ring's angles in groups, from the base outwards; constant ones last."""
     groups = [
         AngleGroup(
-            tuple(pair.angle for pair in pairs),
-            tuple(i for pair in pairs for i in (pair.sine, pair.cosine)),
-            FormChoice(),
+            [pair.angle for pair in pairs],
+            [i for pair in pairs for i in (pair.sine, pair.cosine)],
         )
         for pairs in _parallel_pairs(ring, parallel)
     ]
     constant = [
-        AngleGroup((g.angle,), (g.index,), FormChoice(ConstantForms(g.angle.degrees)))
+        AngleGroup([g.angle], [g.index], ConstantForms(g.angle.degrees))
         for g in ring.generators
         if g.kind == "constant"
     ]
