@@ -18,6 +18,7 @@ roots belong together where twice their product stands among the terms as well.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import gcd, isqrt, lcm
@@ -170,16 +171,16 @@ def whole_content(factors: Iterable[Rational]) -> Rational:
 
 def joined_pair(poly: Polynomial) -> tuple[int, int, Rational] | None:
     """(x, y, r) where the polynomial is one in x + r·y: ∂/∂y = r ∂/∂x, and not merely linear in them."""
-    atoms = sorted({atom for mono in poly for atom, e in mono if e > 0})
-    slopes = {atom: _derivative(poly, atom) for atom in atoms}
-    candidates: dict[object, tuple[int, Rational]] = {}
-    for atom, part in slopes.items():
-        if len(part) > 1:
-            key, scale = primitive(part)
-            if key in candidates:
-                first, other = candidates[key]
+    counts = Counter(atom for mono in poly for atom, _ in mono)
+    alike = Counter(counts.values())  # where x + r·y stands, as many terms hold x as hold y
+    found: dict[object, tuple[int, Rational]] = {}
+    for atom in sorted({atom for mono in poly for atom, e in mono if e > 0}):
+        if counts[atom] > 1 and alike[counts[atom]] > 1:
+            key, scale = primitive(_derivative(poly, atom))
+            if key in found:
+                first, other = found[key]
                 return first, atom, exact(scale, other)
-            candidates[key] = atom, scale
+            found[key] = atom, scale
     return None
 
 
