@@ -55,6 +55,7 @@ from dynsolve.answers.answer_verdict import (
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.diagnosis.own_steps import DerivationSlips
+from dynsolve.answers.diagnosis.wrong_entry import TermWriter
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.entry_comparison import EntryComparer
@@ -229,6 +230,7 @@ class Checker:
         self.key = key if key is not None else derive(problem.robot)
         self.graph = AnswerGraph(AnswerRing(problem.robot, self.key))
         self.compare_entry = EntryComparer(problem.values, problem.decimals)
+        self._words: TermWriter | None = None
 
     @cached_property
     def reader(self) -> FileReader:
@@ -249,6 +251,12 @@ class Checker:
     def factors(self) -> FactorPairs:
         """The factors that are mistaken for one another, in the problem's own ring."""
         return FactorPairs(self.graph.answer_ring.ring)
+
+    def words(self) -> TermWriter:
+        """Writes terms of the problem's own ring in messages."""
+        if self._words is None or self._words.remembers_many:
+            self._words = TermWriter(self.graph.answer_ring, self.problem.robot)
+        return self._words
 
     @cached_property
     def configurations(self) -> ConfigurationKey:
@@ -315,7 +323,8 @@ class Judge:
         is_shared = self.graph is checker.graph
         changed = checker.derivation_slips if is_shared else DerivationSlips(self.graph)
         factors = checker.factors if ring.same else FactorPairs(ring.ring)
-        return Diagnoser(self.problem, self.graph, self.explanations.values, changed, factors)
+        words = checker.words() if ring.same else TermWriter(ring, self.problem.robot)
+        return Diagnoser(self.problem, self.graph, self.explanations.values, changed, factors, words)
 
     def report(self) -> Report:
         """Everything that is said of the hand-in."""

@@ -108,7 +108,7 @@ MOST_OF_IT = Fraction(1, 2)
 class Diagnoser:
     """Names slips, the nearest that explains an answer.
 
-    `derivation_slips` and `factors` are those of the answers' ring, which hand-ins share.
+    `derivation_slips`, `factors` and `words` are those of the answers' ring, which hand-ins share.
     """
 
     def __init__(
@@ -118,20 +118,14 @@ class Diagnoser:
         follow_through: FollowThrough,
         derivation_slips: DerivationSlips,
         factors: FactorPairs,
+        words: TermWriter,
     ) -> None:
-        self.factors = factors
+        self.factors, self.words = factors, words
         self.problem = problem
         self.graph = graph
         self.steps = OwnSteps(graph, follow_through, derivation_slips)
         self.dimensions = graph.answer_ring.dimensions
         self.ring = graph.answer_ring.ring
-
-    @cached_property
-    def words(self) -> TermWriter:
-        """Writes terms in messages."""
-        words = TermWriter(self.graph.answer_ring)
-        words.problem_symbols({*self.problem.robot.ring.parameters, *self.ring.names, "pi"})
-        return words
 
     @cached_property
     def exchanges(self) -> Exchanges:

@@ -37,6 +37,7 @@ from dynsolve.notation.build import power
 from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.index import Quantity
+from dynsolve.robot.model import Robot
 from dynsolve.robot.units import Dimension, describe
 
 # A number where a letter belongs: 9.81 for g, in some terms of an answer or in all of them
@@ -137,20 +138,24 @@ def _kept(mine: Expr, terms: dict[Any, Any], places: Collection[Exponents]) -> E
 
 LONGEST = 160
 
+MOST_PRINTED = 4_000
+"""So many parts of trees are remembered."""
+
 
 class TermWriter:
-    """Writes expressions of one ring as a person reads them."""
+    """Writes expressions of one ring as a person reads them; `problem` is the robot in the problem's ring."""
 
-    def __init__(self, answer_ring: AnswerRing) -> None:
+    def __init__(self, answer_ring: AnswerRing, problem: Robot) -> None:
         ring, robot = answer_ring.ring, answer_ring.robot
         self.ring = ring
-        self._problem: set[str] = set()
+        self._problem = {*problem.ring.parameters, *ring.names, "pi"}
         self.compactor = Compactor(ring, leading_names(robot), parallel_coordinates(robot))
         self._printer = UnicodePrinter(style_of(robot))
 
-    def problem_symbols(self, names: set[str]) -> None:
-        """Say which symbols the problem has."""
-        self._problem = names
+    @property
+    def remembers_many(self) -> bool:
+        """Whether it is to be begun anew, so that the memory of a long process does not grow without end."""
+        return self._printer.remembered > MOST_PRINTED
 
     def form(self, expr: Expr) -> Node:
         """The compact tree."""
@@ -182,7 +187,7 @@ class TermWriter:
         """Whether a symbol, or a sine or cosine of an unexpected argument, is none of the problem's."""
         is_odd = isinstance(g.node, Function) and g.node.name in ("sin", "cos", "tan")
         is_known = g.name in self._problem if g.kind == "symbol" else not (g.kind == "function" and is_odd)
-        return bool(self._problem) and not is_known
+        return not is_known
 
 
 def _coefficient(node: Node) -> Fraction:

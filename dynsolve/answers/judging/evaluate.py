@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Sequence
 from math import radians
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from flint.utils.flint_exceptions import FlintError
 from msgspec import Struct, field
@@ -27,7 +27,7 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import Evaluator, Unreduced
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Function, Node, Product, Reference, Symbol, walk
+from dynsolve.notation.tree import Function, Node, Product, Reference, Sum, Symbol, walk
 from dynsolve.notation.tree_values import keep
 
 # What an answer brings
@@ -75,8 +75,8 @@ class ExtensionCollector(ContentsCollector):
         self._seen: set[Function] = set()
 
     def note(self, node: Node) -> Sequence[Node]:
-        """Note what a node brings; a product that was evaluated before brings nothing."""
-        if isinstance(node, Product) and node in self._known.terms:
+        """Note what a node brings; a product or a sum that was evaluated before brings nothing."""
+        if isinstance(node, Product | Sum) and node in self._known.terms:
             return ()
         return super().note(node)
 
@@ -216,6 +216,9 @@ MOST_TURNS = 24
 MOST_KNOWN = 4096
 """So many functions and terms are remembered."""
 
+SHORT_SUM = 4
+"""Sums of more terms seldom stand in two answers."""
+
 
 Lookup = Callable[[Reference], RationalExpr]
 """The value of an answer that occurs inside another."""
@@ -231,7 +234,14 @@ class KnownValues(Struct):
     """
 
     functions: dict[Function, FunctionValue] = field(default_factory=dict)
-    terms: dict[Node, Unreduced] = field(default_factory=dict)
+    terms: dict[Node, Unreduced | Summed] = field(default_factory=dict)
+
+
+class Summed(NamedTuple):
+    """The value of a sum, and what it cost."""
+
+    value: RationalExpr
+    work: int
 
 
 def _nothing(reference: Reference) -> RationalExpr:
@@ -256,9 +266,23 @@ class AnswerEvaluator(Evaluator):
         self._references = 0
         self._roots: dict[Function, RationalExpr] = {}
 
+    def value(self, node: Node) -> RationalExpr:
+        """The value of a tree; that of a short sum is remembered as a term is."""
+        if type(node) is not Sum or len(node.terms) > SHORT_SUM:
+            return super().value(node)
+        found = self._known.terms.get(node)
+        if isinstance(found, Summed):
+            self.work += found.work
+            return found.value
+        references, work = self._references, self.work
+        value = super().value(node)
+        if self._references == references:
+            keep(self._known.terms, node, Summed(value, self.work - work), MOST_KNOWN)
+        return value
+
     def term(self, node: Node) -> Unreduced | RationalExpr:
         """A term of a sum; it is remembered where nothing of the student's own stands in it."""
-        found: Unreduced | RationalExpr | None = self._known.terms.get(node)
+        found: Unreduced | Summed | RationalExpr | None = self._known.terms.get(node)
         if isinstance(found, Unreduced):
             self.work += found.work
             return found

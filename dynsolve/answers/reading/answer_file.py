@@ -350,6 +350,8 @@ def _key(reader: EquationReader, name: str) -> LeftSide:
     """What a key of an answer file names."""
     if name.startswith("I") and reader.vocabulary.is_answer(name):
         return NamedAnswers((name,))
+    if candidates := reader.plainly_named(name):
+        return NamedAnswers(candidates)
     try:
         return read_left_side(reader.vocabulary, prepared(name)[:-1])
     except ReadError:

@@ -373,6 +373,8 @@ class AnswerList(Struct, dict=True):
         """The asides that answer what is given nowhere so that it can be read, and those that do not."""
         self._settle_motions()
         self._settle_cases()
+        if not self._asides:
+            return
         named = {name for answer in (*self.answers, *self.general) for name in answer.references}
         said = [answer for _, answers in self._asides for answer in answers]
         within = self.vocabulary.quantities.within

@@ -186,7 +186,7 @@ class EquationReader:
         head, sign, _ = display.text.partition("=")
         if not sign or self.macros or len(self.found.answers) >= MAX_ANSWERS:
             return False
-        candidates = self._plainly_named(head)
+        candidates = self.plainly_named(head)
         member = candidates and plain_member(self.vocabulary, display.text, len(head) + 1, 1, candidates)
         if not member or not isinstance(member.found, RightSide) or isinstance(member.found.value, Function):
             return False
@@ -198,7 +198,7 @@ class EquationReader:
             self.found.answers += self.found.value([candidates], member, self.origin(display, display.label))
         return not is_called
 
-    def _plainly_named(self, head: str) -> tuple[str, ...]:
+    def plainly_named(self, head: str) -> tuple[str, ...]:
         """The answers that a left side names by the very name of one, which is nothing else as well."""
         vocabulary = self.vocabulary
         known = vocabulary.heads
@@ -219,7 +219,7 @@ class EquationReader:
             has_forces = vocabulary.passive or _NAMES[0] in vocabulary.quantities
             if is_named and not is_other and not (side.candidates[0] == "tau" and has_forces):
                 known[head] = side.candidates
-        return known[head] if vocabulary.orders == USUAL else ()
+        return known[head] if vocabulary.has_no_other_names and vocabulary.orders == USUAL else ()
 
     def origin(self, display: Display, label: str) -> Origin:
         """Where the next equation stands."""

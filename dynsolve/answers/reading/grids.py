@@ -84,10 +84,10 @@ _SAID = {
 }
 
 
-def check_size(node: Node) -> None:
-    """Raise ReadError for a value over the bounds on its size."""
+def check_size(node: Node) -> Size:
+    """The size of a value; raises ReadError for one over the bounds."""
     try:
-        size(node, _MOST)
+        return size(node, _MOST)
     except TooLargeError as error:
         raise ReadError(_SAID[error.measure], help="write it shorter, or as a sum of its terms") from None
 

@@ -4,16 +4,20 @@ r"""Formulas that have one reading: names of the problem, numbers, sines and cos
 
 Most of what is handed in is one of these, and none of the ways to read a name, a blank or a bracket that
 `grammar` weighs can give it another value.  What a spelling means is asked of `grammar` once for each
-problem.  Everything else, and all that cannot be read, is left to it.
+problem; a sum in parentheses, which stands in many answers, is read once too.  Everything else, and all
+that cannot be read, is left to `grammar`.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Set
+from math import comb
+
+from msgspec import Struct
 
 from dynsolve.answers.reading.answer_list import Member
-from dynsolve.answers.reading.grids import Grid, check_size, grid
+from dynsolve.answers.reading.grids import MAX_DEGREE, MAX_TERMS, Grid, check_size, grid
 from dynsolve.answers.reading.left_side import RightSide, has_shape, read_right_side
 from dynsolve.answers.reading.lexer import GREEK_COMMANDS, Token
 from dynsolve.answers.reading.prepare import prepared
@@ -23,17 +27,19 @@ from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Prod
 
 _INDEX = r"_(?:[A-Za-z0-9]+|\{[^{}]{1,20}(?:\{[^{}]{1,20}\}[^{}]{0,20})?\})"
 _LETTER = rf"(?:[A-Za-z]|\\(?:{'|'.join(GREEK_COMMANDS)})(?![A-Za-z]))"
-_LAYOUT = re.compile(r"\A(?:\s|\\(?:(?:left|right)(?![A-Za-z.])|[,;:!\ ]))*")
+_SQUARE = r"(?:\{[2-9]\}|[2-9](?![0-9.eE]))"
+_LAYOUT = re.compile(r"(?:\s|\\(?:(?:left|right)(?![A-Za-z.])|[,;:!\ ]))*+")
 _PIECE = re.compile(
-    rf"""{_LAYOUT.pattern[2:]}(?:
-      (?P<call>\\?(?:sin|cos|tan)(?:\^(?:\{{[2-9]\}}|[2-9]))?(?:(?:\\left)?\([^()=]{{1,80}}\)
+    rf"""{_LAYOUT.pattern}(?:
+      (?P<call>\\?(?:sin|cos|tan)(?:\^{_SQUARE})?(?:(?:\\left)?\([^()=]{{1,80}}\)
         |(?<=[a-z}}])\s?{_LETTER}{_INDEX}(?!\s*[\w{{^(])))
     | (?P<frac>\\[dt]?frac\{{)
     | (?P<times>\*(?!\*)|\\cdot(?![A-Za-z]))
     | (?P<name>(?:\\d?dot\s?(?:\{{{_LETTER}(?:{_INDEX})?\}}|{_LETTER})(?:{_INDEX})?
-        |{_LETTER}{_INDEX}|[A-Za-z][A-Za-z0-9_]*|{_LETTER})(?![\w{{]))
+        |{_LETTER}{_INDEX}|[A-Za-z][A-Za-z0-9_]*|{_LETTER})(?![\w{{])(?:(?:\^|\*\*){_SQUARE})?)
     | (?P<number>[0-9]+(?:\.[0-9]+)?(?![0-9.]|[eE][-+0-9]))
-    | (?P<power>(?:\^|\*\*)(?:\{{[2-9]\}}|[2-9](?![0-9.eE])))
+    | (?P<power>(?:\^|\*\*){_SQUARE})
+    | (?P<group>\((?:[^()]|(?<=sin|cos|tan)\([^()]*\)|(?<=(?:sin|cos|tan)\^\{{[2-9]\}})\([^()]*\)){{1,99}}+\))
     | (?P<sign>[-+/(){{}}])
     )""",
     re.VERBOSE,
@@ -44,17 +50,23 @@ _ENVIRONMENT = re.compile(
 _LIST = re.compile(r"\[(?P<rows>[^\[\]\\{}\n]*)\]")
 _LISTS = re.compile(r"\[\s*\[(?P<rows>[^\\{}\n]*)\]\s*\]")
 _BETWEEN_LISTS = re.compile(r"\]\s*,\s*\[")
-_BEGINS = frozenset({"name", "call", "number", "frac", "("})
+_BEGINS = frozenset({"name", "call", "number", "group", "frac", "("})
 _MOST_NESTED = 12
 _LONGEST = 20_000
 _MOST_SPELLINGS = 4_000
 
 
-_MEANINGS = Symbol | Function | Number | Power
-
-
 class _OtherError(Exception):
     """A formula that is none of these."""
+
+
+class Spelled(Struct, frozen=True):
+    """What a spelling means, bounds on its terms and their degree, and what was looked for in vain."""
+
+    node: Node
+    terms: int
+    degree: int
+    missed: Set[str]
 
 
 def plain_member(
@@ -68,7 +80,6 @@ def plain_member(
         return None
     try:
         value = _value(vocabulary, written)
-        check_size(value.node if isinstance(value, Grid) else value)
     except (_OtherError, ReadError):
         return None
     found = RightSide(value, (), (), (), is_definition=False)
@@ -77,16 +88,14 @@ def plain_member(
 
 
 def _value(vocabulary: Vocabulary, text: str) -> Node | Grid:
-    is_list = False
     if found := _ENVIRONMENT.fullmatch(text):
         rows = [line.split("&") for line in filter(str.strip, found["rows"].split("\\\\"))]
     elif found := _LISTS.fullmatch(text) or _LIST.fullmatch(text):
         rows = [row.split(",") for row in _BETWEEN_LISTS.split(found["rows"])]
         rows = [[row[0] for row in rows]] if all(len(row) == 1 for row in rows) else rows
-        is_list = True
     else:
         return _Formula(vocabulary, text).value()
-    entries = [[_Formula(vocabulary, entry, is_list).value() for entry in row] for row in rows]
+    entries = [[_Formula(vocabulary, entry).value() for entry in row] for row in rows]
     if [len(row) for row in rows] == [1]:
         return entries[0][0]
     if all(isinstance(entry, Symbol) for row in entries for entry in row):
@@ -95,12 +104,16 @@ def _value(vocabulary: Vocabulary, text: str) -> Node | Grid:
 
 
 class _Formula:
-    """One formula, whose pieces are taken from the end of a list; where it `is_listed` a blank is no sign."""
+    """One formula, whose pieces are taken from the end of a list.
 
-    __slots__ = ("is_listed", "nesting", "pieces", "vocabulary")
+    `terms` and `degree` are bounds on those of the part that was read last, multiplied out.
+    """
 
-    def __init__(self, vocabulary: Vocabulary, text: str, is_listed: bool = False) -> None:
-        self.vocabulary, self.is_listed, self.nesting = vocabulary, is_listed, 0
+    __slots__ = ("degree", "nesting", "pieces", "terms", "vocabulary")
+
+    def __init__(self, vocabulary: Vocabulary, text: str) -> None:
+        self.vocabulary, self.nesting = vocabulary, 0
+        self.terms = self.degree = 1
         self.pieces = [("end", ""), *reversed(list(_pieces(text)))]
 
     def value(self) -> Node:
@@ -113,22 +126,26 @@ class _Formula:
             raise _OtherError
 
     def sum(self) -> Node:
-        pieces, terms = self.pieces, list[Node]()
+        pieces, found = self.pieces, list[Node]()
+        terms = degree = 0
         self.nesting += 1
         sign = pieces.pop()[0] if pieces[-1][0] in ("+", "-") else "+"
         while True:
             term = self.term()
-            terms.append(Negative(term) if sign == "-" else term)
+            terms += self.terms
+            degree = max(degree, self.degree)
+            found.append(Negative(term) if sign == "-" else term)
             sign = pieces[-1][0]
             if sign != "+" and sign != "-":
                 break
             pieces.pop()
         self.nesting -= 1
-        return terms[0] if len(terms) == 1 else Sum(tuple(terms))
+        self.terms, self.degree = terms, degree
+        return found[0] if len(found) == 1 else Sum(tuple(found))
 
     def term(self) -> Node:
         pieces, factors = self.pieces, list[Node]()
-        before, is_below = "", False
+        before, is_below, terms, degree = "", False, 1, 0
         while True:
             kind, text = pieces.pop()
             factor = self.factor(kind, text, before)
@@ -136,39 +153,69 @@ class _Formula:
             if pieces[-1][0] == "power":
                 if kind == "number":
                     raise _OtherError
-                factor = Power(factor, Number(int(pieces.pop()[1].strip("*^{}"))))
+                count = int(pieces.pop()[1].strip("*^{}"))
+                factor = Power(factor, Number(count))
+                self.terms, self.degree = comb(self.terms + count - 1, count), count * self.degree
             if is_below:
                 factors = [Quotient(_product(factors), factor)]
+                terms, degree = terms + self.terms, max(degree, self.degree)
             else:
                 factors.append(factor)
+                terms, degree = terms * self.terms, degree + self.degree
+            if terms > MAX_TERMS or degree > MAX_DEGREE:
+                raise _OtherError
             kind = pieces[-1][0]
             is_below = kind == "/"
             if is_below or kind == "times":
                 pieces.pop()
                 before = ""
             elif kind not in _BEGINS:
+                self.terms, self.degree = terms, degree
                 return _product(factors)
-            elif self.is_listed or (kind == "number" and before == "number"):
+            elif kind == before == "number":
                 raise _OtherError
 
     def factor(self, kind: str, text: str, before: str) -> Node:
         """A name, a number, a function, a fraction or what stands in parentheses behind a `before`."""
-        if kind == "name" or kind == "number" or kind == "call":
-            return _meaning(self.vocabulary, text)
-        if kind == "(" and self.nesting < _MOST_NESTED:
+        if kind in _SPELLED:
+            found = self.spelled(kind, text)
+        elif kind == "(" and self.nesting < _MOST_NESTED:
             found = self.sum()
             self.expect(")")
-            if isinstance(found, Number) or (before == "name" and not isinstance(found, Sum)):
-                raise _OtherError  # an index, the arguments of a matrix or the number of an equation
-            return found
-        if kind == "frac" and self.nesting < _MOST_NESTED:
+        elif kind == "frac" and self.nesting < _MOST_NESTED:
             above = self.sum()
+            terms, degree = self.terms, self.degree
             self.expect("}")
             self.expect("{")
-            below = self.sum()
+            found = Quotient(above, self.sum())
+            self.terms, self.degree = terms + self.terms, max(degree, self.degree)
             self.expect("}")
-            return Quotient(above, below)
-        raise _OtherError
+        else:
+            raise _OtherError
+        if kind in _PARENTHESES and (
+            isinstance(found, Number) or (before == "name" and not isinstance(found, Sum))
+        ):
+            raise _OtherError  # an index, the arguments of a matrix or the number of an equation
+        return found
+
+    def spelled(self, kind: str, text: str) -> Node:
+        """The symbol, number or function that a spelling alone means, or a sum in parentheses."""
+        known = self.vocabulary.spelled
+        if text not in known:
+            if len(known) > _MOST_SPELLINGS:
+                known.clear()
+            known[text] = (_summed if kind == "group" else _asked)(self.vocabulary.fresh(), text)
+        found: Spelled | None = known[text]
+        if found is None:
+            raise _OtherError
+        self.terms, self.degree = found.terms, found.degree
+        if found.missed:
+            self.vocabulary.missed |= found.missed
+        return found.node
+
+
+_PARENTHESES = ("group", "(")
+_SPELLED = frozenset({"name", "number", "call", "group"})
 
 
 def _product(factors: list[Node]) -> Node:
@@ -181,7 +228,7 @@ def _pieces(text: str) -> Iterator[tuple[str, str]]:
     while position < length:
         found = match(text, position)
         if found is None:
-            if text[position:].isspace():
+            if _LAYOUT.fullmatch(text, position):
                 return
             raise _OtherError
         kind = str(found.lastgroup)
@@ -190,31 +237,29 @@ def _pieces(text: str) -> Iterator[tuple[str, str]]:
         position = found.end()
 
 
-def _meaning(vocabulary: Vocabulary, spelling: str) -> Node:
-    """The symbol, number or function that a spelling alone means, and nothing beside it."""
-    known = vocabulary.spelled
-    if spelling not in known:
-        if len(known) > _MOST_SPELLINGS:
-            known.clear()
-        known[spelling] = _asked(vocabulary, spelling)
-    meaning, missed = known[spelling]
-    if meaning is None:
-        raise _OtherError
-    vocabulary.missed.update(missed)
-    return meaning
+def _summed(names: Vocabulary, text: str) -> Spelled | None:
+    """What stands in parentheses."""
+    try:
+        formula = _Formula(names, text[1:-1])
+        return Spelled(formula.value(), formula.terms, formula.degree, names.missed)
+    except _OtherError:
+        return None
 
 
-def _asked(vocabulary: Vocabulary, spelling: str) -> tuple[Node | None, Set[str]]:
-    """What `grammar` makes of a spelling, and the names that it looked for in vain."""
-    nothing: tuple[None, Set[str]] = (None, frozenset())
+def _asked(names: Vocabulary, spelling: str) -> Spelled | None:
+    """What `grammar` makes of a spelling; None where it is no symbol, number or function alone."""
     if spelling[0] == "d":  # dq_1 may begin a derivative
-        return nothing
-    names = vocabulary.fresh()
+        return None
     try:
         found = read_right_side(names, prepared(spelling)[:-1])
     except ReadError:
-        return nothing
+        return None
     if not isinstance(found, RightSide) or names.missed_entries or not isinstance(found.value, _MEANINGS):
-        return nothing
-    said = found.references or found.notes or found.free or found.is_definition or found.has_letters
-    return nothing if said else (found.value, names.missed)
+        return None
+    if found.references or found.notes or found.free or found.is_definition or found.has_letters:
+        return None
+    size = check_size(found.value)
+    return Spelled(found.value, size.terms, size.degree, names.missed)
+
+
+_MEANINGS = Symbol | Function | Number | Power

@@ -15,7 +15,7 @@ the index that the term with the minus is derived by.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any
@@ -152,8 +152,7 @@ class Vocabulary(Struct):
     `defined` is what the student defined, `remembered` what was read since, `shared` what was read by all
     hand-ins before they said anything of their own; `from_zero` are the names whose
     indices count from 0; `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that
-    have an index; `spelled` are the symbols and functions that spellings mean in every hand-in, with what
-    was looked for in vain, `heads` what left sides name in it (`plain`).
+    have an index; `spelled` is what spellings mean in every hand-in, `heads` what left sides name there.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -181,7 +180,7 @@ class Vocabulary(Struct):
     from_zero: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
     shared: dict[Any, Any] = field(default_factory=dict)
-    spelled: dict[str, tuple[Node | None, Set[str]]] = field(default_factory=dict)
+    spelled: dict[str, Any] = field(default_factory=dict)
     heads: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def fresh(self) -> Vocabulary:
