@@ -46,12 +46,15 @@ class Proof:
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self._in_floats = any(_is_transcendental(g) for g in ring.generators)
-        self._point = () if self._in_floats else _random_point(ring)
+        self._point: tuple[int, ...] = ()
+        self._inverses = -1
         self._known: dict[Node, int] = {}
 
     def holds(self, expr: Expr, form: Node) -> bool:
         """Whether a form is an expression."""
         if not self._in_floats:
+            if self._inverses != len(self.ring.inverses):  # an answer may bring one
+                self._point, self._inverses = _random_point(self.ring), len(self.ring.inverses)
             try:
                 return self._tree(form) == self._poly(expr.poly)
             except AlgebraError:  # a constant angle that the ring knows by its multiples alone
