@@ -17,28 +17,31 @@ from math import comb
 from msgspec import Struct
 
 from dynsolve.answers.reading.answer_list import Member
+from dynsolve.answers.reading.grammar.scripts import RAISED
 from dynsolve.answers.reading.grids import MAX_DEGREE, MAX_TERMS, Grid, check_size, grid
 from dynsolve.answers.reading.left_side import RightSide, has_shape, read_right_side
 from dynsolve.answers.reading.lexer import GREEK_COMMANDS, Token
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
+from dynsolve.notation.characters import SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
 
 _INDEX = r"_(?:[A-Za-z0-9]+|\{[^{}]{1,20}(?:\{[^{}]{1,20}\}[^{}]{0,20})?\})"
-_LETTER = rf"(?:[A-Za-z]|\\(?:{'|'.join(GREEK_COMMANDS)})(?![A-Za-z]))"
-_SQUARE = r"(?:\{[2-9]\}|[2-9](?![0-9.eE]))"
+_SIGN = "[A-Za-zα-ωΑ-Ω][\u0307\u0308]?"
+_LETTER = rf"(?:{_SIGN}|\\(?:{'|'.join(GREEK_COMMANDS)})(?![A-Za-z]))"
+_POWER = rf"(?:[{SUPERSCRIPT_DIGITS[2:]}]|(?:\^|\*\*)(?:\{{[2-9]\}}|[2-9](?![0-9.eE])))"
 _LAYOUT = re.compile(r"(?:\s|\\(?:(?:left|right)(?![A-Za-z.])|[,;:!\ ]))*+")
 _PIECE = re.compile(
     rf"""{_LAYOUT.pattern}(?:
-      (?P<call>\\?(?:sin|cos|tan)(?:\^{_SQUARE})?(?:(?:\\left)?\([^()=]{{1,80}}\)
-        |(?<=[a-z}}])\s?{_LETTER}{_INDEX}(?!\s*[\w{{^(])))
+      (?P<call>\\?(?:sin|cos|tan){_POWER}?(?:(?:\\left)?\([^()=]{{1,80}}\)
+        |(?<=[a-z}}2-9])\s?(?:{_LETTER}(?:{_INDEX})?|{_SIGN}[A-Za-z0-9_]+)(?![\w{{])(?!\s*[{{^(_'²\[])))
     | (?P<frac>\\[dt]?frac\{{)
-    | (?P<times>\*(?!\*)|\\cdot(?![A-Za-z]))
+    | (?P<times>\*(?!\*)|[·⋅]|\\cdot(?![A-Za-z]))
     | (?P<name>(?:\\d?dot\s?(?:\{{{_LETTER}(?:{_INDEX})?\}}|{_LETTER})(?:{_INDEX})?
-        |{_LETTER}{_INDEX}|[A-Za-z][A-Za-z0-9_]*|{_LETTER})(?![\w{{])(?:(?:\^|\*\*){_SQUARE})?)
+        |{_LETTER}{_INDEX}|{_SIGN}[A-Za-z0-9_{SUBSCRIPT_DIGITS}]*'{{0,2}}|{_LETTER})(?:(?![\w'{{])|(?=[²³])){_POWER}?)
     | (?P<number>[0-9]+(?:\.[0-9]+)?(?![0-9.]|[eE][-+0-9]))
-    | (?P<power>(?:\^|\*\*){_SQUARE})
+    | (?P<power>{_POWER})
     | (?P<group>\((?:[^()]|(?<=sin|cos|tan)\([^()]*\)|(?<=(?:sin|cos|tan)\^\{{[2-9]\}})\([^()]*\)){{1,99}}+\))
     | (?P<sign>[-+/(){{}}])
     )""",
@@ -153,7 +156,7 @@ class _Formula:
             if pieces[-1][0] == "power":
                 if kind == "number":
                     raise _OtherError
-                count = int(pieces.pop()[1].strip("*^{}"))
+                count = int(pieces.pop()[1].strip("*^{}").translate(RAISED))
                 factor = Power(factor, Number(count))
                 self.terms, self.degree = comb(self.terms + count - 1, count), count * self.degree
             if is_below:

@@ -109,12 +109,12 @@ def _unclosed(opening: Token, closing: str) -> ReadError:
 # Powers: which exponents are read, and the trees they make
 
 
-_RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
+RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
 
 
 def raised_number(token: Token) -> int:
     """The number that raised digits spell."""
-    digits = token.text.translate(_RAISED)
+    digits = token.text.translate(RAISED)
     if len(digits) > 4:
         raise token.fault("an exponent is a small whole number")
     return int(digits)

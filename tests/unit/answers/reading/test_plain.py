@@ -14,6 +14,9 @@ SCALARS = [
     r"\frac{1}{2} m_{2} (\dot{q}_{1}^{2} + l_{1}^{2} \dot{q}_{2}^{2}) \cdot 3",
     r"- m_1 \sin^2(q_1) l_{\mathrm{c}1} + 10 \cos q_2",
     "-(m1 - m2)**2*g/2/l1*lc1 - 1.50*m1",
+    "m₂·l₁²·q̇₂ - cos(q₁ + q₂)²·q̇₁² + 3·I₂",
+    "m1*q1'^2*q2'' + sin q2",
+    r"\cos q_2 m_1 \sin^2 q_1 - \dot q_2 \ddot{q}_1",
     r"g \left(m_1 l_1 + m_2\right) \sin\left(q_1 + q_2\right)",
 ]
 MATRICES = [
@@ -22,8 +25,8 @@ MATRICES = [
     r"\left[\begin{matrix}m_1 + m_2 & 0\\0 & I_2\end{matrix}\right]",
 ]
 OTHERS = [
-    "m1g", "g(q1)", "m_2^2_1", "m1 l1'", "h", "2 3", "m1*-g", "sin q1 m1", "(3) m1", "2e1*m1", "m_{1}g", "",
-    "m1*[l1]", "d/dt m1", "m1 == g", "m1)", "((m1)", "m1**0.5", "theta",
+    "m1g", "g(q1)", "m_2^2_1", "m1 l1'", "m1'''", "cos q_1^2", "cos q1(q2)", "m₁₂²g²", "h", "2 3", "m1*-g",
+    "(3) m1", "2e1*m1", "m_{1}g", "", "m1*[l1]", "d/dt m1", "m1 == g", "m1)", "((m1)", "m1**0.5", "theta",
 ]  # fmt: skip
 
 
