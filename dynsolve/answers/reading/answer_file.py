@@ -41,6 +41,7 @@ from dynsolve.answers.reading.left_side import (
     UnknownSide,
     read_left_side,
     read_right_side,
+    side_of,
 )
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.matrix_parts import shown
@@ -350,12 +351,7 @@ def _key(reader: EquationReader, name: str) -> LeftSide:
     """What a key of an answer file names."""
     if name.startswith("I") and reader.vocabulary.is_answer(name):
         return NamedAnswers((name,))
-    if candidates := reader.plainly_named(name):
-        return NamedAnswers(candidates)
-    try:
-        return read_left_side(reader.vocabulary, prepared(name)[:-1])
-    except ReadError:
-        return None
+    return side_of(reader.vocabulary, name)
 
 
 def _given(reader: EquationReader, candidates: tuple[str, ...], origin: Origin) -> list[Answer]:

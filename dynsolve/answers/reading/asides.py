@@ -12,7 +12,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from functools import cache
 from itertools import islice
 
 from msgspec.structs import replace
@@ -41,6 +40,7 @@ from dynsolve.answers.reading.left_side import (
     read_left_side,
     read_left_sides,
     read_right_side,
+    spoken_in,
     spoken_of,
 )
 from dynsolve.answers.reading.lexer import Token
@@ -321,15 +321,9 @@ def _list(
     is_read: bool = False,
 ) -> None:
 
-    @cache
     def named(text: str) -> tuple[str, ...]:
         """What is asked for of the answers that a text speaks of."""
-        try:
-            member = prepared(text)[:-1]
-        except ReadError:
-            return ()
-        names = spoken_of(reader.vocabulary, member, read_left_side(reader.vocabulary, member))
-        return tuple(name for name in names if name in reader.vocabulary.asked)
+        return tuple(name for name in spoken_in(reader.vocabulary, text) if name in reader.vocabulary.asked)
 
     seen = set[tuple[int, tuple[str, ...]]]()
     matches = list(islice(pattern.finditer(text), _MOST))

@@ -34,8 +34,7 @@ from dynsolve.answers.reading.configurations import (
 )
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
-from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
-from dynsolve.answers.reading.prepare import prepared
+from dynsolve.answers.reading.left_side import NamedAnswers, side_of
 from dynsolve.answers.reading.report_text import QUOTED, REJECTED, SUPPOSED
 from dynsolve.answers.reading.set_text import (
     ALL,
@@ -60,7 +59,6 @@ from dynsolve.answers.reading.set_text import (
 )
 from dynsolve.answers.reading.sources import Source, placed
 from dynsolve.answers.verdict import Place
-from dynsolve.errors import ReadError
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
 from dynsolve.questions.constraints import REDUCED
@@ -479,11 +477,7 @@ class DisplayedSets(Struct, dict=True):
         left = row.partition("=")[0]
         if _ARROW.search(row) or _IS_ZERO.search(row) or self._is_unknown(left):
             return False
-        try:
-            named = read_left_side(self.reader.vocabulary, prepared(left)[:-1])
-        except ReadError:
-            return False
-        return isinstance(named, NamedAnswers)
+        return isinstance(side_of(self.reader.vocabulary, left), NamedAnswers)
 
     def _are_branches(self, text: str, is_announced: bool) -> bool:
         """Whether every equation gives a coordinate, or its sine or cosine, by what is to be reached.

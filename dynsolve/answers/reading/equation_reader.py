@@ -49,6 +49,7 @@ from dynsolve.answers.reading.left_side import (
     read_left_side,
     read_left_sides,
     read_right_side,
+    side_of,
     spoken_of,
     why_no_value,
     without_factor,
@@ -59,7 +60,7 @@ from dynsolve.answers.reading.name_splitting import gives_new_meaning, keep_symb
 from dynsolve.answers.reading.plain import plain_member
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import CONDITION, CONSTANT
-from dynsolve.answers.reading.vocabulary import USUAL, Meaning, Vocabulary, defined_order, order_of_pair
+from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, defined_order, order_of_pair
 from dynsolve.answers.verdict import Answer, NotRecognized
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Node, Reference, names_in
@@ -98,8 +99,6 @@ _CONTROL = re.compile(
 
 _OF_SEVERAL_KINDS = frozenset({"det", "friction"})
 """Answers whose equations may say something else."""
-
-_MOST_HEADS = 1_000
 
 _DEFINITION = "it defines an abbreviation"
 _MORE_THAN_NAME = "its left side is more than a name"
@@ -186,7 +185,7 @@ class EquationReader:
         head, sign, _ = display.text.partition("=")
         if not sign or self.macros or len(self.found.answers) >= MAX_ANSWERS:
             return False
-        candidates = self.plainly_named(head)
+        candidates = self._plainly_named(head)
         member = candidates and plain_member(self.vocabulary, display.text, len(head) + 1, 1, candidates)
         if not member or not isinstance(member.found, RightSide) or isinstance(member.found.value, Function):
             return False
@@ -198,28 +197,22 @@ class EquationReader:
             self.found.answers += self.found.value([candidates], member, self.origin(display, display.label))
         return not is_called
 
-    def plainly_named(self, head: str) -> tuple[str, ...]:
+    def _plainly_named(self, head: str) -> tuple[str, ...]:
         """The answers that a left side names by the very name of one, which is nothing else as well."""
         vocabulary = self.vocabulary
-        known = vocabulary.heads
-        if head not in known:
-            if len(known) > _MOST_HEADS:
-                known.clear()
-            known[head] = ()
-            names = vocabulary.fresh()
-            try:
-                tokens = prepared(head)[:-1]
-                side = read_left_side(names, tokens) if tokens else None
-            except ReadError:
+
+        def read() -> tuple[str, ...]:
+            side = side_of(vocabulary, head)
+            if not isinstance(side, NamedAnswers):
                 return ()
-            if not isinstance(side, NamedAnswers) or entry_of(names, tokens) is not None:
-                return ()
-            is_named = name_alone(names, tokens) in side.candidates and not part_of(names, tokens)
-            is_other = side.candidates[0] in _OF_SEVERAL_KINDS or names.missed or names.missed_entries
-            has_forces = vocabulary.passive or _NAMES[0] in vocabulary.quantities
-            if is_named and not is_other and not (side.candidates[0] == "tau" and has_forces):
-                known[head] = side.candidates
-        return known[head] if vocabulary.has_no_other_names and vocabulary.orders == USUAL else ()
+            tokens, first = prepared(head)[:-1], side.candidates[0]
+            is_named = name_alone(vocabulary, tokens) in side.candidates and not part_of(vocabulary, tokens)
+            is_other = first in _OF_SEVERAL_KINDS or entry_of(vocabulary, tokens) is not None
+            may_move = first == "tau" and (vocabulary.passive or _NAMES[0] in vocabulary.quantities)
+            is_missed = vocabulary.missed or vocabulary.missed_entries
+            return side.candidates if is_named and not (is_other or may_move or is_missed) else ()
+
+        return vocabulary.once(("plain", head), read) if vocabulary.is_untouched else ()
 
     def origin(self, display: Display, label: str) -> Origin:
         """Where the next equation stands."""

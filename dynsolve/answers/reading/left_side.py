@@ -26,7 +26,8 @@ from dynsolve.answers.reading.grammar.scripts import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, check_size
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.name_splitting import split_names
-from dynsolve.answers.reading.vocabulary import SET_KINDS, Vocabulary
+from dynsolve.answers.reading.prepare import prepared
+from dynsolve.answers.reading.vocabulary import MOST_REMEMBERED, SET_KINDS, Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Function, Negative, Reference, Sum, Symbol, walk
 from dynsolve.quantities.family import Kind
@@ -127,6 +128,18 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
     return UnknownSide(own, (), True, "") if own and own in vocabulary.defined else None
 
 
+def side_of(vocabulary: Vocabulary, text: str) -> LeftSide:
+    """What a text names as a side of an equation."""
+
+    def read() -> LeftSide:
+        try:
+            return read_left_side(vocabulary, prepared(text)[:-1])
+        except ReadError:
+            return None
+
+    return vocabulary.once(text, read)
+
+
 def without_factor(vocabulary: Vocabulary, members: list[list[Token]]) -> list[list[Token]]:
     r"""The members of `2K = ...` divided by the number; those of `\sum M_2 = ...` without the sign."""
     first = members[0]
@@ -171,6 +184,19 @@ def spoken_of(vocabulary: Vocabulary, member: list[Token], side: LeftSide) -> tu
             return named.candidates
     sets = tuple(name for name in SETS if name in vocabulary.quantities)
     return sets if sets and _is_of_coordinate(vocabulary, member) else ()
+
+
+def spoken_in(vocabulary: Vocabulary, text: str) -> tuple[str, ...]:
+    """The answers that a text speaks of."""
+
+    def read() -> tuple[str, ...]:
+        try:
+            member = prepared(text)[:-1]
+        except ReadError:
+            return ()
+        return spoken_of(vocabulary, member, read_left_side(vocabulary, member))
+
+    return vocabulary.once(("spoken", text), read)
 
 
 def _is_of_coordinate(vocabulary: Vocabulary, member: list[Token]) -> bool:
@@ -309,10 +335,6 @@ _LONGEST_UNIT = 30
 _PENDING = frozenset("+ - * / ^ _ cdot times command".split())
 
 
-_MOST_REMEMBERED = 500
-"""So many values are remembered before they are forgotten."""
-
-
 class RightSide(Struct, frozen=True):
     """A member that was read, with what its value is made of.
 
@@ -339,31 +361,11 @@ def read_right_side(
     written = (owners, *member)
     found = vocabulary.remembered.get(written)
     if found is None:
-        if len(vocabulary.remembered) > _MOST_REMEMBERED:
+        if len(vocabulary.remembered) > MOST_REMEMBERED:
             vocabulary.remembered.clear()
-        read = _read_shared if vocabulary.is_untouched else _read_anew
-        found = vocabulary.remembered[written] = read(vocabulary, member, owners)
-    return found
-
-
-def _read_shared(
-    vocabulary: Vocabulary, member: list[Token], owners: tuple[str, ...]
-) -> RightSide | ReadError:
-    """The same where other hand-ins may have it: with what was looked for in vain, it is read once."""
-    known, written = vocabulary.shared, (owners, *member)
-    found: RightSide | ReadError | None
-    found, missed, entries = known.get(written, (None, set(), set()))
-    if found is None:
-        before = vocabulary.missed, vocabulary.missed_entries
-        vocabulary.missed, vocabulary.missed_entries = missed, entries
-        found = _read_anew(vocabulary, member, owners)
-        vocabulary.missed, vocabulary.missed_entries = before
-        if len(known) > _MOST_REMEMBERED:
-            known.clear()
-        if isinstance(found, RightSide):
-            known[written] = found, missed, entries
-    vocabulary.missed |= missed
-    vocabulary.missed_entries |= entries
+        by_entries = frozenset(vocabulary.own_entries), written
+        found = vocabulary.once(by_entries, lambda: _read_anew(vocabulary, member, owners))
+        vocabulary.remembered[written] = found
     return found
 
 

@@ -19,7 +19,7 @@ from dynsolve.answers.reading.displayed_sets import DisplayedSets, headed_sets, 
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grids import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
-from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
+from dynsolve.answers.reading.left_side import NamedAnswers, side_of
 from dynsolve.answers.reading.lexer import Macro, Token, closing_brace, tokenize
 from dynsolve.answers.reading.matrix_parts import said_zero, shown
 from dynsolve.answers.reading.plain_text import plain_lines
@@ -319,18 +319,11 @@ def _plain(
 
 def _answer_names(reader: EquationReader) -> NamesAnswer:
     """Says of the beginning of a line whether it is the name of an answer."""
-    known: dict[str, bool] = {}
+    heads = set[str]()
 
     def names_answer(head: str) -> bool:
-        if head not in known:
-            if len(known) > _MOST_HEADS:
-                return False
-            try:
-                side = read_left_side(reader.vocabulary, prepared(head)[:-1])
-                known[head] = isinstance(side, NamedAnswers)
-            except ReadError:
-                known[head] = False
-        return known[head]
+        heads.add(head)
+        return len(heads) <= _MOST_HEADS and isinstance(side_of(reader.vocabulary, head), NamedAnswers)
 
     return names_answer
 

@@ -18,15 +18,17 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
+from typing import Any, TypeVar
 
 from msgspec import Struct, field
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lexer import GREEK_COMMANDS, Token
+from dynsolve.errors import ReadError
 from dynsolve.notation.characters import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
+from dynsolve.notation.tree_values import keep
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantities, Shape, quantities
@@ -121,6 +123,12 @@ ZERO_LEVELS = ENERGY_LEVELS | frozenset("h0 H0 z0 y0 x0 h H href Href hzero hb P
 _SHORTHAND = re.compile(r"([sScC])([0-9]+)")
 
 
+MOST_REMEMBERED = 500
+"""So many values are remembered before they are forgotten."""
+
+_T = TypeVar("_T")
+
+
 class Meaning(Struct, frozen=True):
     """What a name stands for, and what the student is told about a reading that was not obvious.
 
@@ -152,7 +160,7 @@ class Vocabulary(Struct):
     `defined` is what the student defined, `remembered` what was read since, `shared` what was read by all
     hand-ins before they said anything of their own; `from_zero` are the names whose
     indices count from 0; `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that
-    have an index; `spelled` is what spellings mean in every hand-in, `heads` what left sides name there.
+    have an index; `spelled` is what spellings mean in every hand-in.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -181,7 +189,6 @@ class Vocabulary(Struct):
     letters: frozenset[str] = frozenset()
     shared: dict[Any, Any] = field(default_factory=dict)
     spelled: dict[str, Any] = field(default_factory=dict)
-    heads: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
@@ -190,7 +197,7 @@ class Vocabulary(Struct):
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
             self.asked, subscripts=self.subscripts, base_is_world=self.base_is_world,
             from_zero=self.from_zero, letters=self.letters, shared=self.shared,
-            spelled=self.spelled, heads=self.heads,
+            spelled=self.spelled,
         )  # fmt: skip
 
     @property
@@ -201,8 +208,26 @@ class Vocabulary(Struct):
     @property
     def is_untouched(self) -> bool:
         """Whether the names are those of the problem alone, as in every other hand-in."""
-        own = self.own_entries or self.from_zero
-        return self.has_no_other_names and not own and self.orders == USUAL
+        return self.has_no_other_names and not self.from_zero and self.orders == USUAL
+
+    def once(self, written: Any, read: Callable[[], _T]) -> _T:
+        """What is read of something, with what is looked for in vain: once for the hand-ins to a problem."""
+        if not self.is_untouched:
+            return read()
+        if written not in self.shared:
+            before = self.missed, self.missed_entries
+            self.missed, self.missed_entries = set(), set()
+            found = read(), self.missed, self.missed_entries
+            self.missed, self.missed_entries = before
+            if isinstance(found[0], ReadError):  # which would keep all that was read on its way
+                self.missed |= found[1]
+                self.missed_entries |= found[2]
+                return found[0]
+            keep(self.shared, written, found, MOST_REMEMBERED)
+        known: tuple[_T, set[str], set[str]] = self.shared[written]
+        self.missed |= known[1]
+        self.missed_entries |= known[2]
+        return known[0]
 
     def define(self, name: str, meaning: Meaning) -> None:
         """Keep what the student says a name is, from here on."""
