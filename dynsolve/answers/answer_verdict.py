@@ -7,10 +7,6 @@
     wrong        else; then each wrong entry is diagnosed
 
 A matrix has a verdict for each entry, C for each row of C q̇, and takes the worst.
-
-The verdict of a set of configurations: singular ones, branches of the inverse kinematics.
-
-The verdict of what a student says of matrices: whether each can be an inertia matrix.
 """
 
 from __future__ import annotations

@@ -21,8 +21,6 @@ Formulas of names alone that count as answers: τ = D q̈ + C q̇ + g beside a D
 A formula like this says how a quantity is found, and is a definition.  Where the quantity is
 asked for, and nothing else in the file gives it, it is what the student's own answers make of it.
 
-Hand-ins are read and judged in a child process with limits of time and memory.
-
 The reader and the ring bound their work before it is done; still, a library in C cannot
 be interrupted, and aborts its process where memory ends.  The limit of time is on the
 processor, not on the clock, so that no verdict depends on how busy the machine is.

@@ -4,8 +4,6 @@ A matrix earns by its entries that carry something in the key; the others are ze
 can write, and count with the rest.  With r of N entries right, and z of the Z zeros, the share is
 r/N · (N + z)/(N + Z): one slip takes its part, wherever it is made, and zeros alone earn nothing.
 
-How verdicts become marks: the shares, the caps and the rounding that a course decides on.
-
 What an answer is worth beside its verdict: zeros are easy to write, and following is easy from nothing.
 
 An answer, or an entry of it, is `zero` where the key is 0 for every q: such an entry earns with the

@@ -1,7 +1,5 @@
 """What is said of an answer: data, made in `judge`, shown in `report`.
 
-The record of one hand-in: its answers with their places, before anything is judged.
-
 `answers.reading` makes these records, `answers.judging` and `answers.diagnosis` use
 them; they are data and compute nothing.  The trees are made of the problem's own
 symbols: coordinates (`Symbol(name, dots)`), parameters, sines and cosines.  An argument

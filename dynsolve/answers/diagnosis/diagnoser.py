@@ -5,8 +5,6 @@ own nearest answers lead to.  The explanations are tried in the order of `_IN_OR
 the end of this file, the nearest first.  Each brings its mend, and is told only where the
 mend, put into the answer, gives exactly what is expected (`Explanation.holds`); where none
 does, what differs is said, and no more.
-
-An answer that is to be explained, and an explanation of it, which is told only where it holds.
 """
 
 from __future__ import annotations

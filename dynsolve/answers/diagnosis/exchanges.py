@@ -10,8 +10,6 @@ pair of factors that people mistake for one another is tried (`factors`), and nu
 2 for a 1, a term that is missing or one too many.  Of those that stand in the answer the one
 with the lightest name (`exchanges`) is taken, then the one in the fewest terms.
 
-Slips in several terms, from the exact difference of an answer and what was expected.
-
 What is equal is taken away, part by part (a monomial in the symbols times sines and cosines).
 Of a part that both have, the slip is in its sines and cosines or in its number; what is left of
 the answer is matched with what is left of the expected value by the slip that leads from one to

@@ -1,12 +1,8 @@
 """What the steps of a derivation give from the student's own answers: done right, and done otherwise.
 
-Slips that run through the derivation: the graph with one rule replaced.
-
 A wrong step is told by what it makes of everything after it.  Each variant of a
 step (see `steps`) is put into the key's derivation, and the answer is compared with
 what comes out at its own place.
-
-Naming the one slip that explains all the wrong entries of a matrix.
 """
 
 from __future__ import annotations

@@ -1,11 +1,4 @@
-"""What is diagnosed: one scalar that is wrong, and whether its terms can be added at all.
-
-Terms in words: exact expressions as one line of Unicode, for messages.
-
-What differs, where no slip explains it: said of the terms, with nothing read into them.
-
-A number where a letter belongs: 9.81 for g, in some terms of an answer or in all of them.
-"""
+"""What is diagnosed: one scalar that is wrong, and whether its terms can be added at all."""
 
 from __future__ import annotations
 

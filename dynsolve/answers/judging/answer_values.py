@@ -4,8 +4,6 @@ Every answer is admitted to the ring by itself: one that cannot be held is
 unreadable and leaves the others as they are.  Names that occur inside a value stand
 for the student's own answers (`OwnNames`); one that is given nowhere makes it a definition.
 
-Answers in the student's own coordinates, as they read in the problem's.
-
 Where the student's coordinate is -q_i plus a constant, the rates and the generalized force
 of it have the other sign.  With S the diagonal matrix of the signs: τ, f, g, C q̇, dLdqd, ddt
 and dLdq become S times themselves, D and C become S D S and S C S, a Jacobian J S,
@@ -19,14 +17,10 @@ What the problem states (the tensors of the bodies) and what is no answer (rotat
 is the key's.  Anything else that the student gives nowhere makes the equation a
 definition: it says what a quantity is, and not what it comes to.
 
-Names of generalized forces in what is solved for: the inputs of the motors.
-
 In q̈ = D⁻¹ (τ + Q - C q̇ - g) and λ = -(A_c D⁻¹ A_cᵀ)⁻¹ (A_c D⁻¹ (τ + Q - C q̇ - g) + Ȧ_c q̇) a name as τ₁
 is what a motor gives, never the student's own answer τ₁, which holds the accelerations; a coordinate
 without a motor has none.  In equations of motion, D q̈ + C q̇ + g - A_cᵀ λ, a name as λ₁ is the force of a
 constraint, and never the answer λ.
-
-Planar robots: vectors and Jacobians without the rows that are zero for every q.
 
 A robot is planar where no point of it ever moves along one axis and everything turns about
 that axis alone.  Then 2-vectors, J_v as 2×n, J_ω as 1×n and J as 3×n (the velocity in

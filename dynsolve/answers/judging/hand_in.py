@@ -7,8 +7,6 @@ A quantity may be given in several equations, and an equation may be a chain
 open which quantity is meant (I_1), it is the one that the value equals.  The zero of
 height is the student's own.
 
-The zero of height, which is the student's to choose.
-
 P may differ from the key by h0 Σ m_i |g|, with one height h0 for all bodies, free of
 coordinates, masses and g, of dimension length.  What is looked for is the potential
 φ = |g| h0 that a unit of mass has at the key's zero of height.

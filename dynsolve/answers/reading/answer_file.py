@@ -5,14 +5,8 @@ stand between their quotes (`yaml_values`).  Only a file that YAML refuses is cu
 (`entries`), and each value then tried as YAML by itself, so that one bad line makes one
 answer unreadable and never the file.  Nothing is expanded, converted or constructed.
 
-Answer files that YAML refuses, key by key and line by line.
-
 A value is whatever stands between one key and the next, so that `\frac{a}{b}` in a list, a tag
 or a bracket that never closes spoils that value alone.
-
-The student's own names: `symbols: {q1: theta1 - 90deg}` and `let: {h: m2*l1*lc2*sin(q2)}`.
-
-Answers that are verdicts on matrices.
 
     definite: {Ma: "no", Mb: yes, Mc: if}
     definite: yes                              # where there is one matrix

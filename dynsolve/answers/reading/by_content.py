@@ -10,8 +10,6 @@ No side of such an equation is the name of an answer alone.  The generalized for
 that is a name of one, and everything else brought to the other side is the answer; where no term
 is one, the equation is that of a coordinate that no motor drives.
 
-Equations whose left side names an answer that they do not give.
-
 Constants that a report says (g = 9.81), letters for what drives the joints (τ = (u, 0)), and vectors that
 are called as a force is (Craig's F_i = m v̇_c).
 """

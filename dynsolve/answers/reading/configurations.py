@@ -10,10 +10,6 @@ of the coordinates; `none` is no branch at all.  `±` stands for two branches
 (alternatives), linked with every other ± of the same branch, and against every ∓ of it; `k*pi`
 with a letter that means nothing else, for all whole multiples.
 
-Formulas of sets and branches: read, and asked which coordinates and names stand in them.
-
-Lists and mappings in a text that YAML refuses, found by their brackets alone.
-
     [{q2: \arccos\frac{a}{b}, q1: \operatorname{atan2}(y, x)}, {q2: ..., q1: ...}]
 
 A brace opens a mapping where an item begins and a name with a colon follows; every other one belongs

@@ -4,12 +4,8 @@ In a report it is a table of Markdown (`| i | $\theta_i$ | ...`), of LaTeX (`tab
 columns of plain text; its rows are those of the table, or its columns where it lies on its side.  Each
 becomes rows [θ, d, a, α], in which every character keeps its place.
 
-The cells of a table of Denavit-Hartenberg parameters as a report has them, and as they are read.
-
 What is only set beside a value is left out: dollars, rules, "(variable)"; a dash or nothing is 0.  Every
 character that is kept stays at its place.
-
-The heads of tables of Denavit-Hartenberg parameters: which column is θ, which d, a, α.
 
 A head is a symbol ($\alpha_{i-1}$, `theta_i [deg]`), a symbol after its words (`Link length a_i`), or words
 alone (`twist`, `Rot x`).

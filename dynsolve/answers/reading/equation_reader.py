@@ -5,8 +5,6 @@ read as a value (`left_side`) and is one answer to each of the names (`answer_li
 member of names alone, like K = K_1 + K_2, is a definition and no answer.  A chain whose left
 side is a name of the student's own defines that name for what follows.
 
-Linear models as they are written out: `\dot x = [...] x + [...] u` gives A and B.
-
 What the state is called does not matter: the matrix that begins each term is taken.
 """
 

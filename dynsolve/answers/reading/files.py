@@ -1,7 +1,5 @@
 """A file that was handed in -> a `Submission`, by its ending.
 
-Word, LibreOffice, typst, Org and reStructuredText, read by pandoc as a report.
-
 Pandoc comes with the extra `office` (PyPI's `pypandoc_binary` is its binary in a wheel) and runs as a process
 of its own, without access to files and with limits of memory and time.  It gives its tree of the document
 as JSON; here that becomes a report in Markdown, the formulas in LaTeX.  What is struck through is

@@ -2,8 +2,6 @@
 
 Nothing is computed: an entry of a product is the tree of the sum of products.  Only
 zeros and ones that matrices are full of are left out.
-
-How much is read: a hand-in over one of these bounds is `unreadable`, and says which.
 """
 
 from __future__ import annotations

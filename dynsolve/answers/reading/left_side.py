@@ -1,7 +1,4 @@
-"""What the sides of an equation name: answers, nothing known, or nothing at all.
-
-The members of an equation that are no names: each read as a value, or why it has none.
-"""
+"""What the sides of an equation name: answers, nothing known, or nothing at all."""
 
 from __future__ import annotations
 

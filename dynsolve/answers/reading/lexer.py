@@ -5,8 +5,6 @@ What only sets type (`\left`, `\,`, `\displaystyle`) yields no token.  A sign or
 means the same as another (`\cdot`, `·`) is one more row in a table here.
 
 Words in formulas: `\text{...}`, units, the names of modules, dots that stand behind a name.
-
-The student's own commands, written out.
 """
 
 from __future__ import annotations

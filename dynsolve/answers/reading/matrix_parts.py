@@ -6,8 +6,6 @@ V_1 is a potential energy too, and h_1 may be anything: what they are is seen wh
 there, hold velocities, and an inertia matrix or gravity terms stand beside them, but no energies.
 
 Values in the shape of the answers they are given for: columns, zeros, the parts of a model.
-
-What a sentence says of the entries that are not written: `all others are zero`, `sonst 0`.
 """
 
 from __future__ import annotations

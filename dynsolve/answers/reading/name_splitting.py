@@ -1,7 +1,5 @@
 """Runs of letters cut into the names of the problem: `m_2gL_1` is m_2, g and L_1.
 
-Keeping a name of the student's own, with all that follows from it: rates, sine and cosine.
-
 Coordinates that a student counts the other way, or from elsewhere: `symbols: {t2: pi/2 - theta2}`.
 
 What belongs to such a coordinate turns with it: its torque, rows of D, columns of a Jacobian.

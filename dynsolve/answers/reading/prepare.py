@@ -5,8 +5,6 @@ tokens.  Nothing here depends on the problem; runs of letters are cut into its n
 (`name_splitting`).
 
 `\begin` and `\end`: those that only align are left out, with the arguments that are no formula.
-
-Groups in braces: around one token, an argument, `{a \over b}`, or there to set type alone.
 """
 
 from __future__ import annotations

@@ -2,8 +2,6 @@ r"""What a reader of a report sees: its text without comments and without what i
 
 Every change keeps the length of the text, so that every character stays at its place.  One more
 way to hide text is one more pattern here.
-
-What the words around a formula in a sentence say of it: that it holds, or why it is no answer.
 """
 
 from __future__ import annotations

@@ -4,14 +4,10 @@ What joins equations is taken apart before any formula is read: `or` into altern
 equations that hold together, outside of parentheses; `and` binds closer, and a value without an
 equation of its own, the π of `θ₂ = 0 or π`, is another value of the equation before it.
 
-The words around sets in English, German and Norwegian: a table each, one row per language.
-
 `HEADS` are what a set is called at the head of a line or as a heading, `ANNOUNCED` what speaks of one in the
 text before a formula, `DENIED` what takes that back.  `CASE` makes of a formula behind it a case, of which
 its sentence has to say `SAID`.  `AND`, `OR` and `SO` join formulas, what
 stands behind `SINCE` gives the reason.  `ALL`, `ARBITRARY` and `REGARDLESS` say that a coordinate is free.
-
-Spaces as people write them: `span{[1, 0]}`, `\alpha [1, 0]^T`, `none`, `R^2`.
 
 What only says that vectors span a space is left out, so that the vectors remain; a space without a
 vector is 0, and a whole space the unit vectors.

@@ -1,7 +1,4 @@
-"""The text of a hand-in, whatever its bytes, and where in the file each character stands.
-
-A text that is put together from stretches of a file, and still knows where each character stands there.
-"""
+"""The text of a hand-in, whatever its bytes, and where in the file each character stands."""
 
 from __future__ import annotations
 

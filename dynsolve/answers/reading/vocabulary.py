@@ -5,8 +5,6 @@ A name is looked up by its key, its letters and digits alone: `I_{1,zz}`, `I1zz`
 coordinates with their derivatives, and q_i), the quantities of the derivation, and
 what the student defined.
 
-Which index of a Christoffel symbol counts the row, where a report defines its own.
-
 Spong's c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k) has the row last; Siciliano's c_ijk and the Γ_ijk
 of Murray, Li and Sastry and of Lynch and Park have it first.  In every one of them the row is
 the index that the term with the minus is derived by.

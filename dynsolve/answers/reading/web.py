@@ -1,7 +1,5 @@
 """Web pages: the text of an HTML file, its formulas as they were written in LaTeX.
 
-Jupyter notebooks: the Markdown cells as one report, its places those of the .ipynb file.
-
 Code is never run; what it says of an answer is listed, or read where nothing else answers that; a picture
 that it shows is listed.
 """

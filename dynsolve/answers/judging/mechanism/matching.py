@@ -11,8 +11,6 @@ have any x.  So the student's chain is laid on the key's, from the base on:
 
 Everything is in numbers; the caller repeats it for other values of the letters.
 
-A Denavit-Hartenberg table in numbers, as the chain of joint axes that it describes.
-
 A chain knows no frames: only where each joint's axis lies and which way it points when every
 coordinate is 0, and where the hand is then.  Two tables describe the same mechanism where their
 chains can be laid on each other (`matching`), whatever frames they were made with.

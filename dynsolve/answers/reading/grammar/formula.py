@@ -8,8 +8,6 @@ r"""The descent: prepared tokens -> a value in the symbols of the problem.
 Each rule is a method of `FormulaReader`, or a function of the module that is named after
 what it reads: `brackets`, `references`, `derivatives`, `names`.  Values are only put
 together: nothing is computed.
-
-Numbers as they are written: decimals, and degrees as `90°`, `90 deg` or `90^\circ`.
 """
 
 from __future__ import annotations

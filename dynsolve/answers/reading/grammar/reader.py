@@ -4,8 +4,6 @@
 one and ask it for the values inside, and `formula.FormulaReader` is the descent that ties
 them together.  So none of them imports another in a circle.
 
-Time derivatives of what coordinates are written in: θ̇_1 + θ̇_2 for θ_1 + θ_2.
-
 Derivatives that a student leaves to be taken: d/dt(m r² φ̇), ∂/∂q_1(½ m l² sin² q_1), term by term.
 """
 

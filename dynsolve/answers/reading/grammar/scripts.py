@@ -1,8 +1,6 @@
 r"""Names as they are written, and the scripts behind them: `\dot{L}_2^{\star 2}`, theta1'', q^T.
 
 Moving over the tokens of one formula: one is looked at, brackets close, levels are counted.
-
-A name as it is written, with what stands over, under and beside it: `\dot{L}_2^{\star 2}`.
 """
 
 from __future__ import annotations
