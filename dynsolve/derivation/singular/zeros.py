@@ -17,6 +17,8 @@ the matrix is 1 more than that of the rest.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import permutations
 from math import lcm
@@ -26,12 +28,13 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from msgspec import Struct
 
-from dynsolve.algebra.angles import names_of
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.factors import is_positive, trig_factors, trig_quotient
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.elimination import turn_of
+from dynsolve.errors import AlgebraError
 
 # Whether equations can hold together, and what follows from them, by Buchberger's algorithm
 
@@ -180,8 +183,8 @@ class Condition(Struct, frozen=True, dict=True):
     def reduced(self, other: Expr) -> Expr:
         """Another expression where this holds, up to a factor that is never 0.
 
-        An angle's sine, cosine or both are put in, also where the angle itself is 0, as springs have it; a
-        length that stands linearly is replaced;
+        An angle's sine, cosine or both are put in, also where the angle itself is 0, as springs have it, or
+        is given by others, as gears have it; a length that stands linearly is replaced;
         of any other condition it is only seen whether the expression has it as a factor.
         """
         (value,) = self.reduced_together((other,))
@@ -191,8 +194,8 @@ class Condition(Struct, frozen=True, dict=True):
         """Several expressions where this holds, up to a positive factor that all of them share."""
         for pair, sine, cosine in self._turn:
             return tuple(_at_angle(other, pair, sine, cosine) for other in others)
-        for index, pairs in self._zero:
-            return tuple(_at_zero(other, index, pairs) for other in others)
+        for images in self._given:
+            return tuple(_with_images(other, images) for other in others)
         for index, factor, rest in self._length:
             highest = max(
                 (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
@@ -233,7 +236,7 @@ class Condition(Struct, frozen=True, dict=True):
     @property
     def fixes_coordinate(self) -> bool:
         """Whether an angle has few values, or a length one, where this holds."""
-        return bool(self._turn or self._zero or self._length)
+        return bool(self._turn or self._given or self._length)
 
     @property
     def fixes_length(self) -> bool:
@@ -241,9 +244,9 @@ class Condition(Struct, frozen=True, dict=True):
         return bool(self._length)
 
     @property
-    def is_at_zero(self) -> bool:
-        """Whether it is q = 0 of an angle."""
-        return bool(self._zero)
+    def gives_angle(self) -> bool:
+        """Whether it is q = 0 of an angle, or gives it by others, as q₁ - q₂ = π does."""
+        return bool(self._given)
 
     @property
     def keeps_values(self) -> bool:
@@ -275,14 +278,16 @@ class Condition(Struct, frozen=True, dict=True):
         return []
 
     @cached_property
-    def _zero(self) -> list[tuple[int, list[Pair]]]:
-        """(generator q, the sines and cosines of q) where the condition is q = 0 for an angle q."""
+    def _given(self) -> list[dict[int, Expr]]:
+        """What generators are where the condition gives an angle by others: of the last one of these."""
         ring = self.expr.ring
-        for name, kind in ring.coordinates:
-            index = ring.symbol_indices.get((name, 0))
-            if kind == "revolute" and index is not None and self.expr in (q := ring.generator(index), -q):
-                pairs = [pair for pair in ring.pairs if {*names_of(pair.angle)} == {name}]
-                return [(index, pairs)]
+        relation = _linear_in_angles(self.expr)
+        for name in reversed([name for name, kind in ring.coordinates if kind == "revolute"]):
+            rate = dict(relation.terms).get(((name, 1),), 0) if relation else 0
+            if relation and rate:
+                rest = Angle.of(name) - relation * (1 / rate)
+                with suppress(AlgebraError):  # the ring has not every part of an angle
+                    return [_angle_put(ring, self.expr, name, rest)]
         return []
 
     @cached_property
@@ -318,12 +323,38 @@ def _at_angle(expr: Expr, pair: Pair, sine: int | None, cosine: int | None) -> E
     return Expr(ring, ring.ctx.from_dict({key: value for key, value in terms.items() if value}))
 
 
-def _at_zero(expr: Expr, index: int, pairs: Sequence[Pair]) -> Expr:
-    """An expression where an angle is 0, and so are its sines; its cosines are 1."""
-    found = _at_length(expr, index, expr.ring.one, expr.ring.zero, 0)
-    for pair in pairs:
-        found = _at_angle(found, pair, 0, 1)
+def _linear_in_angles(expr: Expr) -> Angle | None:
+    """An expression that is an angle of revolute coordinates and parts of π; None of any other."""
+    ring, found = expr.ring, Angle.zero()
+    angles = {name for name, kind in ring.coordinates if kind == "revolute"}
+    for exponents, number in expr.poly.to_dict().items():
+        used = [(ring.generators[i], int(e)) for i, e in enumerate(exponents) if e]
+        if len(used) != 1 or used[0][1] != 1 or used[0][0].kind != "symbol" or used[0][0].dots:
+            return None
+        name, rate = used[0][0].name, Fraction(int(number.p), int(number.q))
+        if name != "pi" and name not in angles:
+            return None
+        found += Angle((), rate * 180) if name == "pi" else Angle.of(name, rate)
     return found
+
+
+def _angle_put(ring: Ring, relation: Expr, name: str, rest: Angle) -> dict[int, Expr]:
+    """The generators of an angle as it is by others; `relation` is 0 there."""
+    own = ring.coefficient(relation, name)
+    found = {ring.symbol_indices[name, 0]: ring.symbol(name) - relation / own.number}
+    for pair in ring.pairs:
+        rate = dict(pair.angle.terms).get(((name, 1),))
+        if rate:
+            turned = pair.angle + (rest - Angle.of(name)) * rate
+            found |= {pair.sine: ring.sin(turned), pair.cosine: ring.cos(turned)}
+    return found
+
+
+def _with_images(expr: Expr, images: Mapping[int, Expr]) -> Expr:
+    """An expression with others for some generators."""
+    ring = expr.ring
+    every = [images.get(g.index, ring.generator(g.index)).poly for g in ring.generators]
+    return Expr(ring, ring.reduce(expr.poly.compose(*every, ctx=ring.ctx)))
 
 
 def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr, highest: int) -> Expr:

@@ -195,7 +195,7 @@ def _is_seen(alternative: Alternative, signs: ParameterSigns) -> bool:
     """Whether `conditions` are all that parameters need; a length that is given by others is there."""
     if not any(map(_has_parameter, alternative)):
         return True
-    open_values = [one.expr for one in alternative if not one.fixes_length and not one.is_at_zero]
+    open_values = [one.expr for one in alternative if not one.fixes_length and not one.gives_angle]
     return is_seen(open_values, signs)
 
 

@@ -801,3 +801,21 @@ def test_an_angle_that_a_spring_holds_is_solved_for() -> None:
     text = SPRUNG.format(gravity="none", coordinates="a: revolute", energy="k*(2*a - pi)^2/2")
     (row,) = told_of(text).result
     assert to_unicode(row) == "a = π/2" and not told_of(text).outcome
+
+
+GEARED = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {a: revolute, b: revolute}
+  bodies: [{mass: m, at: [l*sin(a), l*cos(a), 0]}, {mass: %s, at: [l*sin(b), l*cos(b), 0]}]
+constraints: [a - b - 180deg]
+find: [equilibria]
+"""
+
+
+def test_an_angle_that_a_gear_gives_by_others_is_put_in() -> None:
+    """Of equal masses half a turn apart nothing falls; of others the heavier one hangs."""
+    balanced = dynsolve.solve(GEARED % "m").to_json()["results"]
+    assert balanced["equilibria"] == [["pi - a + b = 0"]]
+    (points,) = dynsolve.solve(GEARED % "(2*m)").to_json()["results"]["equilibria_stability"]
+    assert points == [{"a": "0", "stability": "stable"}, {"a": "pi", "stability": "unstable"}]
