@@ -439,13 +439,13 @@ def numeric_roots(ring: Ring) -> dict[int, int]:
 
 
 def leading(expr: Expr) -> Expr:
-    """The number, with the roots in it, that stands before the first term."""
+    """The number, with the roots in it, that stands before the first term; 0 of what has none."""
     roots = numeric_roots(expr.ring)
     split = [
         (tuple(0 if i in roots else int(e) for i, e in enumerate(exponents)), exponents, number)
         for exponents, number in expr.poly.to_dict().items()
     ]
-    first = max(plain for plain, _, _ in split)
+    first = max((plain for plain, _, _ in split), default=())
     terms = {
         tuple(e if i in roots else 0 for i, e in enumerate(exponents)): number
         for plain, exponents, number in split

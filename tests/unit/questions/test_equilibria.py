@@ -819,3 +819,14 @@ def test_an_angle_that_a_gear_gives_by_others_is_put_in() -> None:
     assert balanced["equilibria"] == [["pi - a + b = 0"]]
     (points,) = dynsolve.solve(GEARED % "(2*m)").to_json()["results"]["equilibria_stability"]
     assert points == [{"a": "0", "stability": "stable"}, {"a": "pi", "stability": "unstable"}]
+
+
+def test_a_determinant_that_vanishes_everywhere_is_shown_as_0() -> None:
+    block = """
+gravity: [0, -g, 0]
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+constraints: [y]
+find: [equilibria]
+"""
+    text = report(dynsolve.solve(block), Format.TEXT).decode()
+    assert "det ⎡𝐀_c⎤ = 0" in text and "x is arbitrary" in text
