@@ -23,6 +23,7 @@ from dynsolve.algebra.ring import Expr
 
 Rows = Sequence[Sequence[float]]
 
+_INDEPENDENT = 1e-4
 _SMALL = 1e-9
 _ALONG = 1e-6
 """What of a gradient is no direction of its own: a length, and a part of the gradient."""
@@ -127,6 +128,31 @@ def shortest_step(values: Sequence[float], rows: Rows) -> list[float]:
         short = (value + sum(map(mul, row, step))) / length
         step = [x - short * y for x, y in zip(step, across[-1], strict=True)]
     return step
+
+
+def free_directions(rows: Rows) -> list[list[float]]:
+    """Unit vectors that are orthogonal to the rows, and to each other.
+
+    >>> free_directions([[0.0, 2.0]])
+    [[1.0, 0.0]]
+    """
+    n = len(rows[0])
+    across = _orthonormal(rows, [])
+    return _orthonormal([[float(i == j) for j in range(n)] for i in range(n)], across)
+
+
+def _orthonormal(rows: Rows, others: Rows) -> list[list[float]]:
+    """Unit vectors, each orthogonal to the `others`, in the span of both."""
+    found: list[list[float]] = []
+    for row in rows:
+        left = list(row)
+        for _ in range(2):  # once more for what rounding left
+            for one in (*others, *found):
+                along = sum(map(mul, left, one))
+                left = [a - along * b for a, b in zip(left, one, strict=True)]
+        if (length := hypot(*left)) > _INDEPENDENT:
+            found.append([a / length for a in left])
+    return found
 
 
 # The signs of polynomials in parameters, which count as positive, under what is assumed of them

@@ -283,9 +283,9 @@ class Condition(Struct, frozen=True, dict=True):
         ring = self.expr.ring
         relation = _linear_in_angles(self.expr)
         for name in reversed([name for name, kind in ring.coordinates if kind == "revolute"]):
-            rate = dict(relation.terms).get(((name, 1),), 0) if relation else 0
+            rate = dict(relation.terms).get(((name, 1),)) if relation else None
             if relation and rate:
-                rest = Angle.of(name) - relation * (1 / rate)
+                rest = Angle.of(name) - relation * (Fraction(1) / rate)
                 with suppress(AlgebraError):  # the ring has not every part of an angle
                     return [_angle_put(ring, self.expr, name, rest)]
         return []

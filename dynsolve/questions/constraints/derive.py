@@ -39,6 +39,7 @@ from dynsolve.algebra.matrix import Matrix, determinant, vstack, work
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation import kinematics
+from dynsolve.derivation.allowed import NOT_DETERMINED, NOT_SHOWN, where_allowed
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.questions.forward_dynamics.derive import (
@@ -150,6 +151,8 @@ def rules(robot: Robot) -> Iterator[Rule]:
 
 def _reduced(robot: Robot, h: Matrix, A: Matrix, *forces: Matrix) -> Reduced | Skipped:
     """The equations without multipliers, with h, A_c q̇ and its rate as what is kept at 0."""
+    if where_allowed(robot, A, h).is_less:
+        return Skipped(NOT_SHOWN)
     rates = velocities(robot)
     accelerations = Matrix.column(robot.ring, [robot.ring.symbol(q.name, 2) for q in robot.coordinates])
     kept = (*h.entries, *(A @ rates).entries, *(A @ accelerations + task.rate(A) @ rates).entries)
@@ -157,10 +160,14 @@ def _reduced(robot: Robot, h: Matrix, A: Matrix, *forces: Matrix) -> Reduced | S
 
 
 def _multipliers(robot: Robot) -> Rule:
-    def compute(A: Matrix, A_dot: Matrix, D: Matrix, *forces: Matrix) -> Matrix | FractionMatrix | Skipped:
+    def compute(
+        h: Matrix, A: Matrix, A_dot: Matrix, D: Matrix, *forces: Matrix
+    ) -> Matrix | FractionMatrix | Skipped:
+        if where_allowed(robot, A, h).is_less:
+            return Skipped(NOT_DETERMINED)
         return multipliers(robot, A, A_dot, D, acting_forces(robot, *forces))
 
-    return Rule(LAMBDA, ("Ac", "Ac_dot", "D", *acting_names(robot)), compute)
+    return Rule(LAMBDA, ("hc", "Ac", "Ac_dot", "D", *acting_names(robot)), compute)
 
 
 # Constraints, compared with the motion of the arm, and the multipliers with elimination on numbers

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dynsolve.algebra.linear_systems import adjugate, nullspace, quotient
 from dynsolve.algebra.matrix import determinant
 from dynsolve.algebra.ring import Expr
+from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.document import Prose
@@ -204,7 +205,10 @@ def _products(context: Context) -> tuple[Line, ...]:
 
 def _reduced(context: Context) -> Iterator[Step]:
     """The equations of motion along what the constraints leave free, without the multipliers."""
-    found = context.values["reduced"]
+    found, title = context.values["reduced"], "The equations without the multipliers"
+    if isinstance(found, Skipped) and found.why == NOT_SHOWN:
+        yield not_derived("reduced", title, found.why)
+        return
     Z = nullspace(context.values["Ac"]) if isinstance(found, Skipped) else found.free
     if not Z.shape[1]:
         return
@@ -217,7 +221,7 @@ def _reduced(context: Context) -> Iterator[Step]:
         is_divided = any(shared != shared.ring.one for shared in found.divided)
     yield Step(
         id="reduced",
-        title="The equations without the multipliers",
+        title=title,
         why=say(
             "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 𝟎$. "
             "Multiplied by $𝐙ᵀ$ the equations of motion lose the forces of constraint."

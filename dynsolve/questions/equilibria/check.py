@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain, combinations, islice, product
-from math import hypot, radians
+from math import radians
 
 from msgspec import Struct
 
@@ -21,7 +21,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.configurations import NO_VALUE, is_zero
-from dynsolve.derivation.elimination import is_positive_definite, rank, solved
+from dynsolve.derivation.elimination import free_directions, is_positive_definite, rank, solved
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
@@ -290,9 +290,7 @@ def _between(vectors: Sequence[Sequence[float]], slopes: Sequence[Sequence[float
 
 def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
     """Whether the energy rises along what constraints leave free."""
-    across = _orthonormal(program.run(at)[1])
-    free = _orthonormal([[float(i == j) for j in range(robot.n)] for i in range(robot.n)], across)
-    return is_positive_definite(_between(free, _slopes(robot, program, at)))
+    return is_positive_definite(_between(free_directions(program.run(at)[1]), _slopes(robot, program, at)))
 
 
 def _slopes(robot: Robot, program: Program, at: Mapping[str, float]) -> list[list[float]]:
@@ -311,22 +309,6 @@ def _slopes(robot: Robot, program: Program, at: Mapping[str, float]) -> list[lis
         ahead, behind = (left({**at, q.name: at[q.name] + step}) for step in (_STEP, -_STEP))
         slopes.append([(a - b) / (2 * _STEP) for a, b in zip(ahead, behind, strict=True)])
     return slopes
-
-
-def _orthonormal(
-    rows: Sequence[Sequence[float]], others: Sequence[Sequence[float]] = ()
-) -> list[list[float]]:
-    """Unit vectors, each orthogonal to the `others`, in the span of both."""
-    found: list[list[float]] = []
-    for row in rows:
-        left = list(row)
-        for _ in range(2):  # once more for what rounding left
-            for one in (*others, *found):
-                along = sum(a * b for a, b in zip(left, one, strict=True))
-                left = [a - along * b for a, b in zip(left, one, strict=True)]
-        if (length := hypot(*left)) > _NEAR_ZERO:
-            found.append([a / length for a in left])
-    return found
 
 
 def verify(held: Held) -> None:

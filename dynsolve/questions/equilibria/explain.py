@@ -262,6 +262,7 @@ def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
     together = MatrixTree((*(tuple(row[k] for k in columns) for row in A.rows), forces))
     free = " without the columns of what motors hold" if len(columns) < robot.n else ""
     is_square = len(together.rows) == len(columns) == order
+    there = f"Where the constraints hold the rank of $𝐀_c${free} is {held.rank}. " * held.allowed.is_less
     zero = "their determinant is" if is_square else f"all their minors of order {order} are"
     shown: list[Node] = [equation(_DEPENDENT, together)] if is_small(together) else []
     if is_square:
@@ -269,7 +270,7 @@ def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
         size = formula("det {rows} = {product}", rows=_DEPENDENT, product=product)
         shown += [size] if is_small(product) else []
     return (
-        say(f"There is a $𝛌$ where $𝐠ᵀ$ is a combination of the rows of $𝐀_c${free}: {zero} 0. "),
+        say(f"{there}There is a $𝛌$ where $𝐠ᵀ$ is a combination of the rows of $𝐀_c${free}: {zero} 0. "),
         tuple(shown),
     )
 

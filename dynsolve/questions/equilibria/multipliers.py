@@ -30,6 +30,7 @@ from dynsolve.algebra.linear_systems import (
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.allowed import Allowed, where_allowed
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import DEGREES, quarter_turn
 from dynsolve.derivation.search_ring import search_ring
@@ -103,22 +104,27 @@ def _over(matrix: Matrix, divisor: Expr, at: Callable[[Matrix], Matrix]) -> Matr
 
 
 class Multipliers(Struct, frozen=True):
-    """A_c and the forces in the columns that no motor holds, gᵀ as a row, and the h that are 0."""
+    """A_c and the forces in the columns that no motor holds, gᵀ as a row, and the h that are 0.
+
+    What is `allowed` tells the rank that A_c has almost everywhere where h is 0.
+    """
 
     A: Matrix
     g: Matrix
     h: tuple[Expr, ...]
+    allowed: Allowed
 
     @staticmethod
     def of(robot: Robot, columns: Sequence[int], forces: Matrix, A: Matrix, h: Matrix) -> Multipliers:
         """Those of the columns, from 0."""
         row = Matrix.of(robot.ring, [[forces[k, 0] for k in columns]])
-        return Multipliers(part(A, tuple(range(A.shape[0])), tuple(columns)), row, h.entries)
+        own = part(A, tuple(range(A.shape[0])), tuple(columns))
+        return Multipliers(own, row, h.entries, where_allowed(robot, own, h))
 
     def moved(self, there: Transfer) -> Multipliers:
         """The same in another ring."""
         A, g = (Matrix.of(there.target, (map(there, row) for row in one.rows)) for one in (self.A, self.g))
-        return Multipliers(A, g, tuple(map(there, self.h)))
+        return Multipliers(A, g, tuple(map(there, self.h)), self.allowed)
 
     def where_zero(self, factor: Expr) -> Multipliers:
         """The same for parameters of which a factor is 0."""
@@ -126,12 +132,12 @@ class Multipliers(Struct, frozen=True):
         def rest(value: Expr) -> Expr:
             return remainder(value, factor)
 
-        return Multipliers(self.A.map(rest), self.g.map(rest), tuple(map(rest, self.h)))
+        return Multipliers(self.A.map(rest), self.g.map(rest), tuple(map(rest, self.h)), self.allowed)
 
     @property
     def rank(self) -> int:
-        """That of A_c almost everywhere."""
-        return rank_parts(self.A).rank
+        """That of A_c."""
+        return self.allowed.rank
 
     def is_of_energy(self, n: int) -> bool:
         """Whether an energy decides on stability: all n coordinates are free, all constraints functions."""
@@ -150,7 +156,7 @@ class Multipliers(Struct, frozen=True):
             Matrix(ring, lines) for lines in (rows[:count], rows[count : count + 1], rows[count + 1 :])
         )
         found = rank_parts(A)
-        if found.rank < count or count == n:
+        if min(self.rank, found.rank) < count or count == n:
             return None
         chosen = part(A, found.rows, found.columns)
         size = determinant(chosen)

@@ -29,6 +29,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import conditions, is_seen, without_ends
 from dynsolve.derivation.graph import Skipped
@@ -116,7 +117,8 @@ def multipliers(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Multiplie
 
 def constrained_equilibria(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Equilibria | Skipped:
     """The configurations in which multipliers hold the forces, and h is 0."""
-    return equilibria(robot, forces, multipliers(robot, forces, A, h))
+    held = multipliers(robot, forces, A, h)
+    return equilibria(robot, forces, held) if held.allowed.is_whole else Skipped(NOT_SHOWN)
 
 
 def equilibria(
@@ -240,18 +242,13 @@ def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: Parameter
         found = held.where_zero(factor).settled(case, held.rank, special)
     except TooLong:
         return SpecialCase(factor, None, is_of_rank=True)
-    is_less = any(
-        not {*known}.issubset(without)
-        for without, known in zip(found.excluded, settled.excluded, strict=True)
-    )
-    if found.alternatives != tuple(case) or is_less or not special.is_empty:
-        return SpecialCase(factor, None, is_of_rank=True)
-    more = [
-        one
-        for without, known in zip(found.excluded, settled.excluded, strict=True)
-        for one in without
-        if one not in known
-    ]
+    unknown = SpecialCase(factor, None, is_of_rank=True)
+    if found.alternatives != tuple(case) or not special.is_empty:
+        return unknown
+    pairs = list(zip(found.excluded, settled.excluded, strict=True))
+    if any(not {*known}.issubset(without) for without, known in pairs):
+        return unknown
+    more = [one for without, known in pairs for one in without if one not in known]
     return SpecialCase(factor, None, (), True, tuple(dict.fromkeys(more))) if more else None
 
 

@@ -830,3 +830,44 @@ find: [equilibria]
 """
     text = report(dynsolve.solve(block), Format.TEXT).decode()
     assert "det ⎡𝐀_c⎤ = 0" in text and "x is arbitrary" in text
+
+
+def test_other_sets_for_special_parameters_are_not_paired_with_those_for_all() -> None:
+    """By hand: on the circle z = h of a ball the spring lets x = 0 rest, and R = h leaves a point of it."""
+    ball = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {x: prismatic, y: prismatic, z: prismatic}
+  bodies: [{mass: m, at: [x, y, z]}]
+constraints: [x^2 + y^2 + z^2 - R^2, z - h]
+springs: [{stiffness: k, of: x}]
+find: [equilibria]
+"""
+    results = dynsolve.solve(ball).to_json()["results"]
+    assert [case[1] for case in results["equilibria"]] == ["y = 0", "x = 0"]
+
+
+TWO_ARMS = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {a: revolute, b: revolute}
+  bodies: [{mass: m, at: [l*sin(a), l*cos(a), 0]}, {mass: M, at: [l*sin(b), l*cos(b), 0]}]
+constraints: [%s]
+find: [equilibria, lambda, reduced]
+"""
+
+
+def test_the_rank_is_that_where_the_constraints_hold() -> None:
+    """Two equations for the tips of equal arms: both swing as one, and hang or stand."""
+    text = report(dynsolve.solve(TWO_ARMS % "sin(a) - sin(b), cos(a) - cos(b)"), Format.TEXT).decode()
+    told = " ".join(text.split())
+    assert "Where the constraints hold the rank of 𝐀_c is 1." in told
+    assert "cos(b) - 1 = 0 and cos(a) - 1 = 0 1 + cos(b) = 0 and 1 + cos(a) = 0" in told
+    assert "so that the multipliers are not determined" in told and "𝐙ᵀ" not in told
+
+
+def test_of_a_zero_of_higher_order_it_is_not_seen_what_is_free() -> None:
+    """(a - b)² = 0 has the rows of 0 = 0 where it holds; a + b = 0 beside it leaves nothing free."""
+    for constraint in ("(a - b)^2", "(a - b)^2 + (a + b)^2", "cos(a) + cos(b) - 2"):
+        results = dynsolve.solve(TWO_ARMS % constraint).to_json()["results"]
+        assert all("skipped" in results[name] for name in ("equilibria", "lambda", "reduced"))
