@@ -9,6 +9,8 @@ numbers; what is not found in this way is not said.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+from math import prod
 
 from flint import fmpq
 from msgspec import Struct
@@ -53,19 +55,30 @@ def opposite(bound: Bound) -> Bound:
 
 
 def simplified(bound: Bound, known: Sequence[Bound]) -> Bound:
-    """An inequality without the factors that are known to be positive, or negative."""
+    """An inequality without the factors, or products of these, that are known to be positive, or negative.
+
+    >>> from dynsolve.algebra.ring_values import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
+    >>> a, b = ring.symbol("a"), ring.symbol("b")
+    >>> simplified(Bound((a * a - b * b) * (a * a - 2 * b * b)), [Bound(2 * a * a - 3 * b * b)]).value
+    Expr(1*a^2 + -2*b^2)
+    """
     ring = bound.value.ring
     content, factors = bound.value.poly.factor()
     value = ring.one if content > 0 else -ring.one
-    for factor, times in factors:
-        own = Expr(ring, factor)
-        if follows(Bound(own), known):
-            continue
-        if follows(Bound(-own), known):
-            value = value * (-1) ** int(times)
+    left = [Expr(ring, factor) ** int(times) for factor, times in factors]
+    size = 1
+    while size <= len(left):
+        for chosen in combinations(left, size):
+            product = prod(chosen, start=ring.one)
+            sign = next((sign for sign in (1, -1) if follows(Bound(product * sign), known)), 0)
+            if sign:
+                value, left = value * sign, [factor for factor in left if factor not in chosen]
+                break
         else:
-            value = value * own ** int(times)
-    return Bound(value, bound.is_strict)
+            size += 1
+    return Bound(prod(left, start=value), bound.is_strict)
 
 
 def independent(needed: Sequence[Bound], assumed: Sequence[Bound]) -> tuple[Bound, ...]:

@@ -516,6 +516,16 @@ def _holds(m: Mechanism, s: Sentence) -> bool:
 # equilibria
 
 
+@says("Where the constraints hold the rank of {}[ without the columns of what motors hold] is #.")
+def _rank_where_held(m: Mechanism, s: Sentence) -> bool:
+    robot, columns = m.solution.robot, list(range(len(m.coordinates)))
+    if "motors" in s.text:
+        columns = sorted(robot.actions.passive)
+    found = [m.solved(lambda p: m.result("hc", p)[:, 0], m.coordinates, seed) for seed in range(8)]
+    ranks = [np.linalg.matrix_rank(m.result("Ac", p)[:, columns], 1e-3) for p in found if p is not None]
+    return max(ranks) == int(s.words[-1])
+
+
 @says(
     "<At {&}|In equilibrium[ at {&}]|In case #[ at {&}]|In every configuration>: <stable|not stable>"
     "[, but for {&}, along which nothing changes]."
@@ -536,20 +546,27 @@ def _equilibria(m: Mechanism, s: Sentence, told: tuple[Node, ...], seed: int = 0
     yield from (point for number, point in cases if point is not None and (not named or number == named))
 
 
-@says("Every leading minor is positive in every configuration[ exactly if {&}].")
+@says("Every leading minor is positive in every configuration[ <exactly if|if> {&}].")
 def _minors(m: Mechanism, s: Sentence) -> bool:
-    """At parameters that meet the conditions; at others it fails in some pose of right angles."""
+    """At parameters that meet the conditions; at others it fails in some pose, if they are exact."""
     let = [node for text, nodes in s.before() if text.startswith("Let ") for node in nodes]
+    is_exact = "exactly if" in s.text
     seen = set()
-    for here in m.points(60):
+    for here in m.points(30):
         met = all(m.holds(node, here) for node in s.formulas)
-        if not all(m.holds(node, here) for node in let) or not (met or s.formulas):
+        if not all(m.holds(node, here) for node in let) or not (met or is_exact):
             continue
-        matrices = [s.matrix(m.symbols(here.names | pose)) for pose in ({}, *m.right_angles())]
-        if all(np.min(np.linalg.eigvalsh(matrix)) > 0 for matrix in matrices) != met:
+        least = m.least(lambda p: float(np.min(np.linalg.eigvalsh(s.matrix(p)))), here.names)
+        if (least > 0) != met:
             return False
         seen.add(met)
     return True in seen
+
+
+@says("{} is not positive in every configuration.")
+def _minor_is_not_positive(m: Mechanism, s: Sentence) -> bool:
+    (told,) = [shown for shown in s.shown() if shown.parts[0] == s.formulas[0]]
+    return all(m.least(lambda p: float(p.value(told.parts[-1]).value), h.names) < 1e-3 for h in m.points())
 
 
 @says("Where {}, {}, which is not positive.")
@@ -1018,7 +1035,7 @@ Only the other joints move it to its place, and the wrist then turns the hand: p
   decoupled.
 The last joint does not move its own axis: the first two turn that to where it is to be ...
 Combined, without factors that are never 0:
-With the constraints, without factors that are never 0:
+Combined with the constraints, without factors that are never 0:
 The parameters are the same.
 What is left of ℒ where nothing moves, with the opposite sign.
 Along what the constraints leave free, the columns of {} with {}, the energy is curved as {} is, with the {}

@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from itertools import product
+from itertools import chain, product
 from random import Random
 from types import CodeType
 from typing import Any
@@ -97,6 +97,21 @@ class Mechanism:
         first = self.coordinates[:3]
         for pose in product((0.0, np.pi / 2, np.pi, -np.pi / 2), repeat=len(first)):
             yield dict(zip(first, pose, strict=True))
+
+    def least(self, value: Callable[[Point], float], names: dict[str, float]) -> float:
+        """The least value over all poses: from right angles and from anywhere, down in ever smaller steps."""
+        random = np.random.default_rng(1)
+
+        def moved(at: dict[str, float], step: float) -> dict[str, float]:
+            return at | {q: at[q] + float(random.normal(0, step)) for q in self.coordinates}
+
+        poses = [names | pose for pose in self.right_angles()] + [moved(names, 3) for _ in range(40)]
+        least, at = value(self.symbols(poses[0])), poses[0]
+        steps = (moved(at, step) for step in np.geomspace(1, 1e-4, 80))  # from the best one till then
+        for pose in chain(poses[1:], steps):
+            if (here := value(self.symbols(pose))) < least:
+                least, at = here, pose
+        return least
 
     def symbols(self, names: dict[str, float]) -> Point:
         """A state of which nothing is known but its symbols."""

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from random import Random
 
-from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.inequality import Bound, opposite
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.elimination import is_positive_definite
 from dynsolve.derivation.graph import Skipped
@@ -29,16 +29,31 @@ DRAWS = 20_000
 
 POSES = 200
 
+STARTS = 3
+"""From so many poses a smallest minor is looked for, where no pose has one that is not positive."""
+
+SMALLEST_STEP = 1e-8
+
+ROUNDING = 1e-12
+
 
 def verify_definite(robot: Robot, candidate: Candidate, found: Definiteness, states: int) -> None:
     """Hold a verdict at random values; raises VerificationError where it is wrong."""
     random = Random(SEED)  # noqa: S311 - the same values every time are wanted
-    bounds = (*candidate.assumed, *found.conditions)
     if found.refusal not in (None, Refusal.INDEFINITE):
         return
-    for parameters in _parameters(candidate, bounds, random, states):
-        every = all(_is_definite(candidate, values) for values in _poses(robot, parameters, random))
-        if every != (found.answer is not Answer.NO):
+    is_no = found.answer is Answer.NO
+    bounds = (*candidate.assumed, *found.conditions)
+    told = [(values, not is_no) for values in _parameters(candidate, bounds, random, states)]
+    for condition in found.conditions if found.is_exact else ():
+        fails = (*candidate.assumed, opposite(condition))
+        told += [(values, False) for values in _parameters(candidate, fails, random, 1)]
+    for parameters, is_told in told:
+        poses = list(_poses(robot, parameters, random))
+        every = all(_is_definite(candidate, values) for values in poses)
+        if every and not is_told:
+            every = _is_definite(candidate, _lowest(robot, candidate, poses))
+        if every != is_told:
             raise VerificationError(
                 f"whether {candidate.name} is positive definite comes out otherwise on numbers; "
                 "this is a fault of dynsolve"
@@ -75,9 +90,44 @@ def _poses(robot: Robot, parameters: Mapping[str, float], random: Random) -> Ite
         yield values
 
 
+def _lowest(robot: Robot, candidate: Candidate, poses: Sequence[dict[str, float]]) -> dict[str, float]:
+    """Where a leading minor is as small as it is found to be: from some poses, one coordinate at a time."""
+    ends = []
+    for start in sorted(poses, key=lambda at: _least(candidate, at))[:STARTS]:
+        at, steps = dict(start), {q.name: 1.0 for q in robot.coordinates}
+        least = _least(candidate, at)
+        while max(steps.values()) > SMALLEST_STEP and least > 0:
+            for name, step in steps.items():
+                moved = [{**at, name: at[name] + sign * step} for sign in (1, -1)]
+                best = min(moved, key=lambda one: _least(candidate, one))
+                value = _least(candidate, best)
+                steps[name] = step * (2 if value < least else 0.5)
+                at, least = (best, value) if value < least else (at, least)
+        ends.append(at)
+    return min(ends, key=lambda at: _least(candidate, at))
+
+
+def _least(candidate: Candidate, values: Mapping[str, float]) -> float:
+    """The smallest of the pivots, each beside its entry of the diagonal; -1 where one is not positive."""
+    rows = _numbers(candidate, values)
+    diagonal = [row[k] for k, row in enumerate(rows)]
+    least = 1.0
+    for k, pivot in enumerate(rows):
+        if pivot[k] <= 0:
+            return -1.0
+        least = min(least, pivot[k] / max(diagonal[k], 1.0))
+        for row in rows[k + 1 :]:
+            factor = row[k] / pivot[k]
+            row[k:] = [a - factor * b for a, b in zip(row[k:], pivot[k:], strict=True)]
+    return least
+
+
+def _numbers(candidate: Candidate, values: Mapping[str, float]) -> list[list[float]]:
+    return [[evaluate(entry, values) for entry in row] for row in candidate.matrix.rows]
+
+
 def _is_definite(candidate: Candidate, values: Mapping[str, float]) -> bool:
-    rows = [[evaluate(entry, values) for entry in row] for row in candidate.matrix.rows]
-    return is_positive_definite(rows, 1e-12)
+    return is_positive_definite(_numbers(candidate, values), ROUNDING)
 
 
 def verify(held: Held) -> None:

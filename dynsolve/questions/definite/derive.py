@@ -18,7 +18,7 @@ so one coordinate after the other is taken out.
     A + B u + C u²                   at u = ±1 where C ≤ 0, or its vertex lies outside
     A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²
     A + B cos² θ + C sin θ cos θ     the same of 2θ
-    A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²
+    A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²; also A > 0 where B = C = 0
 """
 
 from __future__ import annotations
@@ -48,19 +48,26 @@ MOST = 64
 class Extreme(Struct, frozen=True):
     """An inequality that must hold, and where the function has that value.
 
-    `where` is (generator, value) of sines, cosines and lengths, as far as the place is known.
+    `where` is (generator, value) of sines, cosines and lengths, as far as the place is known.  What is not
+    `needed` is enough with the others, and may fail where others are equalities.
     """
 
     bound: Bound
     where: tuple[tuple[int, int], ...] = ()
+    needed: bool = True
 
     def at(self, generator: int, value: int, bound: Bound) -> Extreme:
         """The same at a value of a further generator."""
-        return Extreme(bound, (*self.where, (generator, value)))
+        return Extreme(bound, (*self.where, (generator, value)), self.needed)
+
+    def fails(self, assumed: Sequence[Bound]) -> bool:
+        """Whether with this inequality all that is looked for fails, too."""
+        value = self.bound.value
+        return follows(opposite(self.bound) if self.needed else Bound(-value), assumed)
 
 
 def smallest(f: Expr, assumed: Sequence[Bound]) -> list[Extreme] | None:
-    """Inequalities between parameters that hold exactly if f > 0 for every q; None where none are found."""
+    """Inequalities between parameters with which f > 0 for every q; None where none are found."""
     found = [Extreme(Bound(f))]
     ring = f.ring
     while True:
@@ -94,7 +101,7 @@ def _next(moving: Iterator[Pair | int], found: Sequence[Extreme]) -> Pair | int 
 
 def _without(step: Pair | int, extreme: Extreme, assumed: Sequence[Bound]) -> list[Extreme] | None:
     if isinstance(step, int):
-        return _without_length(step, extreme)
+        return _without_length(step, extreme, assumed)
     return _without_angle(step, extreme, assumed)
 
 
@@ -156,7 +163,7 @@ def _in_one(
 # -- lengths ---------------------------------------------------------------------------------------
 
 
-def _without_length(d: int, extreme: Extreme) -> list[Extreme] | None:
+def _without_length(d: int, extreme: Extreme, assumed: Sequence[Bound]) -> list[Extreme] | None:
     """A + B d + C d² + ... over all lengths."""
     value, ring = extreme.bound.value, extreme.bound.value.ring
     found = {key[0]: part for key, part in _coefficients(value, d).items()}
@@ -170,7 +177,9 @@ def _without_length(d: int, extreme: Extreme) -> list[Extreme] | None:
         return [replace(extreme, bound=Bound(-B * B, False)), extreme.at(d, 0, Bound(A, strict))]
     if max(found) > 2 or not strict:
         return None
-    return [replace(extreme, bound=Bound(C)), replace(extreme, bound=Bound(A * C * 4 - B * B))]
+    needed = extreme.needed and follows(Bound(C), assumed)
+    bounds = (Bound(C), Bound(A * C * 4 - B * B))
+    return [replace(extreme, bound=bound, needed=needed) for bound in bounds]
 
 
 MOST_WORK = 20_000
@@ -203,8 +212,9 @@ class Definiteness(Struct, frozen=True):
     """What is found of a matrix.
 
     `minors` are its leading ones; `conditions` what the parameters must satisfy beyond what is
-    assumed.  Of a matrix that can be none `refusal` says why, `place` the entry (from 0), `extreme` where
-    which minor (its `size`) is not positive.  `moves_with_base` is a remark.
+    assumed, or if not `is_exact` what is enough.  Of a matrix that can be none `refusal` says why, `place`
+    the entry (from 0), `extreme` where which minor (its `size`) is not positive.  `moves_with_base` is a
+    remark.
     """
 
     name: str
@@ -217,6 +227,7 @@ class Definiteness(Struct, frozen=True):
     extreme: Extreme | None = None
     size: int = 0
     moves_with_base: bool = False
+    is_exact: bool = True
 
 
 def rules(robot: Robot) -> Iterator[Rule]:
@@ -237,6 +248,7 @@ def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
     first = matrix.ring.names[0]
     moves = any(not matrix.ring.diff(entry, 0).is_zero for entry in matrix.entries) and bool(first)
     needed: list[Bound] = []
+    is_exact = True
     for size, minor in enumerate(minors, 1):
         extremes = smallest(minor, candidate.assumed)
         if extremes is None:
@@ -244,17 +256,18 @@ def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
         for extreme in extremes:
             if follows(extreme.bound, candidate.assumed):
                 continue
-            if follows(opposite(extreme.bound), candidate.assumed):
+            if extreme.fails(candidate.assumed):
                 found = Definiteness(name, Answer.NO, minors, (), Refusal.INDEFINITE, moves_with_base=moves)
                 return replace(found, extreme=extreme, size=size)
             bound = simplified(extreme.bound, [*candidate.assumed, *needed])
             if not follows(bound, needed):
                 needed.append(bound)
+                is_exact &= extreme.needed
     conditions = independent(needed, candidate.assumed)
     if conditions and not _is_possible(matrix, (*candidate.assumed, *conditions)):
         return Skipped(f"whether {name} is positive definite for some parameters is not found")
     answer = Answer.IF if conditions else Answer.YES
-    return Definiteness(name, answer, minors, conditions, moves_with_base=moves)
+    return Definiteness(name, answer, minors, conditions, moves_with_base=moves, is_exact=is_exact)
 
 
 def _leading(matrix: Matrix) -> Iterator[Expr]:

@@ -111,7 +111,9 @@ def reason(forms: Forms, found: Definiteness) -> Prose:
         return say(_REFUSALS[found.refusal], q=q, entry=entry, row=row, column=column)
     return say(
         "Every leading minor is positive in every configuration{conditions}.",
-        conditions=say(" exactly if {these}", these=_all_of(forms, found.conditions))
+        conditions=say(
+            " exactly if {these}" if found.is_exact else " if {these}", these=_all_of(forms, found.conditions)
+        )
         if found.answer is Answer.IF
         else "",
     )

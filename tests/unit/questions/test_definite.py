@@ -6,6 +6,7 @@ import pytest
 from msgspec.structs import replace
 
 import dynsolve
+from dynsolve.algebra.inequality import Bound
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.problem import read_problem
@@ -129,3 +130,45 @@ def test_a_report_is_made_in_every_form() -> None:
     solution = dynsolve.solve(EXAM)
     for form in (Format.TEXT, Format.HTML, Format.LATEX, Format.MARKDOWN):
         assert b"positive definite" in report(solution, form)
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [
+        "[[2, cos(q2) + sin(q2), 0], [cos(q2) + sin(q2), 1, 0], [0, 0, 1]]",
+        "[[1 + d^2, 1 + d, 0], [1 + d, 2, 0], [0, 0, 1]]",
+    ],
+)
+def test_a_minor_that_touches_0_off_the_right_angles_is_not_positive(matrix: str) -> None:
+    """1 - sin 2q2 and (d - 1)²"""
+    result = solve_json(file(matrix))["results"]["definite"]["M"]
+    assert (result["verdict"], result["why"]) == ("no", "Δ₂ is not positive in every configuration.")
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        (of_three("a + b*d + c*d^2"), "if c > 0"),  # b = c = 0 will do as well
+        (of_three("a + b*d + d^2"), "exactly if 4a - b² > 0"),
+        (of_three("a", "b*cos(q2)"), "exactly if a - b² > 0"),
+    ],
+)
+def test_what_is_only_enough_is_not_said_to_be_needed(text: str, word: str) -> None:
+    why = solve_json(text)["results"]["definite"]["M"]["why"]
+    assert f"configuration {word}" in why
+
+
+def test_conditions_that_are_not_needed_are_found() -> None:
+    text = of_three("a + b*d + c*d^2")
+    robot, right = read_problem(text).robot, found(text)
+    (candidate,) = robot.questions.candidates
+    verify_definite(robot, candidate, right, 5)
+    more = replace(right, conditions=(*right.conditions, Bound(robot.ring.symbol("b"))), is_exact=True)
+    with pytest.raises(VerificationError, match="comes out otherwise"):
+        verify_definite(robot, candidate, more, 5)
+
+
+def test_a_product_of_factors_that_is_known_is_left_out() -> None:
+    """(a - b)(a + b)(a² - 2b²) > 0 where 2a² > 3b²"""
+    three = "[[a, b*cos(q2), 0], [b*cos(q2), a, b], [0, b, a]]"
+    assert solve_json(file(three))["results"]["definite"]["M"]["conditions"] == ["a > 0", "a**2 - 2*b**2 > 0"]
