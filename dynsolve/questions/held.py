@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from msgspec import Struct
 
 from dynsolve.derivation.graph import Derivation
+from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Node
 from dynsolve.robot.model import Robot
@@ -29,3 +30,17 @@ class Held(Struct, frozen=True):
         verify(
             self.robot, {name: self.forms(name) for name in names if name in self.values.rules}, self.states
         )
+
+
+Rows = Sequence[Sequence[float]]
+
+TOLERANCE = 1e-5
+"""The largest error of an entry, relative to the largest: differences are no derivatives."""
+
+
+def compare(name: str, ours: Rows, theirs: Rows) -> None:
+    """Raises VerificationError where two matrices of numbers differ."""
+    size = max((1.0, *(abs(x) for row in theirs for x in row)))
+    gaps = (abs(a - b) for r, s in zip(ours, theirs, strict=True) for a, b in zip(r, s, strict=True))
+    if not all(gap <= TOLERANCE * size for gap in gaps):
+        raise VerificationError(f"{name} differs from elimination on numbers; this is a fault of dynsolve")

@@ -31,7 +31,7 @@ from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.questions.equation_sets import starts
 from dynsolve.questions.equilibria.balance import STATES, never_zero, table_lengths
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.linearization import linear_names, verify_linear
+from dynsolve.questions.equilibria.linear_check import linear_names, verify_linear
 from dynsolve.questions.equilibria.multipliers import Along
 from dynsolve.questions.equilibria.solving import Equilibria, multipliers, wanted_rows
 from dynsolve.questions.equilibria.stability import Point, Stability, turned

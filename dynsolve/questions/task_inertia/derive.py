@@ -1,4 +1,15 @@
-"""The inertia that a force at the task meets: Λ = (J_r D⁻¹ J_rᵀ)⁻¹ (Khatib 1987)."""
+"""The inertia that a force at the task meets: Λ = (J_r D⁻¹ J_rᵀ)⁻¹ (Khatib 1987).
+
+Nothing is inverted on the way.  By the formulas of Cauchy and Binet, and of Jacobi for the minors
+of an adjugate, the minors of J_r adj D J_rᵀ are powers of det D times
+
+    S(A, B) = Σ_{I, J} ± det J_r[A, I] · det D[J', I'] · det J_r[B, J],
+
+over all I and J of as many columns as there are rows in A and B; J' and I' are the others.  With
+these Λ_ij = ± S(without j, without i) / S(all, all).
+
+Lynch, Park, Modern Robotics, section 8.6 (2017); Horn, Johnson, Matrix Analysis, section 0.8.
+"""
 
 from __future__ import annotations
 

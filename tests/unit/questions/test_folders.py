@@ -13,6 +13,7 @@ def test_a_question_has_a_chapter_and_the_records_that_a_robot_has(stage: Stage)
     folder = stage.part()
     assert folder.__name__ == f"dynsolve.questions.{stage}"
     assert stage.part("explain").steps
+    assert stage.part("derive") is None or stage.part("check").verify, f"{folder.__path__} has no check.py"
     for family in getattr(folder, "FAMILIES", ()):
         assert any(family is known for known in FAMILIES)
         assert family.stage is stage

@@ -14,7 +14,8 @@ from dynsolve.explain.forms import Forms
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Matrix, Relation, Symbol
 from dynsolve.problem import read_problem
-from dynsolve.questions.equilibria.linearization import verify_linear
+from dynsolve.questions.equilibria.linear_check import verify_linear
+from dynsolve.questions.task_inertia.check import verify_task_inertia
 from tests.support import numbers, solve_json
 
 ARM = """
@@ -88,12 +89,13 @@ def test_the_check_finds_a_wrong_entry(text: str, name: str) -> None:
     robot = read_problem(text).robot
     forms = Forms(robot, derive(robot))
     right = {one: forms(one) for one in ((name, "Jr", "D") if name == "Lambda" else (name, "D", "tau"))}
-    verify_linear(robot, right)
+    verify = verify_task_inertia if name == "Lambda" else verify_linear
+    verify(robot, right)
     shown = right[name]
     assert isinstance(shown, Matrix)
     last = (*shown.rows[-1][:-1], Symbol(robot.parameters[0]))
     with pytest.raises(VerificationError, match=name):
-        verify_linear(robot, {**right, name: Matrix((*shown.rows[:-1], last))})
+        verify(robot, {**right, name: Matrix((*shown.rows[:-1], last))})
 
 
 def test_the_steps_name_the_book() -> None:
