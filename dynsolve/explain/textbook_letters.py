@@ -1,6 +1,7 @@
 """What the letters of the textbook mean, and their units: the lines of every list of notation.
 
-To explain a further letter, add its line to a table; a test finds the letters of reports that have none.
+To explain a further letter, add its line to a table, of a question or of what acts to `LETTERS` of its
+chapter; a test finds the letters of reports that have none.
 A line of a table is
 
     signs | meaning | unit            𝐃, d_ij | inertia matrix | kg m^2
@@ -14,6 +15,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -27,7 +29,7 @@ from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Wor
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
 from dynsolve.quantities.owners import asked_stages
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.stages import ASKED_FOR, Stage
 from dynsolve.robot.actions import part
 from dynsolve.robot.model import Convention, JointType, Robot
 
@@ -156,17 +158,6 @@ g | acceleration of gravity | m/s^2
 """
 """The lines before the dynamics: what is seen, asked for, and given of the bodies."""
 
-RECURSIONS = """
-* 𝐳_{turning}^i | axis of joint i, in frame i
-* 𝐫_(i-1,i)^i: origin of frame i; {LEVER}: mass centre of body i | , from the origin of frame i-1 | m
-* 𝐠_0^i | acceleration of gravity, in frame i | m/s^2
-* 𝛚_i^i: angular velocity; 𝛚̇_i^i: angular acceleration | of link i, in frame i
-* 𝐚_i^i: origin of frame i; 𝐚_ci^i: mass centre of body i | : its acceleration, in frame i | m/s^2
-* 𝐈_ci^i | inertia tensor of body i about its mass centre, in frame i | kg m^2
-* 𝐟_i^i: force; 𝐧_i^i: moment | with which link i-1 holds link i, in frame i
-"""
-"""What the Newton-Euler recursions carry from link to link."""
-
 DYNAMICS = """
 𝐉_v_i: linear part; 𝐉_ω_i: angular part | of the Jacobian of {moving} | {jacobian}
 * {of_point} | of a point: the same along the axes of frame k
@@ -193,14 +184,7 @@ c_ijk | Christoffel symbol: always with three indices | {inertia}
 𝐂: matrix of the Coriolis and centrifugal terms; c_kj: its entries | | {rate}
 𝐠: column of the gravity terms; g_k: its entries | | {force}
 * {references} | reference of the coordinates, of which there are rates
-* {regressors} | regressor: the factor of the parameters in the forces, in a part of them
-* {LINEAR_A}: matrix of the state; {LINEAR_B}: matrix of the inputs | of the motion near the equilibrium
-* 𝐪_('e') | the equilibrium
-* {STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
-* {F_RATES} | factors of the rates in the friction
-* 𝐒 | selects the inputs
-* 𝚲 | inertia matrix of the task
-* {parameters} | column of the parameters in these
+(letters of questions)
 𝐍: skew-symmetric matrix; n_ij: its entries | | {rate}
 """
 """The lines of the energies, the forces and the equations of motion."""
@@ -214,18 +198,22 @@ Value = str | Node | tuple[Node, ...] | None
 def textbook(robot: Robot, style: Style, *, beside: bool = False) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation; or those `beside` the course."""
     values = {**_OF_ANY_ROBOT, **_asked(robot), **_of_robot(robot), **_of_forces(robot, style)}
-    kinds = (part(kind, "explain") for kind in robot.actions.by_kind)
-    of_kinds = "\n".join(getattr(kind, "LETTERS", "") for kind in kinds)
-    tables = [TEXTBOOK, DYNAMICS.replace("(letters of kinds)", of_kinds)]
-    if Stage.NEWTON_EULER in asked_stages(robot.questions):
-        tables.insert(1, RECURSIONS)
-    for row in "".join(tables).split("\n"):
+    asked = asked_stages(robot.questions)
+    of_kinds = _letters(part(kind, "explain") for kind in robot.actions.by_kind)
+    of_questions = _letters(stage.part("explain") for stage in ASKED_FOR if stage in asked)
+    dynamics = DYNAMICS.replace("(letters of kinds)", of_kinds)
+    for row in (TEXTBOOK + dynamics.replace("(letters of questions)", of_questions)).split("\n"):
         if (
             row.startswith("* ") >= beside
             and row
             and all(values[name] is not None for name in re.findall(r"\{(\w+)\}", row))
         ):
             yield _line(row.removeprefix("* "), values)
+
+
+def _letters(chapters: Iterable[Any]) -> str:
+    """The lines of the letters that these chapters have of their own, `LETTERS`."""
+    return "\n".join(getattr(chapter, "LETTERS", "") for chapter in chapters)
 
 
 def _line(row: str, values: Mapping[str, Value]) -> Line:

@@ -64,6 +64,16 @@ def given(forms: Forms) -> Iterator[Prose]:
         yield ("In equilibria motors hold the coordinates that they drive.",)
 
 
+LETTERS = """
+* {LINEAR_A}: matrix of the state; {LINEAR_B}: matrix of the inputs | of the motion near the equilibrium
+* 𝐪_('e') | the equilibrium
+* {STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
+* {F_RATES} | factors of the rates in the friction
+* 𝐒 | selects the inputs
+"""
+"""The lines of its letters in the list of notation."""
+
+
 def steps(context: Context) -> Iterator[Step]:
     """The equilibria with their stability; A and B of the motion near one."""
     wanted = context.wanted

@@ -46,6 +46,17 @@ from dynsolve.robot import units
 from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 from dynsolve.robot.questions import Method
 
+LETTERS = """
+* 𝐳_{turning}^i | axis of joint i, in frame i
+* 𝐫_(i-1,i)^i: origin of frame i; {LEVER}: mass centre of body i | , from the origin of frame i-1 | m
+* 𝐠_0^i | acceleration of gravity, in frame i | m/s^2
+* 𝛚_i^i: angular velocity; 𝛚̇_i^i: angular acceleration | of link i, in frame i
+* 𝐚_i^i: origin of frame i; 𝐚_ci^i: mass centre of body i | : its acceleration, in frame i | m/s^2
+* 𝐈_ci^i | inertia tensor of body i about its mass centre, in frame i | kg m^2
+* 𝐟_i^i: force; 𝐧_i^i: moment | with which link i-1 holds link i, in frame i
+"""
+"""The lines of its letters in the list of notation."""
+
 
 def steps(context: Context) -> Iterator[Step]:
     """What is known of each link; outwards ω, ω̇ and the accelerations; inwards f, n and the forces τ."""

@@ -80,6 +80,13 @@ _ALL = (
 )
 
 
+LETTERS = """
+* {regressors} | regressor: the factor of the parameters in the forces, in a part of them
+* {parameters} | column of the parameters in these
+"""
+"""The lines of its letters in the list of notation."""
+
+
 def steps(context: Context) -> Iterator[Step]:
     """The parameters and the regressor of the forces, and of a part of them where that is asked for."""
     wanted, values = context.wanted, context.values

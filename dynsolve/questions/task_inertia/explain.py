@@ -18,6 +18,12 @@ from dynsolve.quantities import letters
 _SQUARE = "The Jacobian is square, and has an inverse itself where its determinant is not 0."
 
 
+LETTERS = """
+* 𝚲 | inertia matrix of the task
+"""
+"""The lines of its letters in the list of notation."""
+
+
 def steps(context: Context) -> Iterator[Step]:
     """Λ, where it is asked for."""
     if "Lambda" not in context.wanted:

@@ -12,7 +12,6 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, Check, sanity_steps
 from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
 from dynsolve.explain.sanity.determinant import is_nonnegative, is_positive, masses_and_moments
-from dynsolve.explain.sanity.poses import at
 from dynsolve.notation.text import read
 from dynsolve.notation.unicode import to_unicode
 from tests.robots import robots
@@ -288,7 +287,7 @@ def test_a_pose_puts_values_for_angles() -> None:
     found = context("elbow-3r")
     ring, entry = found.robot.ring, found.values["D"][0, 0]
     state = values_of(found, seed=2)
-    there = at(ring, entry, {"theta2": 90, "theta3": -90})
+    there = ring.at_pose(entry, {"theta2": 90, "theta3": -90})
     expected = evaluate(entry, {**state, "theta2": np.pi / 2, "theta3": -np.pi / 2})
     assert evaluate(there, state) == pytest.approx(expected)
 
