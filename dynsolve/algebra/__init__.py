@@ -10,6 +10,9 @@ Arrows run one way, from the first of these files to the last:
     generators          the variables of a ring's polynomials in order; s² + c² = 1 and the normal form
     ring                the ring with its derivatives, and its elements
     fourier             a polynomial in sines and cosines as a sum of those of multiples of angles
+    factors             factors in sines and cosines, those of polynomials with roots of numbers, what is
+                        positive by its form
+    lowest_terms        what expressions share: fractions in lowest terms
     fraction            fractions over a ring
     ring_values         the value of a formula in a ring, its value in floating point, and making a ring
     matrix              matrices, determinants and minors; values put for coordinates
@@ -17,8 +20,6 @@ Arrows run one way, from the first of these files to the last:
     parameter_span      combinations of unknown parameters over the fractions in known ones
     linear_systems      matrices of fractions, systems of linear equations, spaces
     inequality          inequalities between parameters that follow from others
-    factors             factors in sines and cosines, those of polynomials with roots of numbers, what is
-                        positive by its form
     surds               sums of square roots, angles with such sines and cosines, formulas of numbers
     compact             what a textbook would print
 

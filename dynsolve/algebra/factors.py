@@ -260,7 +260,7 @@ def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
     """
     if len(expr) == 0 or leading(expr) == expr:
         return ()
-    halves = _HalfAngles(expr.ring)
+    halves = HalfAngles(expr.ring)
     if not halves.can_hold(expr):
         return ((expr, 1),)
     found: Counter[Expr] = Counter()
@@ -271,7 +271,7 @@ def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
 
 def trig_quotient(expr: Expr, divisor: Expr) -> Expr | None:
     """expr / divisor, where the divisor is seen to be a factor of it."""
-    halves = _HalfAngles(expr.ring)
+    halves = HalfAngles(expr.ring)
     if expr.is_zero or expr == divisor or not (halves.can_hold(expr) and halves.can_hold(divisor)):
         return expr if expr.is_zero else expr.ring.one if expr == divisor else None
     found = quotient(halves.homogeneous(expr), halves.homogeneous(divisor), halves.roots)
@@ -283,7 +283,7 @@ def squares(expr: Expr) -> tuple[Expr, ...]:
 
     Parameters count as positive.  Nothing of what is no such sum.
     """
-    halves = _HalfAngles(expr.ring)
+    halves = HalfAngles(expr.ring)
     if not halves.can_hold(expr):
         return ()
     terms, free = halves.homogeneous(expr).to_dict(), parameters(expr)
@@ -300,7 +300,7 @@ def halves(expr: Expr) -> tuple[tuple[Expr, ...], ...]:
     c₁ + c₂ is 0 where cos((q₁ + q₂)/2) is or cos((q₁ - q₂)/2); a factor is 0 where its products with the
     sine and the cosine of the halves of its angles are, which hold whole angles.
     """
-    found, halves = [], _HalfAngles(expr.ring)
+    found, halves = [], HalfAngles(expr.ring)
     poly = halves.homogeneous(expr) if halves.can_hold(expr) else halves.ctx.constant(1)
     parts = factors(poly, halves.roots, [(pair.sine, pair.cosine) for pair in expr.ring.pairs])
     for factor, _ in parts:
@@ -314,12 +314,15 @@ def halves(expr: Expr) -> tuple[tuple[Expr, ...], ...]:
     return tuple(one for one in moving if not (len(one) == 1 and is_positive(one[0]))) or ((expr,),)
 
 
-class _HalfAngles:
-    """The ring's polynomials with S and C in the places of sine and cosine, without relations."""
+class HalfAngles:
+    """The ring's polynomials with S and C in the places of sine and cosine, without relations.
 
-    def __init__(self, ring: Ring) -> None:
+    Where only some `pairs` are halved, the sines and cosines of the others stay as they are.
+    """
+
+    def __init__(self, ring: Ring, pairs: Sequence[Pair] | None = None) -> None:
         self.ring = ring
-        self.pairs: tuple[Pair, ...] = ring.pairs
+        self.pairs: tuple[Pair, ...] = ring.pairs if pairs is None else tuple(pairs)
         self.roots = numeric_roots(ring)
         self.ctx: Any = fmpq_mpoly_ctx.get(("h", ring.ctx.nvars()), Ordering.lex)
         self.gens: tuple[fmpq_mpoly, ...] = self.ctx.gens()
@@ -330,9 +333,11 @@ class _HalfAngles:
         plain = ("sin", "cos", "symbol")
         known = parameters(expr) | self.roots.keys()
         others = (g.index for g in self.ring.generators if g.kind not in plain and g.index not in known)
-        if any(degrees[index] > 0 for index in others):
-            return False
-        size = len(expr)
+        return not any(degrees[index] > 0 for index in others) and self.has_room(expr)
+
+    def has_room(self, expr: Expr) -> bool:
+        """Whether the expression is not too long in half angles."""
+        degrees, size = expr.poly.degrees(), len(expr)
         for pair in self.pairs:
             size *= 1 + 2 * max(int(degrees[pair.sine]) + int(degrees[pair.cosine]), 0)
         return size <= MOST_TERMS
@@ -376,7 +381,7 @@ class _HalfAngles:
         """The factors in sines and cosines of whole angles."""
         odd: list[fmpq_mpoly] = []
         for factor, times in factors:
-            if self._is_even(factor):
+            if self.is_even(factor):
                 if not self._is_one(factor):
                     yield _primitive(self.expr(factor)), times
             else:
@@ -390,7 +395,7 @@ class _HalfAngles:
             products = [
                 (len(value), i, j, value)
                 for i, j in combinations(range(len(odd)), 2)
-                if self._is_even(odd[i] * odd[j])
+                if self.is_even(odd[i] * odd[j])
                 for value in (self.expr(odd[i] * odd[j]),)
             ]
             if not products:
@@ -408,7 +413,8 @@ class _HalfAngles:
         """Whether a factor is some C² + S² = 1."""
         return any(factor == self.gens[pair.sine] ** 2 + self.gens[pair.cosine] ** 2 for pair in self.pairs)
 
-    def _is_even(self, factor: fmpq_mpoly) -> bool:
+    def is_even(self, factor: fmpq_mpoly) -> bool:
+        """Whether a polynomial, of one degree in each pair, is one in whole angles."""
         return all(
             (int(e[pair.sine]) + int(e[pair.cosine])) % 2 == 0 for pair in self.pairs for e in factor.monoms()
         )

@@ -13,6 +13,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from dynsolve.algebra.lowest_terms import lowest_terms
 from dynsolve.algebra.ring import Expr, NoRoom, Ring
 from dynsolve.errors import AlgebraError
 
@@ -120,11 +121,10 @@ def simplified(value: RationalExpr) -> RationalExpr:
 
 
 def cancelled(value: RationalExpr) -> RationalExpr:
-    """The same fraction with what numerator and denominator share divided out.
+    """The same fraction with what numerator and denominator share, in half angles, divided out.
 
-    A denominator keeps its form, s₂ and not 1 - c₂², unless the whole becomes shorter without
-    sines, without roots of numbers, or without fractions of parameters, below; its leading coefficient
-    is 1.
+    Where they are too long for that, the sines below go where the whole becomes shorter; so do roots of
+    numbers and fractions of parameters in any case.  The leading coefficient below is 1.
 
     >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.tree import Symbol
@@ -136,8 +136,16 @@ def cancelled(value: RationalExpr) -> RationalExpr:
     if value.divisor is None or is_zero(value.numerator):
         return RationalExpr(value.numerator)
     plain = _without_common(_without_roots(value))
-    ways = [plain, simplified(plain), *([_without_inverses(plain)] if plain.ring.inverses else [])]
-    return min(ways, key=_length)
+    whole = _without_inverses(plain) if plain.ring.inverses else plain
+    if whole.divisor is None:
+        return min(plain, whole, key=_length)
+    found = lowest_terms(whole.numerator, whole.divisor)
+    if found is None:
+        return min(plain, simplified(plain), whole, key=_length)
+    if found == (whole.numerator, whole.divisor):
+        return min(plain, whole, key=_length)
+    lowest = _without_common(RationalExpr(*found))
+    return min(_with_inverses(lowest, like=plain), lowest, key=_length)
 
 
 def with_integers(value: RationalExpr) -> RationalExpr:
@@ -180,6 +188,15 @@ def _without_inverses(value: RationalExpr) -> RationalExpr:
         degree = max(int(one.poly.degrees()[index]) for one in (above, below))
         above, below = _times(above, index, degree), _times(below, index, degree)
     return _without_common(RationalExpr(above, below))
+
+
+def _with_inverses(value: RationalExpr, like: RationalExpr) -> RationalExpr:
+    """The fraction with the fractions of parameters that stand in another."""
+    factor = value.ring.one
+    for index in value.ring.inverses:
+        degree = max(int(one.poly.degrees()[index]) for one in (like.numerator, like.denominator))
+        factor = factor * value.ring.generator(index) ** max(degree, 0)
+    return _without_common(RationalExpr(value.numerator * factor, value.denominator * factor))
 
 
 def _without_roots(value: RationalExpr) -> RationalExpr:

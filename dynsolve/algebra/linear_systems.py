@@ -30,6 +30,7 @@ from math import gcd, lcm
 from msgspec import Struct
 
 from dynsolve.algebra.fraction import RationalExpr, cancelled, equal, is_zero
+from dynsolve.algebra.lowest_terms import without_shared
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.ring import Expr, Ring
 
@@ -247,14 +248,11 @@ def basis(like: Matrix, vectors: Sequence[Sequence[Expr]], height: int) -> Matri
 
 def primitive(vector: Sequence[Expr]) -> list[Expr]:
     """A vector over what its entries share, in whole numbers, the first that is not 0 with a positive one."""
-    ring = vector[0].ring
-    shared = ring.zero.poly
-    for entry in vector:
-        shared = shared.gcd(entry.poly)
-    first = next((entry for entry in vector if not entry.is_zero), None)
-    if first is None:
+    some = [entry for entry in vector if not entry.is_zero]
+    if not some:
         return list(vector)
-    divided = [Expr(ring, divmod(entry.poly, shared)[0]) for entry in vector]
+    rests = iter(without_shared(some))
+    divided = [entry if entry.is_zero else next(rests) for entry in vector]
     leading = next(entry for entry in divided if not entry.is_zero).poly.leading_coefficient()
     number = content(divided) * (1 if leading > 0 else -1)
     return [entry * (1 / number) for entry in divided]
