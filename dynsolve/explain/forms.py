@@ -401,12 +401,14 @@ class ProductForms:
                 numerator, divisor = numerator * base, divisor * base
         if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
             numerator, divisor = -numerator, -divisor
+        below, under = self._factors(divisor, apart=True)
+        if below < 0:
+            below, numerator, divisor = -below, -numerator, -divisor
         parts = divmod(numerator.poly, divisor.poly)
         whole, rest = (Expr(self.ring, self.ring.reduce(part)) for part in parts)
         if len(whole) + len(rest) < len(numerator) and not rest.is_zero:
             return total([self.form(whole), self._quotient(RationalExpr(rest, divisor))])
         above, over = self._factors(numerator)
-        below, under = self._factors(divisor, apart=True)
         factors = [*over, *((node, -power) for node, power in under)]
         return times(above / below, factors, decimal=self.decimal)
 
@@ -460,10 +462,11 @@ class ProductForms:
         return self.ring.depends_on_coordinates(expr), len(expr), collector.order(mono)
 
     def _whole(self, expr: Expr) -> Expr:
-        """A factor, not negative where nothing moves, with integers but of decimals."""
+        """A factor, not negative where nothing moves, with integers where these are not long."""
         if self._is_negative(expr):
             expr = -expr
-        return expr if self.decimal else expr * lcm(*(int(c.q) for c in expr.poly.coeffs()))
+        whole = expr * lcm(*(int(c.q) for c in expr.poly.coeffs()))
+        return expr if self.decimal and _has_long(whole) else whole
 
 
 def _has_long(expr: Expr) -> bool:
