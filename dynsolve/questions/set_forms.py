@@ -119,7 +119,7 @@ class SetForms(Inequalities):
             else:
                 front = front * factor**exponent
         shown.sort(key=lambda part: (cost(part[0]), to_python(part[0])))
-        front = front * ratio(value, product * front)
+        front = value if value.is_zero else front * ratio(value, product * front)
         if front.is_number:
             return times(front.number, shown)
         return times(1, [(self.compactor(ring).form(front), 1), *shown])

@@ -688,6 +688,17 @@ def test_the_determinant_that_is_to_be_0_is_shown() -> None:
     assert to_unicode(size).startswith("det") and "m g r l cos(q₁) cos(q₁ + q₂)" in to_unicode(size)
 
 
+def test_a_determinant_that_is_0_everywhere_is_shown() -> None:
+    *_, size = told_of("""
+    gravity: none
+    dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+    masses: [{mass: m, link: 2}]
+    constraints: [tip.x - tip.y]
+    find: [equilibria]
+    """).working
+    assert to_unicode(size).startswith("det") and to_unicode(size).endswith("= 0")
+
+
 def test_a_length_in_front_of_which_nothing_is_0_is_solved_for() -> None:
     """By hand: k (r - r₀) + m g cos b = 0, where b is a number of the problem."""
     text = """
