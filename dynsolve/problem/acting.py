@@ -114,10 +114,10 @@ def linear(values: CellValues, cell: Cell | None) -> Expr | None:
     if all(slope.is_zero for slope in slopes):
         values.faults.error(cell.span, f"{cell.what} contains no coordinate", "write of: q2 - q1")
     elif any(map(ring.depends_on_coordinates, slopes)):
-        help = "write a linear form: q2 - q1; a spring that is not linear is given by its `energy`"
+        help = "write a linear form: q2 - q1; the `energy` of one of `springs` may be any"
         values.faults.error(cell.span, f"{cell.what} is not linear in the coordinates", help)
     elif not rest.is_zero:
-        help = "a constant of a spring stands under `rest`"
+        help = "leave it out; where a spring of `springs` is at rest stands under its `rest`"
         values.faults.error(cell.span, f"{cell.what} has a part without coordinates", help)
     else:
         return value

@@ -259,13 +259,22 @@ def _spring_part(robot: Robot, value: InputValue) -> Expr:
     return part
 
 
+def _left_out(robot: Robot) -> Iterator[tuple[Expr, Diagnosis]]:
+    """The energy of all springs, and of each of several."""
+    stored = [act.energy for act in robot.actions.stored]
+    if stored:
+        yield sum(stored, start=robot.ring.zero), slip("springs_missing", part="the springs")
+    if len(stored) > 1:
+        yield from ((energy, slip("springs_missing", part="a spring")) for energy in stored)
+
+
 def _total_potential(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     right, springs = value("P"), _spring_part(robot, value)
     yield springs + springs - right, slip("gravity_sign")
     for body in robot.bodies:
         yield right - value(f"P{body.name}"), slip("body_missing", part=body.name, other="P")
+    yield from ((right - part, told) for part, told in _left_out(robot))
     if robot.actions.stored:
-        yield right - springs, slip("springs_missing")
         yield right - springs - springs, slip("spring_sign")
 
 
@@ -300,8 +309,7 @@ def _lagrangian(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
     K, P, springs = value("K"), value("P"), _spring_part(robot, value)
     yield K + P, slip("lagrangian_sum")
     yield K - springs, slip("gravity_missing")
-    if robot.actions.stored:
-        yield K - P + springs, slip("springs_missing")
+    yield from ((K - P + part, told) for part, told in _left_out(robot))
 
 
 def _rate(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
@@ -342,8 +350,9 @@ def _force(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
     if not friction.is_zero:
         yield rate - slope, slip("friction_missing")
         yield rate - slope - friction, slip("friction_sign")
-    if robot.actions.stored and not (held := ring.diff(value("Ps"), q.index - 1)).is_zero:
-        yield rate - slope + friction - held, slip("springs_missing")
+    for part, told in _left_out(robot):
+        if not (held := ring.diff(part, q.index - 1)).is_zero:
+            yield rate - slope + friction - held, told
 
 
 # -- the vectorized form ---------------------------------------------------------------------------
@@ -363,13 +372,11 @@ def _rows_of(name: str, robot: Robot, of: None, value: InputValue) -> Iterator[V
 
 
 def _gravity(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:
-    right, springs = value("g"), Matrix.zero(robot.ring, robot.n, 1)
-    if robot.actions.stored:
-        springs = euler_lagrange.gravity_vector(robot, value("Ps"))
+    right, springs = value("g"), euler_lagrange.gravity_vector(robot, _spring_part(robot, value))
     yield springs + springs - right, slip("gravity_sign")
     yield from _rows_of("g", robot, of, value)
-    if robot.actions.stored:
-        yield right - springs, slip("springs_missing")
+    for part, told in _left_out(robot):
+        yield right - euler_lagrange.gravity_vector(robot, part), told
 
 
 def _coriolis(robot: Robot, of: None, value: InputValue) -> Iterator[Variant]:

@@ -57,7 +57,7 @@ def _differs_by_springs(case: Case) -> bool:
     return (
         not difference.is_zero
         and not robot.ring.depends_on_coordinates(difference)
-        and _parameters([difference]) <= own
+        and _parameters([difference]) <= own | {"pi"}
         and all(any(exponents[i] for i in places) for exponents in difference.poly.monoms())
     )
 

@@ -32,7 +32,7 @@ def holds(text: str) -> None:
 
 def test_what_new_writes_has_every_key_and_its_meaning() -> None:
     written = template()
-    assert names(PROBLEM.keys) == re.findall(r"^(?:# )?([a-z]+): ?(?:\S.*)?$", written, re.MULTILINE)
+    assert names(PROBLEM.keys) == re.findall(r"^(?:# )?([a-z_]+): ?(?:\S.*)?$", written, re.MULTILINE)
     folded = " ".join(written.replace("#", " ").split())
     for record in (PROBLEM, ROW, BODY):
         assert all(" ".join(key.described.split()) in folded for key in record.keys)
