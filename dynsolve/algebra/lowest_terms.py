@@ -78,8 +78,9 @@ def _shared(halves: HalfAngles, values: Sequence[Expr]) -> fmpq_mpoly | None:
     found = _one(halves)
     for factor, times in _factors(halves, rooted[0]):
         for _ in range(times):
-            rests = [quotient(poly, factor, halves.roots) for poly in polys]
-            if None in rests:
+            quotients = (quotient(poly, factor, halves.roots) for poly in polys)
+            rests = [rest for rest in quotients if rest is not None]
+            if len(rests) < len(polys):
                 break
             polys, found = rests, found * factor
     return found
