@@ -18,16 +18,16 @@ the other, the lightest first.  A part without a partner is a missing term, or o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from itertools import chain, groupby
+from itertools import groupby
 
 from msgspec import Struct
 
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.answers.diagnosis.factors import FactorPairs
+from dynsolve.answers.diagnosis.factors import FactorPairs, Found
 from dynsolve.answers.diagnosis.mends import (
     Exchange,
     Monomial,
@@ -204,6 +204,10 @@ MOST_TERMS = 60
 """An answer that is off by more terms than this has no slip in one place."""
 
 
+LIGHTEST = 1
+"""The weight of the nearest slips, of which none is one sine or cosine for another."""
+
+
 class OnePlace:
     """Finds the slip in one place of an answer that leads to it from what was expected."""
 
@@ -218,29 +222,37 @@ class OnePlace:
         off = expected - mine
         if off.is_zero or len(off) > MOST_TERMS:
             return None
-        found = [one for one in self._all(mine, expected, off) if _stands(one.mend, mine, expected)]
-        found.sort(key=lambda one: (one.weight, len(one.mend.rest)))
-        return next(filter(self._is_seen, found), None)
+        before = [*self._numbers(mine, expected, off), *self._exchanged(self.factors.of_symbols(off))]
+        behind = [*self._exchanged(self.factors.of_strange_functions(off))]
+        found = self._lightest([*before, *behind], mine, expected)
+        if found is not None and found.weight == LIGHTEST:
+            return found
+        functions = self._exchanged(self.factors.of_functions(off))
+        return self._lightest([*before, *functions, *behind], mine, expected)
 
-    def _all(self, mine: Expr, expected: Expr, off: Expr) -> Iterator[TermSlip]:
-        yield from self._numbers(mine, expected, off)
-        of = self.factors
-        for (a, b), code, rest in chain(
-            of.of_symbols(off), of.of_functions(off), of.of_strange_functions(off)
-        ):
+    def _lightest(self, slips: Sequence[TermSlip], mine: Expr, expected: Expr) -> TermSlip | None:
+        stands = [
+            one for one in slips if stands_in(one.mend.have, mine) and stands_in(one.mend.want, expected)
+        ]
+        stands.sort(key=lambda one: (one.weight, len(one.mend.rest)))
+        return next(filter(self._is_seen, stands), None)
+
+    def _exchanged(self, pairs: Iterable[Found]) -> Iterator[TermSlip]:
+        for (a, b), code, rest in pairs:
             yield self.exchanges.named(Exchange(rest, b, a), code)
             yield self.exchanges.named(Exchange(-rest, a, b), code)
 
     def _numbers(self, mine: Expr, expected: Expr, off: Expr) -> Iterator[TermSlip]:
         """A number before one term: 0 of a missing one, 1 of one too many, a sign, a factor."""
         have, want = _at_terms_of(off, mine), _at_terms_of(off, expected)
-        if not isinstance(self.words.form(off), Sum):
-            if have.is_zero:
-                yield self.exchanges.missing(want)
-            elif want.is_zero:
-                yield self.exchanges.needless(have)
-            elif (ratio := ratio_of(want, have)) is not None:
-                yield self.exchanges.number(have, ratio)
+        ratio = ratio_of(want, have)
+        is_number = ratio is not None or have.is_zero or want.is_zero
+        if not is_number or isinstance(self.words.form(off), Sum):
+            return
+        if ratio is not None:
+            yield self.exchanges.number(have, ratio)
+        else:
+            yield self.exchanges.missing(want) if have.is_zero else self.exchanges.needless(have)
 
     def _is_seen(self, one: TermSlip) -> bool:
         """Whether the one function stands in the term and the other in what it should be.
@@ -271,10 +283,6 @@ def ratio_of(a: Expr, b: Expr) -> Fraction | None:
         return None
     ratio = Fraction(fraction(a.poly.leading_coefficient()) / fraction(b.poly.leading_coefficient()))
     return ratio if a == b * ratio else None
-
-
-def _stands(mend: Exchange, mine: Expr, expected: Expr) -> bool:
-    return stands_in(mend.have, mine) and stands_in(mend.want, expected)
 
 
 def _at_terms_of(off: Expr, value: Expr) -> Expr:

@@ -324,8 +324,12 @@ class Explanations:
         return self._differ((value.value for value in led), self.hand_in.graph.key(node))
 
     def _differ(self, led: Iterable[Any], key: Any) -> bool:
-        values = list(led)
-        return bool(values) and key not in values
+        any_led = False
+        for value in led:
+            if value == key:  # what else there is need not be worked out
+                return False
+            any_led = True
+        return any_led
 
 
 def entry_of(value: Any, i: int, j: int) -> Any:

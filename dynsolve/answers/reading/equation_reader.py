@@ -53,7 +53,14 @@ from dynsolve.answers.reading.left_side import (
     without_factor,
 )
 from dynsolve.answers.reading.lexer import Macro, Token
-from dynsolve.answers.reading.matrix_parts import entry_of, fitted, model_parts, part_of, shown
+from dynsolve.answers.reading.matrix_parts import (
+    entry_of,
+    fitted,
+    is_gravity_vector,
+    model_parts,
+    part_of,
+    shown,
+)
 from dynsolve.answers.reading.name_splitting import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.plain import plain_member
 from dynsolve.answers.reading.prepare import prepared
@@ -187,13 +194,12 @@ class EquationReader:
         member = candidates and plain_member(self.vocabulary, display.text, len(head) + 1, 1, candidates)
         if not member or not isinstance(member.found, RightSide) or isinstance(member.found.value, Function):
             return False
-        if isinstance(member.found.value, Node):
-            is_called = candidates[0] in {q.force for q in self.vocabulary.coordinates}
-        else:
-            is_called = states_constant(self.vocabulary, [prepared(head)], [candidates], [member.found])
-        if not is_called:
-            self.found.answers += self.found.value([candidates], member, self.origin(display, display.label))
-        return not is_called
+        value, forces = member.found.value, [q.force for q in self.vocabulary.coordinates]
+        is_gravity = candidates == ("g",) and is_gravity_vector(value, len(forces))
+        if is_gravity or (isinstance(value, Node) and candidates[0] in forces):
+            return False
+        self.found.answers += self.found.value([candidates], member, self.origin(display, display.label))
+        return True
 
     def _plainly_named(self, head: str) -> tuple[str, ...]:
         """The answers that a left side names by the very name of one, which is nothing else as well."""

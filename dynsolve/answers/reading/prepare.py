@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from functools import lru_cache
 from types import MappingProxyType
 
 from msgspec import Struct
@@ -268,18 +267,7 @@ def prepared(text: str, macros: Mapping[str, Macro] = MappingProxyType({})) -> l
     >>> [token.text for token in prepared(r"\mathbf{D}_{1} \tfrac12")]
     ['D', '_', '1', 'frac', '1', '2', '']
     """
-    if macros or len(text) > _SHORT:
-        return simplified(expand(tokenize(text), macros))
-    return list(_short(text))
-
-
-_SHORT = 1_000
-"""Characters of what is read time and again: names, and equations that many hand in."""
-
-
-@lru_cache(maxsize=1_024)
-def _short(text: str) -> tuple[Token, ...]:
-    return tuple(simplified(tokenize(text)))
+    return simplified(expand(tokenize(text), macros))
 
 
 def simplified(tokens: list[Token]) -> list[Token]:
