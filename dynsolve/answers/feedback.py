@@ -81,13 +81,14 @@ class FeedbackView(Struct, frozen=True):
 
 def feedback(report: Report, title: str, view: FeedbackView) -> Document:
     """The report as a document."""
+    rows = tuple((_named(one), _SAID[one.verdict], "; ".join(_remarks(one))) for one in report.answers)
     blocks = (
         Heading(title, 1),
         *_marks(report),
         *opening(report),
         *slips(report, view),
         Heading("All answers"),
-        Table(("answer", "verdict", "note"), tuple(map(_row, report.answers))),
+        Table(("answer", "verdict", "note"), rows),
         *readings(report, view),
         *not_recognized(report),
     )
@@ -282,10 +283,6 @@ def findings(report: Report) -> Iterator[Finding]:
                 f"{answer.name}: {answer.fault}", answer.expected, report.file,
                 place.line, place.column, place.length, place.excerpt,
             )  # fmt: skip
-
-
-def _row(answer: JudgedAnswer) -> tuple[str | Node, ...]:
-    return _named(answer), _SAID[answer.verdict], "; ".join(_remarks(answer))
 
 
 def _remarks(answer: JudgedAnswer) -> Iterator[str]:

@@ -379,8 +379,10 @@ class Judge:
         assembled = self.hand_in.assembled_coriolis
         if assembled is not None:
             answers |= dict(coriolis_entries(judge, assembled, answers))
-        for name in dict.fromkeys((*self._asked, *self._wholes)):
-            if name not in answers and (name == TABLE or self._has_key(name)):
+        wholes = (answer.whole for answer in self.submission.answers if answer.whole)
+        target, rules = self.hand_in.compare.target, self.hand_in.answer_ring.rules
+        for name in dict.fromkeys((*self._asked, *wholes)):
+            if name not in answers and (name == TABLE or target(name).node in rules):
                 answers[name] = self._unwritten(name, answers)
         for name in self.hand_in.definitions.keys() - answers.keys():
             if (defined := self._unwritten(name, answers)).verdict is Verdict.MISSING:
@@ -440,15 +442,8 @@ class Judge:
         return Ledger(named, answers, refused, explained)
 
     @property
-    def _wholes(self) -> list[str]:
-        return [answer.whole for answer in self.submission.answers if answer.whole]
-
-    @property
     def _asked(self) -> Collection[str]:
         return self.problem.marks or self.problem.find
-
-    def _has_key(self, name: str) -> bool:
-        return self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules
 
     def _marks_of(self, name: str) -> Fraction:
         return Fraction(self.problem.marks.get(name, 0))

@@ -170,18 +170,11 @@ def _one(answer: JudgedAnswer, policy: Policy) -> Marked:
         return Marked(answer.name, Fraction(0), Fraction(0), f"{answer.verdict}; it carries no marks")
     share, why = _share(answer, policy)
     exact = share * answer.of
-    marks = _rounded(exact, answer.of, policy)
+    marks = exact if exact == answer.of else min(rounded(exact, policy.rounding), answer.of)
     line = f"{why}: {shown(marks)} of {shown(answer.of)}"
-    return Marked(answer.name, marks, answer.of, line + _rounding(exact, marks, policy))
-
-
-def _rounded(exact: Fraction, of: Fraction, policy: Policy) -> Fraction:
-    """Marks rounded to the policy's steps, never above `of`; full marks stay full."""
-    return exact if exact == of else min(rounded(exact, policy.rounding), of)
-
-
-def _rounding(exact: Fraction, marks: Fraction, policy: Policy) -> str:
-    return f" ({shown(exact)}, rounded to steps of {shown(policy.rounding)})" if exact != marks else ""
+    if exact != marks:
+        line += f" ({shown(exact)}, rounded to steps of {shown(policy.rounding)})"
+    return Marked(answer.name, marks, answer.of, line)
 
 
 def _share(answer: JudgedAnswer, policy: Policy) -> tuple[Fraction, str]:

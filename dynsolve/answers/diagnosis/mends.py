@@ -65,18 +65,11 @@ def parts(expr: Expr) -> dict[Monomial, Expr]:
     groups: dict[Monomial, dict[tuple[int, ...], object]] = {}
     if not expr.poly:
         return {}
-    turning = _turning(expr.ring)
+    turning = {i for pair in expr.ring.pairs for i in (pair.sine, pair.cosine)}
     for exponents, value in expr.poly.to_dict().items():
-        groups.setdefault(_monomial(exponents, turning), {})[exponents] = value
+        monomial = tuple((i, int(e)) for i, e in enumerate(exponents) if e and i not in turning)
+        groups.setdefault(monomial, {})[exponents] = value
     return {m: Expr(expr.ring, expr.ring.ctx.from_dict(terms)) for m, terms in groups.items()}
-
-
-def _monomial(exponents: tuple[int, ...], turning: frozenset[int]) -> Monomial:
-    return tuple((i, int(e)) for i, e in enumerate(exponents) if e and i not in turning)
-
-
-def _turning(ring: Ring) -> frozenset[int]:
-    return frozenset(i for pair in ring.pairs for i in (pair.sine, pair.cosine))
 
 
 def monomial_expr(ring: Ring, monomial: Monomial) -> Expr:

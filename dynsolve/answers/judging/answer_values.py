@@ -440,7 +440,8 @@ class AnswerValues:
         answer = self.answers[place]
         if place in self._faults:
             return AnswerValue(answer, None, (), *self._faults[place])
-        nodes = _entries(self._nodes[place])
+        node = self._nodes[place]
+        nodes = node.rows if isinstance(node, tree.Matrix) else ((node,),)
         if len(nodes) * len(nodes[0]) > MOST_ENTRIES:
             return AnswerValue(
                 answer, None, nodes, "the matrix is too large", f"at most {MOST_ENTRIES} entries"
@@ -472,10 +473,6 @@ class AnswerValues:
         """The value of a tree that is an answer's but for a decimal."""
         self.evaluator.work = 0
         return self.evaluator.value(node)
-
-
-def _entries(node: Node) -> tuple[tuple[Node, ...], ...]:
-    return node.rows if isinstance(node, tree.Matrix) else ((node,),)
 
 
 def as_value(rows: Rows, like: Expr | Matrix | FractionMatrix) -> Expr | Matrix | None:

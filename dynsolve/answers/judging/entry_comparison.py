@@ -320,11 +320,10 @@ def spans(key: Matrix, written: Sequence[Matrix], values: Mapping[str, Fraction]
     if not put:
         return False
     numbers = key.map(lambda entry: substituted(entry, put))
-    return any(_same(numbers, one.map(lambda entry: _number(entry, put))) for one in written)
-
-
-def _number(entry: Expr, put: Mapping[int, Fraction]) -> Expr:
-    return put_numbers(RationalExpr(entry), put).numerator
+    return any(
+        _same(numbers, one.map(lambda entry: put_numbers(RationalExpr(entry), put).numerator))
+        for one in written
+    )
 
 
 def _same(key: Matrix, written: Matrix) -> bool:

@@ -214,7 +214,8 @@ class OwnPlaces:
         for name, dots, value in restated_state(asked.state, counts).values:
             turns = name in turning
             trees.append(Function("cos", value) if turns and not dots else value)
-        return [_without_references(tree) for tree in trees]
+        # what the ring holds in any case, the coordinates of points, is 0 here
+        return [mapped(tree, lambda part: ZERO if isinstance(part, Reference) else part) for tree in trees]
 
     def _count(self, q: OwnCoordinate) -> Count:
         if q.is_length:
@@ -365,11 +366,6 @@ class OwnPlaces:
             return len(self.table)
         moving = [i for i, mine in enumerate(self.table, 1) if mine.variable is not None]
         return moving[joints - 1] if joints else 0
-
-
-def _without_references(tree: Node) -> Node:
-    """A formula of a task with 0 for the coordinates of points, which the ring holds in any case."""
-    return mapped(tree, lambda node: ZERO if isinstance(node, Reference) else node)
 
 
 def _degrees(value: float | None) -> Fraction:

@@ -237,7 +237,8 @@ class TableComparer:
         self.robot = problem.robot
         self.key = key_table(problem.robot)
         self.modified = (read_as or problem.robot.convention) is Convention.MODIFIED
-        self.base_is_free = _base_is_free(problem)
+        normals = problem.normals
+        self.base_is_free = normals is not None and not normals.drawing.axes[0].is_placed
         self.letters = tuple(_draws(problem, self.key))
         keys_are_modified = problem.robot.convention is Convention.MODIFIED
         self._keys = tuple(_chain(self.key, letters, keys_are_modified) for letters in self.letters)
@@ -402,11 +403,6 @@ def _rates(row: TableRow, n: int) -> list[float]:
 def _proportional(mine: TableRow, theirs: TableRow) -> bool:
     ratios = {a / b for (_, a), (_, b) in zip(mine.rates, theirs.rates, strict=True)}
     return ratios <= {Fraction(1)} or ratios <= {Fraction(-1)}
-
-
-def _base_is_free(problem: Problem) -> bool:
-    """Whether the first axis of a drawing has no place, and so frame 0 none."""
-    return problem.normals is not None and not problem.normals.drawing.axes[0].is_placed
 
 
 def _draws(problem: Problem, key: Table) -> Iterator[dict[str, float]]:

@@ -168,12 +168,11 @@ class FormulaReader(Reader):
                 return False
             if kind == "|" and self.bars_separate:
                 return False
-        elif kind not in _PRODUCT_SIGNS and not (kind == "'" and self._quote_follows()):
+        elif kind not in _PRODUCT_SIGNS and (
+            kind != "'" or not self.is_quoted() or (self.by_blanks and token.spaced)
+        ):
             return False
         return not (self.rows_by_line and token.broken)
-
-    def _quote_follows(self) -> bool:
-        return self.is_quoted() and not (self.by_blanks and self.token.spaced)
 
     def factor(self) -> Value:
         """Signs, then an atom with its scripts."""

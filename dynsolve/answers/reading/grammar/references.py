@@ -385,7 +385,8 @@ def _closed(reader: Reader) -> Value:
 def _open(reader: Reader) -> tuple[Value, list[Fraction]]:
     """An optional number and one factor."""
     parts: list[Node] = []
-    if reader.token.kind in ("number", "fraction") or _is_numeric_fraction(reader):
+    is_fraction = reader.token.text == "frac" and reader.peek(1).kind == reader.peek(2).kind == "number"
+    if is_fraction or reader.token.kind in ("number", "fraction"):
         number = reader.atom()
         if not isinstance(number, Node):
             return number, []
@@ -408,10 +409,6 @@ def _open(reader: Reader) -> tuple[Value, list[Fraction]]:
 
 
 _POWER_NOTE = "a power behind an angle without parentheses is read as the power of the function"
-
-
-def _is_numeric_fraction(reader: Reader) -> bool:
-    return reader.token.text == "frac" and reader.peek(1).kind == reader.peek(2).kind == "number"
 
 
 def _degrees_meant(argument: Node) -> str:
