@@ -76,14 +76,12 @@ class KeyComparison(Struct, frozen=True):
     @property
     def correct(self) -> bool:
         """Whether every entry is right."""
-        return (
-            bool(self.rows) and not self.obstacles and all(r is not None for row in self.right for r in row)
-        )
+        return bool(self.rows) and not self.obstacles and not any(None in row for row in self.right)
 
     @property
     def rounded(self) -> bool:
         """Whether a decimal rounds."""
-        return any(r for row in self.right for r in row)
+        return any(map(any, self.right))
 
 
 class KeyComparer:
