@@ -13,7 +13,8 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 4. `displays` cuts the tokens into equations, and these at `=` into members.
 5. `equation_reader` takes the equations in order, and keeps what the student defines;
    `asides` are formulas in sentences, by the words of `report_text`.  `left_side` finds which
-   answers a member names (d11), and which value it has.
+   answers a member names (d11), and which value it has.  A name and a formula that can be nothing else,
+   as most are, take none of these ways: `plain` reads them from their text.
 6. For both, `name_splitting` cuts runs of letters into the names of the problem (`m_2gL_1`), and
    `grammar` descends over the tokens; what a name means is looked up in the `vocabulary` of
    the problem.  A value is a tree, or a matrix of trees (`grids`).
@@ -35,7 +36,7 @@ the file, from `answer_file`, which reads them.
 
 Modules import only those of earlier layers: text (`sources`, `lexer`, `prepare`, `displays`), names
 (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations (`matrix_parts`, `left_side`, `by_content`,
-`answer_list`, `equation_reader`, `asides`, `answer_file`), formats (the rest).
+`answer_list`, `plain`, `equation_reader`, `asides`, `answer_file`), formats (the rest).
 
 To read one more format, write a file that finds its displays, and name its ending in `files`; one
 more notation is a row or a module of `grammar`.

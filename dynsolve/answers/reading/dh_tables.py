@@ -106,6 +106,8 @@ _WORDS = (
     (re.compile(r"link length|trans\w*[\s_({]*x", re.IGNORECASE), 2),
     (re.compile(r"twist|rot\w*[\s_({]*x|r[_{]+x", re.IGNORECASE), 3),
 )
+_TWIST = re.compile(rf"alpha|α|{_WORDS[3][0].pattern}", re.IGNORECASE)
+"""What stands in the head of every table."""
 
 
 def column_of(head: str) -> int | None:
@@ -181,6 +183,8 @@ class FoundTable(Struct, frozen=True):
 
 def tables_of(text: str, variables: Sequence[str] = ()) -> list[FoundTable]:
     """The tables of a text, in order; `variables` are the names of the joints' variables in theirs."""
+    if not _TWIST.search(text):
+        return []
     found = list(islice(_latex(text, variables), MOST_TABLES))
     found += islice(_piped(without(text, found), variables), MOST_TABLES)
     found += islice(_plain(without(text, found), variables), MOST_TABLES)
