@@ -7,7 +7,7 @@ from math import inf, prod
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.factors import is_nonnegative, is_positive
+from dynsolve.algebra.factors import is_nonnegative, is_positive, parameters
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Conditions
@@ -357,22 +357,23 @@ def _needs(forms: InverseForms, factor: Expr) -> Iterator[Prose]:
 
 
 def _may_vanish(factors: Sequence[Expr]) -> bool:
-    """Whether all may be 0 at once: where one of them is a sine, the others with c = 1 or c = -1."""
+    """Whether all may be 0 at once: where one of them is a sine or a cosine, the others where that is 0."""
     ring = factors[0].ring
+    constant = parameters(ring.one) | {g.index for g in ring.generators if g.name in ring.parameters}
+    held = [{i for i, degree in enumerate(x.poly.degrees()) if degree > 0} for x in factors if len(x) == 1]
     for pair in ring.pairs:
-        lengths = {pair.sine, *(g.index for g in ring.generators if g.name in ring.parameters)}
-        held = [
-            {i for i, degree in enumerate(x.poly.degrees()) if degree > 0} for x in factors if len(x) == 1
-        ]
-        if not any(pair.sine in each and each <= lengths for each in held):
-            continue
-        for cosine in (1, -1):
-            there = {pair.sine: ring.zero.poly, pair.cosine: ring.constant(cosine).poly}
-            values = [ring.put(factor, there) for factor in factors]
-            if not any(is_positive(value * value) for value in values):
-                return True
-        return False
+        for zero, other in ((pair.sine, pair.cosine), (pair.cosine, pair.sine)):
+            if any(zero in each and each <= constant | {zero} for each in held):
+                return any(_vanish_at(factors, zero, other, value) for value in (1, -1))
     return True
+
+
+def _vanish_at(factors: Sequence[Expr], zero: int, other: int, value: int) -> bool:
+    """Whether all may be 0 where a sine or cosine is 0 and its `other` is 1 or -1."""
+    ring = factors[0].ring
+    point = {zero: ring.zero.poly, other: ring.constant(value).poly}
+    there = [ring.put(factor, point) for factor in factors]
+    return not any(is_positive(left * left) for left in there)
 
 
 # -- the way to an unknown: components turned, squared and added, then sorted ----------------------
