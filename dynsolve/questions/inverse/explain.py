@@ -73,11 +73,11 @@ def steps(context: Context) -> Iterator[Step]:
             why=_spare(context, r)
             if is_free
             else (
-                "The equations were turned into the frames of the joints, squared and added. No "
-                "equation with one unknown in a known form was among them; that there is none is not shown.",
+                "The equations were turned into the frames of the joints, squared and added. That there is no "
+                "closed form is not shown.",
             ),
             detail=Detail.BRIEF,
-            notes=tuple(_of_pieper(context.robot)),
+            notes=() if is_free else tuple(_of_pieper(context.robot)),
             normal=NOTED,
             uses=(),
         )
@@ -343,7 +343,7 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
         case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
             factors = [factor for factor in (cosine, sine) if not factor.is_zero]
     if (there := _existence(formulas, step)) is not None:
-        text = "There are solutions where {there}; on the boundary, with =, the two solutions are one."
+        text = "This equation has solutions where {there}; on the boundary, with =, the two are one."
         yield say(text, there=there)
     if factors and not any(is_positive(factor * factor) for factor in factors) and _may_vanish(factors):
         zeros = [equation(forms.vanishing(factor), Number(0)) for factor in factors]

@@ -387,7 +387,7 @@ def target_steps(forms: TargetForms) -> Iterator[Step]:
         origin = "Branch|Branches {branches} with these numbers{boundary}."
         if not one.branches:
             origin = "Found in numbers, and put into $𝐫(𝐪)$."
-        several = ": they are one, for the target is on their boundary"
+        several = ": they are one" + ("" if one.free else ", for the target is on their boundary")
         remarks = (
             (one.free, "{q} is|are free here: infinitely many solutions."),
             (one.outside, "{q} is|are beyond the limits."),

@@ -405,7 +405,7 @@ reach: [px, py, pz]
 """
     shown = in_one_line(arm + "find: [inverse]\n")
     assert "The values of the task, p_x, p_y and p_z, are given" in shown
-    assert "that there is none is not shown" in shown and "stay coupled" not in shown
+    assert "That there is no closed form is not shown" in shown and "stay coupled" not in shown
     assert "The other results" not in shown and "The other results" in in_one_line(arm + "find: [r]\n")
 
 
