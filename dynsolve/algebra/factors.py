@@ -70,6 +70,11 @@ def is_positive(expr: Expr) -> bool:
     return is_nonnegative(expr) and any(_holds_only(exponents, free) for exponents in expr.poly.monoms())
 
 
+def is_never_zero(expr: Expr) -> bool:
+    """Whether it or its negative is positive, as what is divided by is to be."""
+    return is_positive(expr) or is_positive(-expr)
+
+
 def parameters(expr: Expr) -> frozenset[int]:
     """The generators that count as positive, inverses of what is positive among them."""
     ring = expr.ring

@@ -7,7 +7,7 @@ from math import inf, prod
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.factors import is_nonnegative, is_positive, parameters
+from dynsolve.algebra.factors import is_never_zero, is_positive, parameters
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Conditions
@@ -73,8 +73,8 @@ def steps(context: Context) -> Iterator[Step]:
             why=_spare(context, r)
             if is_free
             else (
-                "The equations were turned into the frames of the joints, squared and added. That there is no "
-                "closed form is not shown.",
+                "The equations were turned into the frames of the joints, squared and added. That there is "
+                "no closed form is not shown.",
             ),
             detail=Detail.BRIEF,
             notes=() if is_free else tuple(_of_pieper(context.robot)),
@@ -336,12 +336,10 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
     match step:
         case OneLine(_, cosine, sine, value) if value.is_zero:
             factors = [sine, cosine]
-        case OneLine(_, cosine, sine) if cosine.is_zero or sine.is_zero:
-            yield from _needs(forms, cosine + sine)
-        case Length():
-            yield from _needs(forms, step.factor)
         case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
             factors = [factor for factor in (cosine, sine) if not factor.is_zero]
+    if needed := [*_needed(forms, step)]:
+        yield say("This needs {needed}.", needed=listed(needed))
     if (there := _existence(formulas, step)) is not None:
         text = "This equation has solutions where {there}; on the boundary, with =, the two are one."
         yield say(text, there=there)
@@ -350,10 +348,17 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
         yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
 
 
-def _needs(forms: InverseForms, factor: Expr) -> Iterator[Prose]:
-    """That a factor is not 0, where it may be."""
-    if not (is_nonnegative(factor) or is_nonnegative(-factor)):
-        yield say("This needs ${factor} ≠ 0$.", factor=forms.vanishing(factor))
+def _needed(forms: InverseForms, step: Solved) -> Iterator[Node]:
+    """That what is divided by is not 0, where it may be."""
+    match step:
+        case OneLine(_, cosine, sine, value) if not value.is_zero and (cosine.is_zero or sine.is_zero):
+            divisor = cosine + sine
+        case Length(_, divisor) | RootLength(_, divisor):
+            pass
+        case _:
+            return
+    if not is_never_zero(divisor):
+        yield formula("{divisor} ≠ 0", divisor=forms.vanishing(divisor))
 
 
 def _may_vanish(factors: Sequence[Expr]) -> bool:
@@ -596,6 +601,9 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     if table is not None:
         shown = [cell for row in table.rows for cell in row if isinstance(cell, Node)]
     same = f"A coordinate that stands in a formula is that of the same {'solution' if is_free else 'line'}."
+    parts = [part for part in solving.parts if part.turn is None or not part.turn.is_wrist]
+    needed = [node for part in parts for step in part.solved for node in _needed(forms, step)]
+    needs = say(f"{'They need' if count > 1 else 'It needs'} {{needed}}.", needed=listed(needed))
     is_of_others = count > 1 and not names_in(*shown).isdisjoint(names)
     return Step(
         id=_id_of_branches(forms),
@@ -609,7 +617,11 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
         ),
         table=table,
         notes=(*_conditions(forms, task), *_free_coordinates(solving)),
-        outcome=together if is_free and choices else (),
+        outcome=say(
+            "{together} {needs}",
+            together=together if is_free and choices else (),
+            needs=needs if needed else (),
+        ),
         normal=NOTED,
         detail=Detail.BRIEF,
         uses=(*(f"inverse_{name}" for name in names), *starts),

@@ -24,7 +24,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from dynsolve.algebra.factors import is_nonnegative, is_positive
+from dynsolve.algebra.factors import is_never_zero, is_positive
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.existence import fourier_parts
 from dynsolve.questions.inverse.equations import Equation, Unknowns
@@ -112,7 +112,7 @@ class TwoLines(Struct, frozen=True):
         """A vector that is turned before other lines, and these before lines that may be parallel."""
         if self.is_rotation:
             return 0
-        return 1 if is_nonnegative(self.determinant) or is_nonnegative(-self.determinant) else 6
+        return 1 if is_never_zero(self.determinant) else 6
 
     @property
     def is_rotation(self) -> bool:
@@ -158,10 +158,12 @@ class OneLine(Struct, frozen=True):
 
     @property
     def rank(self) -> int:
-        """A direction (X = 0) before a single sine or cosine, and these before both."""
+        """A direction (X = 0), a single sine or cosine (its factor never 0, or it may be), and then both."""
         if self.value.is_zero:
             return 2
-        return 3 if self.cosine.is_zero or self.sine.is_zero else 4
+        if not (self.cosine.is_zero or self.sine.is_zero):
+            return 5
+        return 3 if is_never_zero(self.cosine + self.sine) else 4
 
     @property
     def size(self) -> int:
@@ -192,7 +194,7 @@ class Length(Struct, frozen=True):
     @property
     def rank(self) -> int:
         """At once where nothing is divided by that may vanish."""
-        return 0 if is_nonnegative(self.factor) or is_nonnegative(-self.factor) else 6
+        return 0 if is_never_zero(self.factor) else 6
 
     @property
     def size(self) -> int:
@@ -214,7 +216,11 @@ class RootLength(Struct, frozen=True):
     constant: Expr
     equations: tuple[Equation, ...]
     count = 2
-    rank = 3
+
+    @property
+    def rank(self) -> int:
+        """After an equation of the first degree where what it is divided by may vanish."""
+        return 3 if is_never_zero(self.square) else 7
 
     @property
     def size(self) -> int:

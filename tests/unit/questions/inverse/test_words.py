@@ -21,3 +21,27 @@ dh: [{theta: q1*, alpha: 45deg, d: d1}, {theta: q2*, alpha: -45deg}, {theta: q3*
 task: pose"""
     text = told(wrist)
     assert "q₁ is free" in text and "q₃ is free" not in text
+
+
+def test_an_equation_that_is_not_divided_by_what_may_vanish_is_taken_first() -> None:
+    """Divided by cos q1 there would be no solution where r1 = 0, and there are."""
+    text = told("dh: [{theta: q1*, a: l1}, {d: q2*, a: l2, alpha: 90deg}, {theta: q3*, a: l3}]")
+    assert "arccos((r₂ s₁ + r₁ c₁ - l₁ - l₂)/l₃)" in text and "needs" not in text
+
+
+def test_what_is_divided_by_stands_in_the_summary() -> None:
+    arm = "dh: [{theta: q1*, a: l}, {d: q2*, theta: 90deg, alpha: 90deg}, {d: q3*}]\n"
+    text = told(arm + "task: [tip.x + tip.y, q2*cos(q1), q3]")
+    assert "q₂ = r₂/c₁ Note: This needs c₁ ≠ 0." in text
+    assert "there are 2 solutions. They need c₁ ≠ 0." in text.partition("Summary")[2]
+
+
+def test_branches_that_are_one_because_an_angle_is_free_are_on_no_boundary() -> None:
+    arm = "dh: [{theta: q1*, a: 0.5}, {d: q2*, a: 0.5, alpha: 90deg}, {theta: q3*, a: 2}]\n"
+    text = told(arm + "reach: [0, 0, 0.2]")
+    assert "Branches 1 and 3 with these numbers: they are one. q₃ =" in text
+
+
+def test_an_arm_that_can_move_and_keep_its_task_is_not_said_to_have_four_configurations() -> None:
+    text = told("dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: -90deg}, {theta: q3*, a: l}]")
+    assert "infinitely many configurations" in text and "at most four" not in text
