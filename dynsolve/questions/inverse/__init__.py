@@ -2,8 +2,8 @@
 
 The equations of the task are not solved all at once.  From them others are made in which
 fewer unknowns stand, as a textbook does: turned into the frame of a joint (Paul), squared
-and added.  Where one holds a single unknown in a known form, that unknown is solved for, and
-counts as known from then on.
+and added; where that leads no further, a length that stands in two of them is taken out.  Where one
+holds a single unknown in a known form, that unknown is solved for, and counts as known from then on.
 
     equations     an equation left = right, and the ways in which others come from it
     subproblems   A cos ψ + B sin ψ + C in the unknowns: the forms that are solved, each with its solutions

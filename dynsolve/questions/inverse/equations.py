@@ -6,8 +6,9 @@ components of one vector, so that they may be turned about an axis and their squ
 
     turned by ψ     c lᵢ + s lⱼ = c rᵢ + s rⱼ,   -s lᵢ + c lⱼ = -s rᵢ + c rⱼ
     squared         Σ lᵢ² = Σ rᵢ²
+    combined        a lⱼ - b lᵢ = a rⱼ - b rᵢ, where a d in rᵢ and b d in rⱼ are all that holds a length d
 
-Both hold wherever the equations do.
+They hold wherever the equations do.
 
 The ring in which a task is solved for its coordinates, and which of these are still unknown.
 """
@@ -93,6 +94,14 @@ class Unknowns(Struct, frozen=True, dict=True):
         """The unknowns that occur in an expression."""
         return tuple(name for name in self.names if self.has(expr, name))
 
+    def factor(self, expr: Expr, name: str) -> Expr | None:
+        """The factor of an unknown length, where that stands in one term with what is known; else None."""
+        index = self.ring.symbol_indices[(name, 0)]
+        if int(expr.poly.degrees()[index]) != 1:
+            return None
+        found = self.ring.coefficient(expr, name)
+        return None if self.within(found) else found
+
     def split(self, expr: Expr) -> tuple[Expr, Expr]:
         """(the terms without an unknown, the others)"""
         known: dict[tuple[int, ...], Any] = {}
@@ -151,7 +160,16 @@ class Squared(Struct, frozen=True):
         return _squares([part.left for part in self.parts])
 
 
-Origin = Direct | Turned | Squared
+class Combined(Struct, frozen=True):
+    """`factors[0]`·first - `factors[1]`·second, in which a length that stands in both drops out."""
+
+    first: Equation
+    second: Equation
+    coordinate: str
+    factors: tuple[Expr, Expr]
+
+
+Origin = Direct | Turned | Squared | Combined
 """Where an equation comes from."""
 
 
@@ -162,6 +180,8 @@ def turns(origin: Origin) -> int:
             return 0
         case Turned(first, second):
             return 1 + max(turns(first.origin), turns(second.origin))
+        case Combined(first, second):
+            return max(turns(first.origin), turns(second.origin))
         case Squared(parts):
             return max(turns(part.origin) for part in parts)
 
@@ -183,7 +203,7 @@ def lineage(equations: Iterable[Equation]) -> Iterator[Equation]:
     """The equations that these come from, and they themselves; each after those that it comes from."""
     for equation in equations:
         match equation.origin:
-            case Turned(first, second):
+            case Turned(first, second) | Combined(first, second):
                 yield from lineage((first, second))
             case Squared(parts):
                 yield from lineage(parts)
@@ -210,16 +230,44 @@ def turned_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
             a, b = system[i], system[j]
             if not (unknowns.has(a.right, name) and unknowns.has(b.right, name)):
                 continue
-            right = (c * a.right + s * b.right, c * b.right - s * a.right)
-            if any(unknowns.has(value, name) for value in right):
+            others = unknowns.without(name)
+            right = [others.split(value) for value in (c * a.right + s * b.right, c * b.right - s * a.right)]
+            if any(unknowns.has(value, name) for _, value in right) or all(
+                value.is_zero for _, value in right
+            ):
                 continue
             left = (c * a.left + s * b.left, c * b.left - s * a.left)
             pair = [
-                arranged(Equation(x, y, Turned(a, b, name, k == 1)), unknowns)
-                for k, (x, y) in enumerate(zip(left, right, strict=True))
+                Equation(x - known, value, Turned(a, b, name, k == 1))
+                for k, (x, (known, value)) in enumerate(zip(left, right, strict=True))
             ]
             replaced = {i: pair[0], j: pair[1]}
             yield tuple(replaced.get(k, equation) for k, equation in enumerate(system))
+
+
+def combined_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
+    """The systems in which a length drops out of all equations but one, in which it has a known factor."""
+    for name in unknowns.sliding:
+        factors = [unknowns.factor(equation.right, name) for equation in system]
+        for i, a in enumerate(factors):
+            if a is None or all(b is None for k, b in enumerate(factors) if k != i):
+                continue
+            yield tuple(
+                e if b is None or k == i else _combined((e, a), (system[i], b), name, unknowns)
+                for k, (e, b) in enumerate(zip(system, factors, strict=True))
+            )
+
+
+def _combined(
+    one: tuple[Equation, Expr], other: tuple[Equation, Expr], name: str, unknowns: Unknowns
+) -> Equation:
+    """An equation times a factor minus another times one, without a factor that both have."""
+    (e, a), (f, b) = one, other
+    shared = a.poly.gcd(b.poly)
+    first = divmod(a.poly, shared)[0].leading_coefficient()
+    a, b = (Expr(a.ring, divmod(x.poly, shared)[0] / first) for x in (a, b))
+    origin = Combined(e, f, name, (a, b))
+    return arranged(Equation(e.left * a - f.left * b, e.right * a - f.right * b, origin), unknowns)
 
 
 def squared_sums(system: System) -> Iterator[Equation]:

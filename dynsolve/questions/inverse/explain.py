@@ -17,9 +17,10 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
 from dynsolve.explain.step import Part as Shown
 from dynsolve.explain.writing import agreeing, and_joined, craig, listed, spong, turns
-from dynsolve.notation.build import cost, power, times, total
+from dynsolve.notation.build import cost, power, split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    ONE,
     Function,
     Letter,
     Matrix,
@@ -37,6 +38,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.questions.inverse.derive import REDUNDANT, is_redundant
 from dynsolve.questions.inverse.equations import (
+    Combined,
     Direct,
     Equation,
     Given,
@@ -251,6 +253,11 @@ def _origin(origins: Sequence[Origin], put_in: Sequence[Node]) -> Prose:
         case Turned(_, _, name):
             text = "Turned back by {q}, the components have that angle on the left side alone. "
             return (*first, *say(text, q=Symbol(name)))
+        case Combined(_, _, name):
+            return (
+                *first,
+                *say("{q} stands in two equations to the first power, and drops out. ", q=Symbol(name)),
+            )
         case Given():
             text = "Component|Components {places} of the task"
         case OfPoint(_, joint):
@@ -389,7 +396,7 @@ def _new(equations: Sequence[Equation], known: Collection[Expr]) -> Iterator[Equ
     for e in equations:
         if e.expr not in known:
             match e.origin:
-                case Turned(first, second):
+                case Turned(first, second) | Combined(first, second):
                     yield from _new((first, second), known)
                 case Squared(parts):
                     yield from _new(parts, known)
@@ -414,6 +421,9 @@ def _lines(formulas: InverseFormulas, step: Solved, made: Sequence[Equation]) ->
                         [_turned_by(formulas, (first, second), name, second_one) for second_one, _ in both]
                     )
                     yield Line(say("Turned back by {q} ({how}):", q=Symbol(name), how=how), shown)
+            case Combined(first, second, name, factors):
+                how = _combined_by(formulas, (first, second), factors)
+                yield Line(say("{q} drops out ({how}):", q=Symbol(name), how=how), (_equation(formulas, e),))
             case Squared(parts):
                 left = total([power(form(part.left), 2) for part in parts if not part.left.is_zero])
                 right = total([power(form(part.right), 2) for part in parts])
@@ -432,6 +442,8 @@ def _lines(formulas: InverseFormulas, step: Solved, made: Sequence[Equation]) ->
                 yield Line((f"Solved for the {word}:",), (solved,))
             else:
                 rows = [(cosine, sine, value)]
+        case OneLine(_, cosine, sine, value) if max(len(cosine), len(sine)) > 1:
+            rows = [(cosine, sine, value)]
 
     def line(cosine: Expr, sine: Expr, value: Expr) -> Node:
         """A cos q + B sin q = X"""
@@ -454,6 +466,22 @@ def _turned_by(formulas: InverseFormulas, pair: Sequence[Equation], name: str, i
         sign="minus" if is_second else "plus",
         other=other,
     )
+
+
+def _combined_by(formulas: InverseFormulas, pair: Sequence[Equation], factors: tuple[Expr, Expr]) -> Prose:
+    """Two equations, each times a factor, as the sum that a hand writes."""
+    sign, second = split_sign(formulas.form(factors[1]))
+    one, other = (
+        say(
+            f"{{factor}}{which} of {{of}}",
+            factor=say("{f} times ", f=f) if f != ONE else "",
+            of=formulas.form(e.left),
+        )
+        for f, which, e in zip(
+            (formulas.form(factors[0]), second), ("the equation", "that"), pair, strict=True
+        )
+    )
+    return say("{one} {sign} {other}", one=one, sign="minus" if sign > 0 else "plus", other=other)
 
 
 def _equation(formulas: InverseFormulas, e: Equation) -> Node:
@@ -603,7 +631,8 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     same = f"A coordinate that stands in a formula is that of the same {'solution' if is_free else 'line'}."
     parts = [part for part in solving.parts if part.turn is None or not part.turn.is_wrist]
     needed = [node for part in parts for step in part.solved for node in _needed(forms, step)]
-    needs = say(f"{'They need' if count > 1 else 'It needs'} {{needed}}.", needed=listed(needed))
+    said = ["{together}"] if is_free and choices else []
+    said += [f"The {f'{several} need' if count > 1 else f'{one} needs'} {{needed}}."] if needed else []
     is_of_others = count > 1 and not names_in(*shown).isdisjoint(names)
     return Step(
         id=_id_of_branches(forms),
@@ -617,11 +646,7 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
         ),
         table=table,
         notes=(*_conditions(forms, task), *_free_coordinates(solving)),
-        outcome=say(
-            "{together} {needs}",
-            together=together if is_free and choices else (),
-            needs=needs if needed else (),
-        ),
+        outcome=say(" ".join(said), together=together, needed=listed(needed)) if said else (),
         normal=NOTED,
         detail=Detail.BRIEF,
         uses=(*(f"inverse_{name}" for name in names), *starts),

@@ -10,7 +10,7 @@ solution is the right one, and at values that no configuration was taken for.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import chain, islice
 from math import pi
@@ -32,6 +32,7 @@ from dynsolve.questions.inverse.equations import (
     System,
     Unknowns,
     arranged,
+    combined_systems,
     squared_sums,
     turned_systems,
     turns,
@@ -114,7 +115,10 @@ def search(
             seen += chain.from_iterable((*systems, *added))
         best = min(_solvable(systems, added, sums, unknowns), key=_effort, default=None)
         if best is None:
-            break
+            if len(grown := _grown([*systems], unknowns, combined_systems)) == len(systems):
+                break
+            systems = grown
+            continue
         steps.append(best)
         unknowns = unknowns.without(best.coordinate)
         # what is known from now on may make them longer: they are kept as they are
@@ -131,15 +135,19 @@ def _effort(solved: Solved) -> tuple[int, bool, int]:
     return solved.rank, may_be_free, solved.size + 2 * sum(turns(e.origin) for e in solved.equations)
 
 
-def _grown(systems: list[System], unknowns: Unknowns) -> list[System]:
-    """The systems with all that are got by turning them."""
+def _grown(
+    systems: list[System],
+    unknowns: Unknowns,
+    others: Callable[[System, Unknowns], Iterator[System]] = turned_systems,
+) -> list[System]:
+    """The systems with all that are made of them, as by turning them."""
     known = {_mark(system) for system in systems}
     for system in systems:  # grows while it is read
-        for turned in turned_systems(system, unknowns):
-            mark = _mark(turned)
+        for made in others(system, unknowns):
+            mark = _mark(made)
             if mark not in known and len(systems) < MOST_SYSTEMS:
                 known.add(mark)
-                systems.append(turned)
+                systems.append(made)
     return systems
 
 

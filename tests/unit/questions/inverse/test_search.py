@@ -33,6 +33,14 @@ ARMS = [
      "OneLine q3, Length d2, Length d1", 2),
     ("dh: [{theta: q1*, d: L1, alpha: -90deg}, {theta: q2* - 90deg, d: h, a: L2, alpha: -90deg}, "
      "{theta: 90deg, d: d3*}]", "", "RootLength d3, OneLine q2, TwoLines q1", 4),
+    ("dh: [{theta: q1*, a: l, alpha: beta}, {d: q2*, alpha: -90deg}, {d: q3*}]", "",
+     "OneLine q1, Length q3, Length q2", 2),
+    ("dh: [{d: q1* + h, theta: 45deg, a: e, alpha: 90deg}, {d: q2* - e, theta: -45deg, alpha: -90deg}, "
+     "{theta: q3*, a: l, d: h}]", "", "OneLine q3, Length q2, Length q1", 2),
+    ("dh: [{theta: q1*, alpha: 90deg, d: h}, {theta: q2*, a: l}, {d: q3*, theta: 90deg, alpha: 90deg}]",
+     "task: [tip.x, tip.y, q1 + q2]", "OneLine q1, Length q3, Remainder q2", 2),
+    ("dh: [{d: q1*, alpha: 30deg}, {d: q2*, theta: 45deg, alpha: 60deg}, {d: q3*}]",
+     "task: [tip.x + tip.y, tip.z + tip.x, tip.y - 2*tip.z]", "Length q3, Length q2, Length q1", 1),
 ]  # fmt: skip
 
 
