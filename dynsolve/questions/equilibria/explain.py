@@ -217,9 +217,9 @@ def _unseen(found: Equilibria) -> Iterator[Prose]:
 
 
 def _never(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
-    """Why choices of factors are no case."""
+    """Why choices of factors are no case, where that is seen from more than a number."""
     for held, value in found.never:
-        if held:
+        if held and not value.is_number:
             where, what = vanishing(tuple(map(shown.condition, held))), shown.vanishing(value)
             yield say("Where {where}, {what} is not 0.", where=where, what=what)
 

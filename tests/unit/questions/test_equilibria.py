@@ -882,3 +882,15 @@ def test_of_a_zero_of_higher_order_it_is_not_seen_what_is_free() -> None:
     for constraint in ("(a - b)^2", "(a - b)^2 + (a + b)^2", "cos(a) + cos(b) - 2"):
         results = dynsolve.solve(TWO_ARMS % constraint).to_json()["results"]
         assert all("skipped" in results[name] for name in ("equilibria", "lambda", "reduced"))
+
+
+def test_that_a_number_is_not_0_is_not_said() -> None:
+    arm = """
+gravity: [0, -9.81, 0]
+dh: [{theta: q1*, a: 0.3}, {d: d2*, alpha: 30deg}, {theta: q3*, a: 0.2}]
+masses: [{mass: 2, link: 1}, {mass: 0.7, link: 3}]
+springs: [{stiffness: 120, of: d2, rest: 0.1}]
+find: [equilibria]
+"""
+    text = report(dynsolve.solve(arm), Format.TEXT).decode()
+    assert "d₂ = 1/10, c₁ = 0 and s₃ = 0" in text and "is not 0" not in text
