@@ -167,6 +167,8 @@ def _set_in_boxes(formula: Formula, printer: UnicodePrinter, room: int) -> list[
         apart = [Formula(node) for node in _named_apart(formula.node, within)]
         found = [set_formula(each, printer, room) for each in apart]
         return [line for lines in found for line in (*lines, "")][:-1]
+    if len(boxes) < len(groups) and (rows := list(_entries_equated(formula.node))):
+        return [line for row in rows for line in set_formula(Formula(row), printer, room)]
     if isinstance(formula.node, Row) and len(parts := list(listed(formula.node))) > 1:
         return _set_several(parts, formula, printer, room)
     members = list(_members(groups))
@@ -229,6 +231,15 @@ def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:
 def _is_alone(matrix: Matrix, node: Node) -> bool:
     """Whether a matrix is a side of an equation, so that its entries may be listed in its place."""
     return matrix in (node.parts if isinstance(node, Relation) else (node,))
+
+
+def _entries_equated(node: Node) -> Iterator[Node]:
+    """The equations between the entries of matrices that are equal, where none of these has a letter."""
+    if isinstance(node, Relation):
+        matrices = [part.rows for part in node.parts if isinstance(part, Matrix)]
+        if len(matrices) == len(node.parts):
+            for rows in zip(*matrices, strict=True):
+                yield from (Relation(entries, node.signs) for entries in zip(*rows, strict=True))
 
 
 def _named_apart(node: Node, matrices: Sequence[Matrix]) -> Iterator[Node]:

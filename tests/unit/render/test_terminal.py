@@ -91,6 +91,12 @@ def test_a_matrix_too_wide_is_given_entry_by_entry() -> None:
     assert "    D₂₂ = 0" in shown
 
 
+def test_matrices_without_a_letter_that_are_equal_and_too_wide_are_equated_entry_by_entry() -> None:
+    long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
+    shown = lines(Formula(equation(matrix(long, "x"), matrix("a", "b"))), columns=100)
+    assert " ".join(" ".join(shown).split()) == f"{to_unicode(tree(long))} = a x = b"
+
+
 def test_names_of_entries_are_used() -> None:
     long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
     names = ((Letter("tau", Number(1)),), (Letter("f", Number(2)),))
