@@ -940,7 +940,7 @@ def _not_zero(m: Mechanism, s: Sentence) -> bool:
     )
 
 
-@says("A force[ {}][ and a moment] along <it|them> need[s] no ....")
+@says("<A force|A moment|A force and a moment|What acts>[ {}] along <it|them> need[s] no ....")
 def _no_torque(m: Mechanism, s: Sentence) -> bool:
     """The vectors that the step shows, against the Jacobian that it shows, where it is singular."""
     where = [nodes[0] for text, nodes in s.before() if text.startswith("Where ") and nodes]

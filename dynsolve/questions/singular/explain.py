@@ -10,14 +10,15 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import Place
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import is_seen
+from dynsolve.derivation.reached import angle_rows
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.document.figures import ArmArrow, ArmFigure
-from dynsolve.document.sentences import Value, say
+from dynsolve.document.sentences import Value, opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
 from dynsolve.explain.working.identities import SILENT
-from dynsolve.explain.writing import agreeing, listed, spong, turns
+from dynsolve.explain.writing import agreeing, and_joined, listed, spong, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, Words, equation
 from dynsolve.quantities import letters
@@ -183,14 +184,14 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
     names = [formula("𝐰")] if len(lost) == 1 else several
     told: Prose = ()
     if lost and not any(forms.lost_here[:case]):
-        is_force = _is_force(context)
+        loads = _loads(context)
         told = say(
-            " Every velocity that the joints can give is orthogonal to {w}: {lost} lost. A force"
-            "{moment} along {it} no {effort} of the joints.{everywhere}",
+            " Every velocity that the joints can give is orthogonal to {w}: {lost} lost. {Loads} along "
+            "{it} no {effort} of the joints.{everywhere}",
             w=listed(names),
             lost="that motion is" if len(names) == 1 else "these motions are",
-            moment="" if is_force else " and a moment",
-            it=f"{'it' if len(names) == 1 else 'them'} {'needs' if is_force else 'need'}",
+            Loads=opened(and_joined(loads)),
+            it=f"{'it' if len(names) == 1 else 'them'} {'needs' if len(loads) == 1 else 'need'}",
             effort=_effort(context.robot),
             everywhere=_elsewhere(loss.everywhere, len(names)),
         )
@@ -236,12 +237,16 @@ def _elsewhere(count: int, here: int) -> str:
     return agreeing(f" {beside} {count} motion|motions is|are impossible in every configuration.", count)
 
 
-def _is_force(context: Context) -> bool:
-    """Whether all that is asked of the arm are places of points, so that what acts along them is a force."""
+def _loads(context: Context) -> list[str]:
+    """What acts along velocities of the task: forces on points, moments where it has angles."""
     task = context.robot.questions.task
     if _matrix(context) == "J" or task is None or task.is_twist:
-        return False
-    return all(isinstance(entry, Reference) and entry.row is not None for entry in task.entries)
+        return ["a force", "a moment"]
+    angles = angle_rows(context.values["r"])
+    places = [isinstance(entry, Reference) and entry.row is not None for entry in task.entries]
+    if not all(is_place or is_angle for is_place, is_angle in zip(places, angles, strict=True)):
+        return ["what acts"]
+    return ["a force"] * any(places) + ["a moment"] * any(angles)
 
 
 def _effort(robot: Robot) -> str:

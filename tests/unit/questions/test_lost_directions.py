@@ -75,6 +75,8 @@ def test_a_force_is_named_where_all_that_is_asked_are_places_of_points() -> None
     slide = (
         "dh: [{theta: q1*}, {d: d2*, alpha: 90deg}, {theta: q3*, a: l3}]\ngravity: none\nfind: [singular]\n"
     )
+    assert "A force and a moment along it need no" in _told(FLAT.replace("tip.y, tip.z", "q1 + q2"), 1)
+    assert "What acts along it needs no" in _told(FLAT.replace("tip.y, tip.z", "tip.x*tip.y"), 1)
     assert "torque or force of the joints" in _told(slide + "task: [tip.x, tip.y, tip.z]\n", 1)
 
 
