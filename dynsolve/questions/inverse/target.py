@@ -448,7 +448,7 @@ def _in_numbers(forms: TargetForms, one: Configuration, name: str) -> Relation:
     if rational_value(formula) is None:
         shown.append(number)
     if forms.turns(name):
-        if _is_of_pi(formula) and not is_decimal:
+        if _is_of_pi(formula):
             return Relation((Symbol(name), formula, _in_degrees(value)), ("=", "="))
         shown.append(_in_degrees(value))
     return Relation(
@@ -466,9 +466,10 @@ def _number(formula: Node, value: float) -> tuple[Node, bool]:
 
 
 def _is_of_pi(formula: Node) -> bool:
-    """Whether a formula is a part of π or a number."""
+    """Whether a formula is a part of π or a number that is not rounded."""
     is_plain = not any(isinstance(part, Function) for part in walk(formula))
-    return is_plain and names_in(formula) <= {"pi"}
+    is_rounded = _is_decimal(formula) and rational_value(formula) != 0
+    return is_plain and not is_rounded and names_in(formula) <= {"pi"}
 
 
 def _depends(one: Configuration, name: str) -> bool:

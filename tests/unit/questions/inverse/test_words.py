@@ -45,3 +45,8 @@ def test_branches_that_are_one_because_an_angle_is_free_are_on_no_boundary() -> 
 def test_an_arm_that_can_move_and_keep_its_task_is_not_said_to_have_four_configurations() -> None:
     text = told("dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: -90deg}, {theta: q3*, a: l}]")
     assert "infinitely many configurations" in text and "at most four" not in text
+
+
+def test_angles_that_are_found_in_numbers_are_rounded_in_the_table() -> None:
+    arm = "dh: [{theta: q1*, a: 1, alpha: 90deg}, {theta: q2*, a: 1, alpha: 90deg}, {theta: q3*, a: 1}]\n"
+    assert "1 ≈ 83.13° ≈ 77.32° ≈ 119.18° 2" in told(arm + "reach: [1, 1, 0.5]")
