@@ -331,9 +331,8 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     flat = _flat(robot, found)
     why: Prose = say(_ENERGY, of="potential energy", flat=flat)
     if robot.questions.model.inputs_given:
-        why = say(
-            _ENERGY, of=say("energy $𝒫 - 𝛕ᵀ 𝐪$, the forces of the motors staying as they are,"), flat=flat
-        )
+        of = say(f"energy $𝒫 - 𝛕ᵀ 𝐪$, the forces of the motors staying as they are{'' if flat else ','}")
+        why = say(_ENERGY, of=of, flat=flat)
     working: tuple[Node, ...] = ()
     second: Node = _DG
     if steady:

@@ -274,7 +274,8 @@ def _origin(origins: Sequence[Origin], put_in: Sequence[Node]) -> Prose:
                 places.append("xyz"[index])
             case OfTurn(row, column):
                 places.append(f"({row + 1}, {column + 1})")
-    has = agreeing(f"{text} has|have no other unknown", len(origins))
+    places = [*dict.fromkeys(places)]
+    has = agreeing(f"{text} has|have no other unknown", len(places))
     if put_in:
         return say(f"{has} where {{sums}} is put in. ", places=listed(places), sums=listed(put_in))
     return say(f"{has}. ", places=listed(places))

@@ -131,8 +131,11 @@ def _parameters(context: Context, linear: _Linear, group: Group) -> Step:
     of_known: Prose = ()
     if known:
         of_known = (*listed(list(map(Symbol, known))), f" count{'s' * (len(known) == 1)} as known. ")
-    entries = "one entry" if len(value.rows) == 1 else f"{len(value.rows)} entries"
-    rank = "that is the rank of the forces over motions and parameters"
+    count = len(value.rows)
+    fewest = (
+        f"Fewer than {count} entries are not enough: that is the rank of the forces over motions and "
+        "parameters.",
+    )
     return Step(
         id=linear.a,
         stage=STAGE,
@@ -148,7 +151,7 @@ def _parameters(context: Context, linear: _Linear, group: Group) -> Step:
         source=_SOURCE,
         lines=() if is_given else tuple(_lines(context, linear, value)),
         result=(equation(linear.letter("a"), context.form(linear.a)),),
-        notes=() if is_given else ((f"Fewer than {entries} are not enough: {rank}.",),),
+        notes=(fewest,) if count > 1 and not is_given else (),
         detail=Detail.BRIEF,
         normal=NOTED,
         group=group,

@@ -441,3 +441,21 @@ model:
 def test_the_force_of_a_slide_is_told_where_something_else_has_no_motor() -> None:
     cart = "dh: [{d: q1*, alpha: 90deg}, {theta: q2*, a: l}]\nmasses: [{mass: m, link: 2}]\npassive: [q2]\n"
     assert "q₁ is a length, so what drives it is the force f₁." in in_one_line(cart)
+
+
+def test_of_one_parameter_it_is_not_said_that_fewer_are_not_enough() -> None:
+    pendulum = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+    assert "are not enough" not in in_one_line(pendulum + "find: [Yg, ag]")
+
+
+def test_what_is_left_out_of_an_energy_is_said_after_one_comma() -> None:
+    arm = """
+gravity: [0, 0, -g]
+dh: [{d: p1*, alpha: 90deg}, {d: p2*, alpha: 45deg, a: a}, {theta: q3*, alpha: -90deg}]
+masses: [{mass: m1, link: 1, center: origin}, {mass: m3, link: 3, center: [c, 0, 0]}]
+convention: modified
+passive: [q3]
+inputs: given
+find: [equilibria]
+"""
+    assert "staying as they are, without the rows" in in_one_line(arm)

@@ -50,3 +50,8 @@ def test_an_arm_that_can_move_and_keep_its_task_is_not_said_to_have_four_configu
 def test_angles_that_are_found_in_numbers_are_rounded_in_the_table() -> None:
     arm = "dh: [{theta: q1*, a: 1, alpha: 90deg}, {theta: q2*, a: 1, alpha: 90deg}, {theta: q3*, a: 1}]\n"
     assert "1 ≈ 83.13° ≈ 77.32° ≈ 119.18° 2" in told(arm + "reach: [1, 1, 0.5]")
+
+
+def test_a_component_that_stands_in_two_equations_is_one() -> None:
+    text = told("dh: [{theta: q1*, alpha: 90deg, a: b}, {theta: q2*, d: c, a: l}]")
+    assert "Component 3 of the task has no other unknown. Two equations" in text
