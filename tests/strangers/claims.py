@@ -508,7 +508,7 @@ def _momenta(m: Mechanism, s: Sentence) -> bool:
     return True
 
 
-@says("[As ]{}: sliding along a level axis changes no height.", "On the diagonal of {}, {&}.")
+@says("[As ]{&}: sliding along a level axis changes no height.", "On the diagonal of {}, {&}.")
 def _holds(m: Mechanism, s: Sentence) -> bool:
     return all(m.holds(node, p) for node in s.formulas for p in m.points())
 
@@ -648,11 +648,18 @@ def _spare(m: Mechanism, s: Sentence) -> bool:
 
 @says("That is only where {&}: no joint moves <this|these>.")
 def _kept(m: Mechanism, s: Sentence) -> bool:
-    names = m.solution.robot.questions.reached
+    robot = m.solution.robot
+    names = robot.questions.reached
     told = {names_of(one.parts[:1])[0]: one.parts[-1] for one in s.formulas if isinstance(one, tree.Relation)}
 
+    def reached(p: Point) -> Any:
+        if not robot.questions.task.is_pose:
+            return m.result("r", p)
+        last = m.frame(len(robot.joints), p)
+        return np.hstack([last[:3, 3], last[:3, :3].ravel()])
+
     def value(k: int) -> Callable[[Point], Any]:
-        return lambda p: m.result("r", p)[k]
+        return lambda p: reached(p)[k]
 
     here, fixed = m.point(), [k for k in range(len(names)) if not m.changes(value(k), m.coordinates)]
     return {*told} == {names[k] for k in fixed} and all(

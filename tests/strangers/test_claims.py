@@ -8,6 +8,7 @@ from dynsolve.document import Block, Fold, Formula, Heading, Text
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.abbreviations import Abbreviate
 from dynsolve.explain.step import Detail
+from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import (
     Derivative,
     Function,
@@ -30,6 +31,14 @@ from tests.support import ROOT, solved
 LEVEL = ELBOW.replace("[0, -g, 0]", "[0, 0, -g]")
 NEAR_HALF = ELBOW.replace("{near: [lc1, 0, 0]}", "{near: [l1/3, 0, 0]}")
 TASK = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\ntask: [tip.x, tip.y]\nfind: [Jr, singular]"
+SPARE = (
+    "gravity: none\ndh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: a}, {theta: q3*, a: b}, {theta: q4*}, "
+    "{theta: q5*, a: e}]\ntask: pose\nfind: [inverse]"
+)
+SLIDING = (
+    "gravity: [-g, 0, 0]\ndh: [{d: q1*, alpha: 90deg}, {d: q2*}, {theta: q3*, a: l}]\n"
+    "masses: [{mass: m, link: 3}]"
+)
 INDEFINITE = "model:\n  {coordinates: {q1: revolute, q2: revolute}, D: [[a, 2*b], [2*b, a]]}"
 
 Q1, Q2, D3 = Symbol("q1"), Symbol("q2"), Symbol("d3")
@@ -53,6 +62,10 @@ MOMENTUM = (
 RANK = "{J} is 2×2, and its rank is {i} almost everywhere."
 HANGS = "At {e}: {stable}, but for {q}, along which nothing changes."
 
+KEPT = "That is only where {c}: no joint moves this."
+SLID = "{none}: sliding along a level axis changes no height."
+G_1, G_2, G_3 = (equation(letters.entry("g", i), ZERO) for i in (1, 2, 3))
+
 PLANTED: list[tuple[str, str, str, dict[str, Value], dict[str, Value]]] = [
     (ELBOW, "", SLIDES, {"q": D3, "z": letters.z(2)}, {"z": letters.z(3)}),
     (ELBOW, "", SLIDES, {"q": D3, "z": letters.z(0)}, {"q": Q2}),
@@ -73,6 +86,8 @@ PLANTED: list[tuple[str, str, str, dict[str, Value], dict[str, Value]]] = [
     (LEVEL, "", MOMENTUM, {"tau": TAU_1, "p": P_1, "z": letters.z(0)}, {"tau": TAU_2}),
     (TASK, "", RANK, {"J": J_R, "i": 2}, {"i": 1}),
     (TASK, "", "Where {c}, the rank is 1 instead of 2.", {"c": STRETCHED}, {"c": BENT}),
+    (SPARE, "", KEPT, {"c": equation(Symbol("r33"), ZERO)}, {"c": equation(Symbol("r32"), ZERO)}),
+    (SLIDING, "", SLID, {"none": listed([G_1, G_2])}, {"none": listed([G_1, G_3])}),
     ("crane", "", HANGS, {"e": equation(Q2, ZERO), "stable": "stable", "q": Q1}, {"stable": "not stable"}),
 ]
 """Problem, title of the step, sentence, its values, and those with which it is false."""
