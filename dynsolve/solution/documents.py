@@ -395,14 +395,18 @@ def _read_off(asked: Iterable[Quantity], robot: Robot, forms: Callable[[str], No
 
 
 def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
-    """What else is asked for: what holds everywhere, then, said so, what holds at the given state alone."""
+    """What else is asked for: what holds everywhere, then, said so, what holds at the given state alone.
+
+    Accelerations, which hold with given rates alone, come last.
+    """
     at_state = [name for name in asked if holds_at_state(robot, name)]
     for name in (name for name in asked if name not in at_state):
         yield from _asked_for(name, robot, steps)
-    found = [block for name in at_state for block in _asked_for(name, robot, steps)]
-    if found:
-        yield at_the_state(robot, at_state)
-        yield from found
+    for with_rates in (False, True):
+        names = [name for name in at_state if (name == "qdd") is with_rates]
+        if found := [block for name in names for block in _asked_for(name, robot, steps)]:
+            yield at_the_state(robot, names)
+            yield from found
 
 
 def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import islice, product
+from itertools import combinations, islice, product
 from typing import Any
 
 import numpy as np
@@ -646,7 +646,7 @@ def _spare(m: Mechanism, s: Sentence) -> bool:
     return all(rank(m.result(m.jacobian, p)) < len(m.coordinates) for p in m.points())
 
 
-@says("That is only where {&}: no joint moves <this|these>.")
+@says("What is asked must have {&}: no joint moves <this|these>.")
 def _kept(m: Mechanism, s: Sentence) -> bool:
     robot = m.solution.robot
     names = robot.questions.reached
@@ -938,13 +938,20 @@ def _dimension(m: Mechanism, s: Sentence) -> bool:
     return rank(J) == told and dimension == left
 
 
-@says("But for signs, <these are|one is> not always 0:")
-def _not_zero(m: Mechanism, s: Sentence) -> bool:
-    return all(
-        any(abs(m.value(shown.parts[-1], p)) > 0 for p in m.points())
-        for shown in s.shown()
-        if len(shown.parts) > 1
-    )
+@says("All others are 0, or differ from <these|this> in sign alone:")
+def _other_minors(m: Mechanism, s: Sentence) -> bool:
+    """Of the matrix that the step shows, or the Jacobian: its minors as large as its rank."""
+    blocks = (block.node for block in s.step[: s.place] if isinstance(block, document.Formula))
+    core = next((node for node in blocks if isinstance(node, tree.Matrix)), None)
+    shown = s.display_after()
+    for p in m.points():
+        J = s.jacobian(m, p) if core is None else m.value(core, p)
+        size, told = rank(J), [abs(m.value(node.parts[-1], p)) for node in shown]
+        parts = product(*(combinations(range(count), size) for count in J.shape))
+        minors = [abs(np.linalg.det(J[np.ix_(rows, columns)])) for rows, columns in parts]
+        if not all(any(near(minor, value) for value in (0, *told)) for minor in minors):
+            return False
+    return True
 
 
 @says("<A force|A moment|A force and a moment|What acts>[ {}] along <it|them> need[s] no ....")
@@ -958,7 +965,7 @@ def _no_torque(m: Mechanism, s: Sentence) -> bool:
     return bool(vectors) and all(near(J.T @ vector, 0) for vector in vectors if vector is not J)
 
 
-@says("In general {&} <are independent|is not 0>.")
+@says("In general {&} are independent.", "Where {&} is 0 it tells nothing.")
 def _independent(m: Mechanism, s: Sentence) -> bool:
     """Of the vectors that the step shows by these letters, at some pose where it is singular."""
     where = [nodes[0] for text, nodes in s.before() if text.startswith("Where ") and nodes]

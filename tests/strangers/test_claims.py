@@ -62,7 +62,7 @@ MOMENTUM = (
 RANK = "{J} is 2×2, and its rank is {i} almost everywhere."
 HANGS = "At {e}: {stable}, but for {q}, along which nothing changes."
 
-KEPT = "That is only where {c}: no joint moves this."
+KEPT = "What is asked must have {c}: no joint moves this."
 SLID = "{none}: sliding along a level axis changes no height."
 G_1, G_2, G_3 = (equation(letters.entry("g", i), ZERO) for i in (1, 2, 3))
 

@@ -92,7 +92,7 @@ def _functions(context: Context) -> Step:
         title="What the motion keeps at zero",
         why=say(
             "{each} stays 0 in every motion{points}.",
-            each="Each entry" if many else "It",
+            each=say("Each entry of {h}", h=letters.H_C) if many else letters.H_C,
             points=", with the coordinates of the points from the forward kinematics" if has_points else "",
         ),
         formula=equation(letters.H_C, column(*entries) if many else entries[0]),

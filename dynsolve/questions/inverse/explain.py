@@ -97,7 +97,8 @@ def _spare(context: Context, r: Values) -> Prose:
         for name, value in zip(context.robot.questions.reached, r.entries, strict=True)
         if not r.ring.depends_on_coordinates(value)
     ]
-    only = agreeing(" That is only where {needed}: no joint moves this|these.", len(needed)) if needed else ""
+    text = " What is asked must have {needed}: no joint moves this|these."
+    only = agreeing(text, len(needed)) if needed else ""
     return say(f"{opened(REDUNDANT)}.{only}", needed=listed(needed))
 
 

@@ -65,7 +65,8 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
     of = context.values[name] if found.core is None else found.core
     left_out: Prose = ()
     if size > 1 and len(minors) < prod(comb(count, size) for count in of.shape):
-        left_out = (f"But for signs, {'one is' if len(minors) == 1 else 'these are'} not always 0:",)
+        these = "this" if len(minors) == 1 else "these"
+        left_out = (f"All others are 0, or differ from {these} in sign alone:",)
     names = [_of_part(found.places[k], of.shape) for k in distinct]
     results: tuple[Node, ...] = tuple(
         equation(name, minor) for name, minor in zip(names, minors, strict=True)
@@ -197,7 +198,7 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
         )
     if not loss.are_independent:
         told += say(
-            " In general {w} are independent." if len(names) > 1 else " In general {w} is not 0.",
+            " In general {w} are independent." if len(names) > 1 else " Where {w} is 0 it tells nothing.",
             w=listed(names),
         )
     exact = all(condition.keeps_values for condition in found.alternatives[case])

@@ -459,3 +459,11 @@ inputs: given
 find: [equilibria]
 """
     assert "staying as they are, without the rows" in in_one_line(arm)
+
+
+def test_rates_stand_before_accelerations_alone() -> None:
+    arm = "gravity: none\n" + TWO_LINKS + "velocity: [v, 0]\nacceleration: [a, 0]\n"
+    text = in_one_line(arm + "state: {q1: 0, q2: 90deg, q1': 1, q2': 2}\nfind: [qd, qdd]").partition(
+        "Summary"
+    )[2]
+    assert text.index("At q₁ = 0, q₂ = 90°: 𝐪̇") < text.index("At q₁ = 0, q₂ = 90°, q̇₁ = 1, q̇₂ = 2: 𝐪̈")
