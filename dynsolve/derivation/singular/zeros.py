@@ -205,9 +205,13 @@ class Condition(Struct, frozen=True, dict=True):
         return tuple(other.ring.zero if self._divides(other) else self._remainder(other) for other in others)
 
     def multiplier(self, others: Sequence[Expr]) -> Expr:
-        """What `reduced_together` multiplies by: the factor of a length that stands in one of the others."""
+        """What `reduced_together` multiplies by: the factor of a length that stands in one of the others.
+
+        A multiple of this is 0 whatever the factor is.
+        """
         for index, factor, _ in self._length:
-            if any(other.poly.degrees()[index] > 0 for other in others if not other.is_zero):
+            left = (other for other in others if not (other.is_zero or self._divides(other)))
+            if any(other.poly.degrees()[index] > 0 for other in left):
                 return factor
         return self.expr.ring.one
 

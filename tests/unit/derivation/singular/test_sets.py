@@ -106,3 +106,14 @@ def test_a_wrench_is_a_force_and_a_moment() -> None:
     solution = dynsolve.solve(f"dh: [{WRIST}]\ntask: twist\nfind: [singular]\n")
     why = next(step.why for step in solution.steps if step.id == "singular_1")
     assert "A force and a moment along " in "".join(part for part in why if isinstance(part, str))
+
+
+def test_a_determinant_of_one_factor_is_0_there_for_all_parameters() -> None:
+    """q2 sin(beta) = q3 cos(beta), also where sin(beta) = 0 and q2 is not given by it."""
+    solution = dynsolve.solve(
+        "gravity: none\ndh: [{theta: q1*, a: l, alpha: beta}, {d: q2*, alpha: -90deg}, {d: q3*}]\n"
+        "find: [singular]\n"
+    )
+    found = solution.values["singular"]
+    assert isinstance(found, SingularSet)
+    assert not found.special and not found.may_be_others
