@@ -20,6 +20,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from enum import StrEnum
 from fractions import Fraction
 from functools import partial
@@ -56,6 +57,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
+from dynsolve.robot.names import names_taken
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]
 
@@ -329,7 +331,7 @@ def _assembled(
     parts |= {("c", *ijk): symbol for ijk, symbol in symbols.items()}
     if potential is not None:
         parts["P",] = potential
-    taken = names_taken(forms.robot)
+    taken = short_names_taken(forms.robot)
     name = partial(name_recurring, list(parts.values()), whole=long, decimal=is_numeric(forms.robot))
     sums, used = name(free_names(RECURRING, taken))
     if len(sums) == 1 and SINGLE not in taken:
@@ -364,12 +366,12 @@ def _assembled(
     )
 
 
-def names_taken(robot: Robot) -> set[str]:
+def short_names_taken(robot: Robot) -> frozenset[str]:
     """What already means something: parameters, coordinates, bodies, and h where constraints are h = 0."""
     own = {SINGLE} if robot.questions.constraints else set()
-    return {*robot.ring.parameters, *robot.ring.names, *(body.name for body in robot.bodies), *own}
+    return names_taken(robot).union((body.name for body in robot.bodies), own)
 
 
-def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
+def free_names(letter: str, taken: AbstractSet[str]) -> Iterator[Symbol]:
     """letter1, letter2, ..., without names that the problem uses."""
     return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)

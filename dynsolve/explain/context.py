@@ -21,6 +21,7 @@ from dynsolve.notation.printing import Style, decimal_text
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Convention, JointType, Robot
+from dynsolve.robot.names import names_taken
 
 if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviated, Definition
@@ -170,7 +171,7 @@ def style_of(robot: Robot) -> Style:
         q.name: ",".join(split(q.name)[1]) for q in robot.coordinates if q.type is JointType.REVOLUTE
     }
     counts = Counter(subscripts.values())
-    taken = set(robot.parameters) | {q.name for q in robot.coordinates}
+    taken = names_taken(robot)
     shorthand = {name: s for name, s in subscripts.items() if s and counts[s] == 1}
     if any({f"s{s}", f"c{s}"} & taken for s in shorthand.values()):
         shorthand = {}  # no cos(q_1) beside c_3

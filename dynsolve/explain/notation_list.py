@@ -19,7 +19,7 @@ from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds
 from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
 from dynsolve.explain.writing import agreeing, listed, side_by_side
 from dynsolve.notation.characters import GREEK
-from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.notation.printing import PLAIN, Style, lower_indices
 from dynsolve.notation.tree import Function, Letter, Node, Relation, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.owners import stages_of
@@ -190,7 +190,12 @@ def _told(line: Line, style: Style) -> Line:
         told: list[Node] = [equation(node, _written_out(node)) for node in examples]
         told += [Words("and so on")] if len(examples) < len(sines) else []
         return replace(line, meaning=side_by_side(told))
-    changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
+    of_spong = [
+        one
+        for one in line.signs
+        if isinstance(one, Letter) and (one.base, lower_indices(one)) in letters.SPONGS
+    ]
+    changed = [sign for sign in of_spong if style.base(sign) != sign.base]
     if changed:
         spong = GREEK.get(changed[0].base, changed[0].base)
         what = f"{spong} for the entries" if len(line.signs) > 1 else spong

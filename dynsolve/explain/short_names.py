@@ -29,7 +29,7 @@ from dynsolve.explain.abbreviations import (
     InertiaNames,
     as_shown,
     free_names,
-    names_taken,
+    short_names_taken,
     symbols_put,
 )
 from dynsolve.explain.context import is_short
@@ -161,7 +161,7 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     robot, C = forms.robot, forms("C")
     if not is_short(robot, forms.values) or not isinstance(C, Matrix):
         return None
-    taken = names_taken(robot)
+    taken = short_names_taken(robot)
     free = free_names(RECURRING, taken)
     inertias = name_inertias(forms, free)
 

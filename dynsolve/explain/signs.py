@@ -3,12 +3,12 @@
 The names of the problem are kept as they are, and so are the shorthands s_1 and c_12.  A letter of the
 textbook that would look like one of them is set otherwise:
 
-- a scalar in another letter, the energy P_1 beside a length P_1 as U_1 (`ALTERNATIVES`), and the entry
+- a scalar in another letter, the energy P_1 beside a length P_1 as U_1 (`SPONGS`, `OWN`), and the entry
   c_12 of C as C_12 wherever c_1 is a cosine: it would be read as cos(θ_1 + θ_2);
 - a vector or a matrix is bold, on paper and in a terminal: the axis **z**_1 beside the coordinate z_1 of a
   mass centre, the term **g** beside the number g.
 
-To give a letter another one, add it to `ALTERNATIVES`.  The choices are told in the list of notation
+To give a letter another one, add it to one of these.  The choices are told in the list of notation
 (`explain.notation_list`).
 """
 
@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import reduce
-from itertools import chain, combinations, product
+from itertools import chain, combinations, islice, product
 
 from msgspec.structs import replace
 
@@ -46,23 +46,11 @@ from dynsolve.notation.tree import (
     walk,
 )
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.quantities import letters
+from dynsolve.quantities.letters import OWN, SPONGS
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
+from dynsolve.robot.names import free_letter, names_taken, other_letters, spelled
 from dynsolve.robot.units import NONE, Dimension, si, times
-
-ALTERNATIVES: dict[tuple[str, int], str] = {
-    ("c", 2): "C",
-    ("c", 3): "Gamma",
-    ("d", 2): "D",
-    ("g", 1): "phi",
-    ("P", 1): "U",
-    ("K", 1): "T",
-    ("tau", 1): "u",
-    ("f", 1): "F",
-}
-"""Base and number of lower indices of a scalar of the textbook -> the letter that stands in for it."""
-
 
 CONSTANTS_OF_SOLUTIONS = "ABDXY"
 """What a solution of inverse kinematics calls what stands beside its sines and cosines."""
@@ -79,13 +67,16 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
     longest number of the problem has, so that a reader can follow each line from the one before it.
     """
     style = _with_free_shorthands(robot, style_of(robot))
-    own = (*_names(robot), *map(Symbol, robot.questions.reached))
-    taken = {*map(UnicodePrinter().text, own), *map(UnicodePrinter(style).text, shorthands(robot, style))}
+    short = filter(None, (shorthand(node, style) for node in shorthands(robot, style)))
+    taken = names_taken(robot).union(f"{letter}{index}".replace(",", "") for letter, index in short)
     found: dict[Sign, str] = {}
-    for (base, count), other in ALTERNATIVES.items():
+    for (base, count), others in (SPONGS | OWN).items():
         is_like_cosine = (base, count) == ("c", 2)  # c₁₂ of 𝐂 reads as one, with or without shorthands
-        if is_like_cosine or not taken.isdisjoint(map(UnicodePrinter().text, _scalars(robot, base, count))):
-            found[base, "italic", count] = other
+        indices = tuple(_indices(robot, base, count))
+        letter = free_letter(islice(other_letters(base, others), is_like_cosine, None), indices, taken)
+        taken = taken.union(f"{letter}{index}" for index in indices)
+        if letter != base:
+            found[base, "italic", count] = letter
     decimal = style.decimal or digits is not None
     shown = (digits or shown_digits(robot) + MORE_DIGITS) if decimal else 0
     return replace(style, letters=found, bold=True, decimal=decimal, digits=shown)
@@ -117,11 +108,26 @@ def shorthands(robot: Robot, style: Style) -> Iterator[Function]:
                     yield node
 
 
-def _scalars(robot: Robot, base: str, count: int) -> Iterator[Node]:
-    """The scalars of the textbook with a letter: energies of the bodies, entries by coordinates."""
-    if base in ("P", "K"):
-        return (letters.of_body(base, body) for body in robot.bodies)
-    return (letters.entry(base, *indices) for indices in product(range(1, robot.n + 1), repeat=count))
+def _indices(robot: Robot, base: str, count: int) -> Iterable[str]:
+    """The indices of a letter: bodies, points, coordinates or constraints, entries by coordinates."""
+    bodies = [spelled(body.name) for body in robot.bodies]
+    numbers = [*map(str, range(1, robot.n + 1))]
+    match base:
+        case "P":
+            return (*bodies, "s")
+        case "K":
+            return (f"{part}{index}" for part in ("", "v", "omega") for index in (*bodies, "m"))
+        case "eta":
+            return bodies
+        case "x" | "y" | "z":
+            return ("tip", *(point.name for point in robot.questions.points))
+        case "lambda":
+            return map(str, range(1, len(robot.questions.constraints) + 1))
+        case "tau":
+            return (f"{part}{number}" for part in ("", "f", "static") for number in numbers)
+        case "u":
+            return "123"
+    return map("".join, product(numbers, repeat=count))
 
 
 # -- which signs occur in a document: names, shorthands and letters of the textbook, by their kinds

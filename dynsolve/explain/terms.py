@@ -355,5 +355,5 @@ def motors_prose(context: Context) -> Prose:
 
 def with_force_letters(robot: Robot) -> Callable[[Node], Node]:
     """The names of generalized forces as the letters that they are printed with elsewhere."""
-    forces = {q.force: letters.force(q) for q in robot.coordinates if q.force in robot.inputs}
+    forces = dict(zip(robot.inputs, map(letters.force, robot.coordinates), strict=False))
     return lambda part: forces.get(part.name, part) if isinstance(part, Symbol) else part

@@ -32,6 +32,7 @@ from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import ASKED_FOR, Stage
 from dynsolve.robot.actions import part
 from dynsolve.robot.model import Convention, JointType, Robot
+from dynsolve.robot.names import names_taken
 
 WIDEST = 8.0
 """Signs of one meaning that are wider together, in em, are the first, the second and the last."""
@@ -100,8 +101,8 @@ TEXTBOOK = """
 {columns} | columns of the Denavit-Hartenberg table | rad, m, m, rad
 * {motions} | rotation about, translation along an axis: 4×4 matrix
 * {R_z} | rotation by an angle about an axis: 3×3 matrix
-U, V | any two quantities, in an identity
-{any_vector} | entry i of any vector
+{identity} | any two quantities, in an identity
+u_i | entry i of any vector
 𝐀_i | matrix of row i: frame i seen from frame i-1
 𝐇_i^{above}: frame i; 𝐑_i^{above}: orientation of frame i | , seen from {ground}
 𝐱_i: x-axis; 𝐲_i: y-axis; 𝐳_i: z-axis | of frame i
@@ -127,7 +128,7 @@ U, V | any two quantities, in an identity
 * 𝐩_i: position of a point; 𝐩_i^i: the same in its link's frame | | m
 * 𝐰, 𝐰_i | direction that is lost where the arm is singular
 * {constants} | constants of a solution, given where they stand
-* ψ | angle that is sought | rad
+* {PSI} | angle that is sought | rad
 * 𝐅_i | force from outside | N
 * {F} | force that belongs to the task
 * 𝐌_i, M_i | moment from outside, its size | N m
@@ -258,6 +259,7 @@ _OF_ANY_ROBOT: dict[str, Value] = {
     "constants": tuple(map(Letter, CONSTANTS_OF_SOLUTIONS)),
     "principal": tuple(Letter("I", Row((Symbol("i"), Words(2 * axis)))) for axis in "xyz"),
     "RHO": Letter("rho"),
+    "identity": letters.IN_IDENTITIES,
     **{f"about_{place}": _about(place) for place in ("near", "c", "axis")},
     "LEVER": _LEVER,
     "w_link": letters.bold("omega", Row((Words("link"), Symbol("i")))),
@@ -283,9 +285,7 @@ def _asked(robot: Robot) -> dict[str, Value]:
         "F_RATES": letters.bold("F") if is_linear else None,
     }
     if asked.task is not None and asked.task.is_pose:
-        names = Stage.INVERSE.part("names").Names.beside(
-            {*robot.ring.names, *robot.ring.parameters, *asked.reached}
-        )
+        names = Stage.INVERSE.part("names").Names.beside(names_taken(robot))
         found |= {"of_points": _names(names.of_points), "of_turns": _names(names.of_turns)}
         found["U"] = tuple(letters.bold(letter.upper()) for letter in names.turns or ("u",))
     return found
@@ -304,7 +304,6 @@ def _of_robot(robot: Robot) -> dict[str, Value]:
         "ground": "the world w" if letters.has_base(robot) else "frame 0" if robot.has_table else "the world",
         "above": letters.H(robot, 0).sup,
         "columns": letters.columns(robot, Symbol("i")),
-        "any_vector": letters.any_vector(robot, Symbol("i")),
         "frame": Symbol("i" if by_links else "j"),
         "its": "in its link's frame" if by_links else "in the frame of its link j",
         "lever": None if carried else _LEVER,  # the recursions tell it with their other levers

@@ -20,6 +20,7 @@ from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, PlaceBuilder, mass_value, tensor_value
 from dynsolve.problem.yaml_nodes import Faults
 from dynsolve.quantities.families import holds_forces
+from dynsolve.robot import names
 from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.questions import reference
@@ -36,7 +37,7 @@ def build_robot(
 
     `asked` are the answers asked for that a derivation has only where they are, `written` its `values`.
     """
-    inputs = tuple(q.force for q in parsed.coordinates) if any(map(holds_forces, asked)) else ()
+    inputs = names.inputs(parsed.coordinates, parsed.spelled) if any(map(holds_forces, asked)) else ()
     references = tuple(reference(q.name) for q in parsed.coordinates) if "Yr" in asked else ()
     values = evaluate(faults, parsed, written, inputs, references)
     if values is None:

@@ -41,6 +41,7 @@ from dynsolve.quantities.owners import Owners
 from dynsolve.quantities.stages import ASKED_FOR
 from dynsolve.robot.geometry import Turn, absolute_angles
 from dynsolve.robot.model import Convention, Coordinate, JointType
+from dynsolve.robot.names import spelled
 
 if TYPE_CHECKING:
     from dynsolve.problem.acting import Acting
@@ -166,6 +167,12 @@ class ParsedFile(Struct, frozen=True):
         yield from ((turn.cell, turn.angle) for turn in turns)
         yield from ((one.cell, one.angle) for one in self.stated if one.angle is not None)
         yield from ((turn.cell, turn.angle) for given in self.questions.rotations for turn in given.turns)
+
+    @property
+    def spelled(self) -> frozenset[str]:
+        """Every name that the file calls something, as it is known (`robot.names`)."""
+        found = (name.name for cell in (*self.cells, *self.questions.targeted) for name in cell.names)
+        return frozenset(map(spelled, (*found, *self.table.names)))
 
     @property
     def cells(self) -> Iterator[Cell]:

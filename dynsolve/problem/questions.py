@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -33,6 +34,7 @@ from dynsolve.quantities.owners import asked_stages
 from dynsolve.quantities.stages import ASKED_FOR, Stage
 from dynsolve.robot.geometry import last_origin
 from dynsolve.robot.model import Robot
+from dynsolve.robot.names import marks, names_taken, spelled
 from dynsolve.robot.questions import TIP, NamedPoint, Questions, State, Task, coordinate_of
 
 _NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
@@ -275,10 +277,13 @@ def with_questions(
     asks_of_tip = parsed.needed & {"velocity", "acceleration"} or Stage.TASK in asked_stages(questions)
     if questions.task is None and (asks_of_tip or parsed.reached_state):
         questions = replace(questions, task=default_task(robot))
+    if questions.task is not None:
+        questions = replace(
+            questions, task=_beside(questions.task, names_taken(robot).union(map(spelled, values.written)))
+        )
     robot = replace(robot, questions=questions)
     for stage, given in parsed.of.items():
         robot = stage.part("file").build(values, robot, given)
-    _check_names(values, robot, parsed)
     if parsed.reached_state is not None and robot.questions.target is None:
         help = "write reach: [...] with a number for each component of the task, or give the state itself"
         values.faults.error(parsed.reached_state, "state: reach needs the numbers of a target", help)
@@ -290,16 +295,10 @@ def _axes_named(robot: Robot, point: NamedPoint) -> NamedPoint:
     return replace(point, axes=None) if point.axes == 0 and not has_base(robot) else point
 
 
-def _check_names(values: CellValues, robot: Robot, parsed: ParsedQuestions) -> None:
-    """The names of a pose, x, y, z and r11 to r33, are no other things where the file does not name it."""
-    questions = robot.questions
-    taken = {*robot.parameters, *(q.name for q in robot.coordinates)}
-    found = [name for name in questions.reached if name in taken]
-    is_unnamed = not questions.reach and questions.target is None
-    if found and is_unnamed and parsed.task is not None and parsed.task.is_pose:
-        message = f"{found[0]} means something else already, and is also the name of a value of the pose"
-        help = "name its twelve values under `reach`: the position, then the rotation row by row"
-        values.faults.error(parsed.task.span, message, help)
+def _beside(task: Task, taken: AbstractSet[str]) -> Task:
+    """The task with names of what is to be reached that are none of the file's."""
+    tasks = (replace(task, mark=mark) for mark in marks())
+    return next(one for one in tasks if taken.isdisjoint(one.reached))
 
 
 def _task(parsed: ParsedTask | None) -> Task | None:

@@ -26,6 +26,7 @@ from dynsolve.notation.tree import (
     Words,
 )
 from dynsolve.robot.model import Body, Coordinate, JointType, Robot
+from dynsolve.robot.names import FORCES, names_taken, spelled
 
 # The textbook's letters: H_2^0, J_{v_1}, 𝓘_1, τ_1
 
@@ -74,8 +75,7 @@ def columns(robot: Robot, row: Node) -> tuple[Node, Node, Node, Node]:
 
     Where the problem calls something so, the entries of a row are θ_i, d_i, a_i and α_i.
     """
-    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
-    if names.isdisjoint(("theta", "d", "a", "alpha")):
+    if names_taken(robot).isdisjoint(("theta", "d", "a", "alpha")):
         return Symbol("theta"), Symbol("d"), Symbol("a"), Symbol("alpha")
     return Letter("theta", row), Letter("d", row), Letter("a", row), Letter("alpha", row)
 
@@ -126,7 +126,11 @@ NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r"
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
 LOST = Row((Letter("N", style="script"), Parenthesized(Transpose(bold("J", Symbol("r"))))))
 TASK = bold("r")
-STEADY_ENERGY = Letter("V")
+IN_IDENTITIES = (Letter("U"), Letter("V"))
+"""Any two quantities."""
+PSI = Letter("psi")
+"""An angle that is sought."""
+STEADY_ENERGY = Letter("V", Words("eff"))
 TASK_OF_Q = Row((TASK, Parenthesized(Q)))
 FRAME_OF_Q = Row((bold("H"), Parenthesized(Q)))
 J_TASK = bold("J", Symbol("r"))
@@ -204,8 +208,7 @@ def rate(matrix: Letter) -> Letter:
 
 def is_taken(robot: Robot, base: str, body: Body) -> bool:
     """Whether the problem calls something else by a body's letter: h_1 a length of the table."""
-    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
-    return not names.isdisjoint((f"{base}{body.name}", f"{base}_{body.name}"))
+    return spelled(f"{base}{body.name}") in names_taken(robot)
 
 
 def height(index: Node) -> Letter:
@@ -213,10 +216,9 @@ def height(index: Node) -> Letter:
     return Letter("eta", index)
 
 
-def any_vector(robot: Robot, index: Node) -> Letter:
-    """u_i, an entry of any vector; ξ_i where u or u_1 is something in the problem."""
-    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
-    return Letter("xi" if any(split(name)[0] == "u" for name in names) else "u", index)
+def any_vector(index: Node) -> Letter:
+    """u_i, an entry of any vector."""
+    return Letter("u", index)
 
 
 def tensor(robot: Robot, body: Body) -> Letter:
@@ -283,6 +285,39 @@ def entries(letter: str, n: int) -> tuple[tuple[Node, ...], ...]:
 def entries_of_column(letter: str, n: int) -> tuple[tuple[Node, ...], ...]:
     """The names of the entries of a column."""
     return tuple((entry(letter, i + 1),) for i in range(n))
+
+
+# Letters that stand in for those which a problem calls something else by
+
+SPONGS: dict[tuple[str, int], tuple[str, ...]] = {
+    **{(letter, 1): others for letter, others in FORCES.items()},
+    ("c", 2): ("C",),
+    ("c", 3): ("Gamma",),
+    ("d", 2): ("D",),
+    ("g", 1): ("phi",),
+    ("P", 1): ("U", "V"),
+    ("K", 1): ("T",),
+}
+"""Base and number of lower indices of a scalar of the textbook -> letters that stand in for it."""
+
+OWN: dict[tuple[str, int], tuple[str, ...]] = {
+    ("eta", 1): ("zeta", "chi"),
+    ("u", 1): ("xi", "w"),
+    ("lambda", 1): ("mu", "nu"),
+    ("Delta", 1): ("Theta",),
+    ("Q", 1): ("Xi",),
+    ("rho", 0): ("gamma", "nu"),
+    ("psi", 0): ("chi", "omega"),
+    ("A", 0): ("E", "alpha"),
+    ("B", 0): ("F", "beta"),
+    ("D", 0): ("N", "delta"),
+    ("X", 0): ("S", "xi"),
+    ("Y", 0): ("T", "zeta"),
+    ("U", 0): ("G", "mu"),
+    ("V", 0): ("H", "nu"),
+    **dict.fromkeys((("x", 1), ("y", 1), ("z", 1)), ()),
+}
+"""The same for what the textbook has no letter of."""
 
 
 # How students spell the names of quantities and coordinates

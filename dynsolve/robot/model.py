@@ -75,8 +75,13 @@ class Coordinate(Struct, frozen=True):
 
     @property
     def force(self) -> str:
-        """The generalized force: a torque τ_i for an angle, a force f_i for a length."""
-        return f"{'tau' if self.type is JointType.REVOLUTE else 'f'}{self.index}"
+        """The answer that is its generalized force: a torque τ_i for an angle, a force f_i for a length."""
+        return f"{self.force_letter}{self.index}"
+
+    @property
+    def force_letter(self) -> str:
+        """The letter of its generalized force."""
+        return "tau" if self.type is JointType.REVOLUTE else "f"
 
 
 class Joint(Struct, frozen=True):
@@ -346,7 +351,7 @@ class Robot(Struct, frozen=True):
 
     `base_rotation` (3×3, the product of `base_turns`) and `base_position` (3×1) place frame 0 in the world;
     `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `inputs` are the names
-    of generalized forces that results hold.  `questions` are
+    of the generalized forces, one a coordinate, where results hold them.  `questions` are
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
     bodies are given by their positions, or `given` stands in their place.
     """

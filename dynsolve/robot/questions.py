@@ -121,13 +121,15 @@ class Task(Struct, frozen=True):
 
     `entries` are the components of r, none of a twist.  `is_default` says that the file does
     not give them: they are then the coordinates of the tip that move.  `is_pose` says that the
-    last frame is also to have a pose, position and rotation; its rates are the twist.
+    last frame is also to have a pose, position and rotation; its rates are the twist.  `mark` stands
+    behind the letters of the values that are to be reached, where these mean something else without it.
     """
 
     entries: tuple[Node, ...]
     is_twist: bool = False
     is_default: bool = False
     is_pose: bool = False
+    mark: str = ""
 
     @property
     def rows(self) -> int:
@@ -138,8 +140,9 @@ class Task(Struct, frozen=True):
     def reached(self) -> tuple[str, ...]:
         """Names of what is to be reached: r1, r2, ...; of a pose x, y, z, r11 ... r33; none of a twist."""
         if self.is_pose:
-            return (*"xyz", *(f"r{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3)))
-        return tuple(f"r{k}" for k in range(1, len(self.entries) + 1))
+            turned = (f"{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
+            return (*(f"{axis}{self.mark}" for axis in "xyz"), *(f"r{self.mark}{place}" for place in turned))
+        return tuple(f"r{self.mark}{k}" for k in range(1, len(self.entries) + 1))
 
 
 def coordinate_of(point: str, axis: int) -> Reference:

@@ -87,7 +87,8 @@ def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[
     """
     short = solution.abbreviated("always") if abbreviate == "always" else None
     problem, verification = solution.problem, solution.verification
-    exporter = _Exporter(solution)
+    exporter, robot = _Exporter(solution), solution.robot
+    forces = robot.inputs or [q.force for q in robot.coordinates]
     return {
         "format": FORMAT,
         "problem": {
@@ -102,9 +103,9 @@ def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[
                 "type": q.type.value,
                 "velocity": q.velocity,
                 "acceleration": q.acceleration,
-                "force": q.force,
+                "force": force,
             }
-            for q in solution.robot.coordinates
+            for q, force in zip(robot.coordinates, forces, strict=True)
         ],
         "results": exporter.results(),
         "steps": [exporter.step(step) for step in solution.steps],

@@ -52,6 +52,7 @@ from dynsolve.quantities.index import Quantities, Quantity, quantities
 from dynsolve.questions import forward_dynamics, rates, statics, task
 from dynsolve.questions.constraints import MULTIPLIERS
 from dynsolve.robot.model import Robot
+from dynsolve.robot.names import free, marks, names_taken
 
 # Names of generalized forces in what is solved for: the inputs of the motors
 
@@ -70,7 +71,7 @@ def _with_forces(robot: Robot, named: Quantities, node: Node) -> Node:
         match part:
             case Reference(quantity, row) if named[quantity].family in (families.TAU, families.FORCE):
                 k = named[quantity].index[0] - 1 if row is None else row - 1
-                return Number(0) if k in robot.actions.passive else Symbol(robot.coordinates[k].force)
+                return Number(0) if k in robot.actions.passive else Symbol(robot.inputs[k])
         return with_children(part, put)
 
     return put(node)
@@ -89,9 +90,10 @@ def _with_multipliers(robot: Robot, named: Quantities, node: Node) -> Node:
 
 
 def multiplier_names(robot: Robot) -> tuple[str, ...]:
-    """Names for λ_1, λ_2, ..., which no parameter has."""
-    names = tuple(f"lambda{i}" for i in range(1, len(robot.questions.constraints) + 1))
-    return names if set(names).isdisjoint(robot.parameters) else tuple(f"{name}_" for name in names)
+    """Names for λ_1, λ_2, ..., which nothing else has."""
+    count = len(robot.questions.constraints)
+    offers = ([f"lambda{mark}{i}" for i in range(1, count + 1)] for mark in marks())
+    return free(offers, names_taken(robot))
 
 
 # Answers in the student's own coordinates, as they read in the problem's

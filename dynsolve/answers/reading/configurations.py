@@ -87,7 +87,7 @@ def _with_forces(vocabulary: Vocabulary, node: Node) -> Node:
     def put(part: Node) -> Node:
         if isinstance(part, Reference) and named[part.quantity].family in (families.TAU, families.FORCE):
             place = part.row or named[part.quantity].index[0]
-            return Symbol(vocabulary.coordinates[place - 1].force)
+            return Symbol(vocabulary.inputs[place - 1])
         return part
 
     return mapped(node, put)

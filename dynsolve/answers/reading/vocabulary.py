@@ -158,7 +158,8 @@ class Vocabulary(Struct):
     `defined` is what the student defined, `remembered` what was read since, `shared` what was read by all
     hand-ins before they said anything of their own; `from_zero` are the names whose
     indices count from 0; `base_is_world` says that H_1 is A_1; `letters` are those of the coordinates that
-    have an index; `spelled` is what spellings mean in every hand-in.
+    have an index; `inputs` are the generalized forces as symbols, where results hold them; `spelled` is what
+    spellings mean in every hand-in.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -185,6 +186,7 @@ class Vocabulary(Struct):
     orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
     from_zero: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
+    inputs: tuple[str, ...] = ()
     shared: dict[Any, Any] = field(default_factory=dict)
     spelled: dict[str, Any] = field(default_factory=dict)
 
@@ -194,7 +196,7 @@ class Vocabulary(Struct):
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
             self.has_inverse_functions, self.passive, self.reached, self.candidates,
             self.asked, subscripts=self.subscripts, base_is_world=self.base_is_world,
-            from_zero=self.from_zero, letters=self.letters, shared=self.shared,
+            from_zero=self.from_zero, letters=self.letters, inputs=self.inputs, shared=self.shared,
             spelled=self.spelled,
         )  # fmt: skip
 
@@ -486,6 +488,7 @@ def vocabulary(problem: Problem) -> Vocabulary:
         base_is_world=robot.base_position.is_zero
         and (robot.base_rotation - Matrix.identity(robot.ring, 3)).is_zero,
         letters=frozenset(_letter(q.name) for q in coordinates) - symbols.keys(),
+        inputs=robot.inputs,
     )
 
 

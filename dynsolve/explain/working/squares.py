@@ -325,11 +325,12 @@ def _turn(context: Context, found: Turned) -> Prose:
         return say("By $sin² {A} + cos² {A} = 1$:", A=angle)
     shown = [context.show(part) for part in found.parts]
     first, second = map(without_signs, shown)
-    left = "(U sin {A} + V cos {A})² + (U cos {A} - V sin {A})²"
+    left = "({U} sin {A} + {V} cos {A})² + ({U} cos {A} - {V} sin {A})²"
     if (first == shown[0]) != (second == shown[1]):  # one of them without its minus
-        left = "(V cos {A} - U sin {A})² + (U cos {A} + V sin {A})²"
-    text = "By $" + left + " = U² + V²$ with {first} and {second} for $U$ and $V$:"
-    return say(text, A=angle, first=first, second=second)
+        left = "({V} cos {A} - {U} sin {A})² + ({U} cos {A} + {V} sin {A})²"
+    text = "By $" + left + " = {U}² + {V}²$ with {first} and {second} for {U} and {V}:"
+    U, V = letters.IN_IDENTITIES
+    return say(text, A=angle, first=first, second=second, U=U, V=V)
 
 
 def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:

@@ -85,7 +85,7 @@ class ConstrainedStates:
         """Whether with the constraints they determine all that there is: by their derivatives, n in all."""
         program, at = compile_trees(list(residuals)), self.all[0]
         motion = [q.acceleration for q in self.robot.coordinates]
-        names = [*motion, *(self.robot.coordinates[k].force for k in self._driven)]
+        names = [*motion, *(self.robot.inputs[k] for k in self._driven)]
         start = program.run(at)
         columns = [
             [b - a for a, b in zip(start, program.run({**at, name: at[name] + 1.0}), strict=True)]
@@ -110,7 +110,7 @@ class ConstrainedStates:
     def _found(self) -> Iterator[State]:
         found = 0
         for start in islice(samples(self.robot.ring, self._free), TRIES):
-            start |= self.numbers | {q.force: 0.0 for q in self.robot.coordinates}
+            start |= self.numbers | dict.fromkeys(self.robot.inputs, 0.0)
             names = [q.name for q in self.robot.coordinates]
             at = zero_along(names, self.held, start) if self.held else start
             if at is not None and found < STATES:
@@ -136,7 +136,7 @@ class ConstrainedStates:
         at |= {q.acceleration: x for q, x in zip(coordinates, chosen, strict=False)}
         moved = self._forces(at)
         held = [sum(row[k] * x for row, x in zip(A, chosen[n:], strict=True)) for k in range(n)]
-        return at | {coordinates[k].force: moved[k] - held[k] for k in self._driven}
+        return at | {self.robot.inputs[k]: moved[k] - held[k] for k in self._driven}
 
     def _forces(self, at: Mapping[str, float]) -> list[float]:
         """D q̈ + C q̇ + friction + g - Q"""
@@ -235,8 +235,8 @@ def _forces(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) 
     """τ + Q - C q̇ - friction - g"""
     found = []
     loads = outside_forces(robot, values)
-    for k, q in enumerate(robot.coordinates):
-        total = loads[k] + (0.0 if k in robot.actions.passive else values[q.force])
+    for k in range(robot.n):
+        total = loads[k] + (0.0 if k in robot.actions.passive else values[robot.inputs[k]])
         found.append(total - sum(ours[name][k][0] for name in ACTING if name in ours))
     return found
 

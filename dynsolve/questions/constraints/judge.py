@@ -60,7 +60,7 @@ class ReducedKey(SetKey):
 
     def __init__(self, judged: Judged, name: str) -> None:
         super().__init__(judged, name)
-        self.names = {q.force for q in self.robot.coordinates}
+        self.names = set(self.robot.inputs)
 
     @property
     def is_skipped(self) -> bool:

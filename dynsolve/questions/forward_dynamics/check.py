@@ -31,8 +31,8 @@ def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -
         moved = {q.acceleration: row[0] for q, row in zip(robot.coordinates, rows, strict=True)}
         (theirs,) = left.run({**values, **moved})
         loads = outside_forces(robot, values)
-        for k, q in enumerate(robot.coordinates):
-            force = loads[k] + (0.0 if k in robot.actions.passive else values[q.force])
+        for k in range(robot.n):
+            force = loads[k] + (0.0 if k in robot.actions.passive else values[robot.inputs[k]])
             size = max(1.0, abs(force), *map(abs, moved.values()))
             if not abs(theirs[k][0] - force) <= TOLERANCE * size:
                 raise VerificationError("qdd_forward does not give the forces; this is a fault of dynsolve")

@@ -51,7 +51,7 @@ def rules(robot: Robot) -> Iterator[Rule]:
 def driving_forces(robot: Robot) -> Matrix:
     """τ, n×1, by the names of the generalized forces; 0 where no motor drives a coordinate."""
     ring, passive = robot.ring, robot.actions.passive
-    entries = [ring.zero if k in passive else ring.symbol(q.force) for k, q in enumerate(robot.coordinates)]
+    entries = [ring.zero if k in passive else ring.symbol(name) for k, name in enumerate(robot.inputs)]
     return Matrix.column(ring, entries)
 
 

@@ -307,17 +307,19 @@ def _form(step: Solved) -> str:
 
 def _general(step: Solved) -> Node | None:
     """The form that an equation has, and its solution."""
-    both = {name: Letter(name) for name in "ABXY"}
+    both = {**{name: Letter(name) for name in "ABXY"}, "psi": letters.PSI}
     match step:
         case TwoLines() if step.is_rotation and not (step.first[0].is_zero or step.first[1].is_zero):
-            turned = formula("{A} cos ψ - {B} sin ψ = {X}, {A} sin ψ + {B} cos ψ = {Y}", **both)
-            return formula("{turned} ⇒ ψ = atan2({Y}, {X}) - atan2({B}, {A})", turned=turned, **both)
+            turned = formula(
+                "{A} cos {psi} - {B} sin {psi} = {X}, {A} sin {psi} + {B} cos {psi} = {Y}", **both
+            )
+            return formula("{turned} ⇒ {psi} = atan2({Y}, {X}) - atan2({B}, {A})", turned=turned, **both)
         case OneLine() if step.value.is_zero:
             either = formula("atan2({A}, {B}), atan2(-{A}, -{B})", **both)
-            return formula("{A} cos ψ = {B} sin ψ ⇒ ψ = {either}", either=either, **both)
+            return formula("{A} cos {psi} = {B} sin {psi} ⇒ {psi} = {either}", either=either, **both)
         case OneLine() if not (step.cosine.is_zero or step.sine.is_zero):
             either = formula("atan2({B}, {A}) ± atan2(sqrt({A}² + {B}² - {X}²), {X})", **both)
-            return formula("{A} cos ψ + {B} sin ψ = {X} ⇒ ψ = {either}", either=either, **both)
+            return formula("{A} cos {psi} + {B} sin {psi} = {X} ⇒ {psi} = {either}", either=either, **both)
     return None
 
 
@@ -430,7 +432,7 @@ def _lines(formulas: InverseFormulas, step: Solved, made: Sequence[Equation]) ->
                 left = total([power(form(part.left), 2) for part in parts if not part.left.is_zero])
                 right = total([power(form(part.right), 2) for part in parts])
                 yield Line(("The squares of these equations, added:",), (equation(left, right),))
-                yield Line(("Multiplied out, with s² + c² = 1:",), (_equation(formulas, e),))
+                yield Line(("Multiplied out, with sin² + cos² = 1:",), (_equation(formulas, e),))
     q = Symbol(step.coordinate)
     rows: list[tuple[Expr, Expr, Expr]] = []
     match step:

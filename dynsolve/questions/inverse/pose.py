@@ -39,6 +39,7 @@ from dynsolve.questions.inverse.search import search
 from dynsolve.questions.inverse.solving import FixedPoint, Part, Relation, Solving, Turn, length
 from dynsolve.questions.inverse.subproblems import Solved
 from dynsolve.robot.model import Convention, Joint, JointType, Robot
+from dynsolve.robot.names import names_taken
 
 # The arm as a chain of motions about and along the joint axes, with constant steps between them
 
@@ -218,8 +219,7 @@ def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | N
     """
     if robot.n > MOST_JOINTS:
         return None
-    taken = {*robot.ring.names, *robot.ring.parameters, *values}
-    names = Names.beside(taken)
+    names = Names.beside(names_taken(robot))
     ring = search_ring(robot.ring, (*values, *names.of_points, *names.of_turns), {})
     found = chain_of(robot, ring)
     if found is None:

@@ -47,6 +47,7 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.questions.parameters.derive import combinations, known_names
 from dynsolve.robot.model import Robot
+from dynsolve.robot.names import names_taken
 
 STAGE = Stage.PARAMETERS
 _SOURCE = spong("7.5.3")
@@ -404,7 +405,7 @@ class BaseParameters(Struct, dict=True):
     @cached_property
     def symbols(self) -> tuple[str | None, ...]:
         """The name of each; None where it is a symbol of the problem by itself."""
-        taken = {*self.robot.ring.parameters, *self.robot.ring.names}
+        taken = names_taken(self.robot)
         names = (name for k in count(1) if (name := f"{self.letter}{k}") not in taken)
         return tuple(next(names) if len(c) > 1 or sum(next(iter(c))) > 1 else None for c in self._found)
 

@@ -173,6 +173,7 @@ def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) ->
         base_position=put.matrix(robot.base_position),
         base_turns=_with_values(robot.base_turns, put, _written),
         parameters=tuple(name for name in robot.parameters if (name, 0) not in values),
+        inputs=robot.inputs,
         questions=_with_values(robot.questions, put),
         actions=_with_values(robot.actions, put),
         given=_with_values(robot.given, put),

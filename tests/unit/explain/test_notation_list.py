@@ -57,6 +57,39 @@ dh: [{theta: theta1*, a: c12}, {theta: theta2*, a: l}, {d: s1*}]
 masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
 """
 
+# Names that look like the solution's own letters, and like those that stand in for them
+OF_IDENTITIES = """
+gravity: [0, 0, -eta1]
+dh:
+  - {theta: q1*, d: h, alpha: 90deg}
+  - {theta: q2*, a: U}
+  - {theta: q3*, a: zeta2}
+masses:
+  - {mass: u1, link: 2}
+  - {mass: G, link: 2, center: [V, W, 0], inertia: {xx: h1, yy: h2, zz: h3}}
+  - {mass: sigma_1, link: 3}
+"""
+OF_SOLUTIONS = """
+gravity: none
+dh:
+  - {theta: psi*, a: A}
+  - {theta: q2*, a: B}
+  - {theta: q3*, a: c}
+points: {P: {link: 2}}
+task: [P.x, P.y, psi + q3]
+reach: [X, Y, chi]
+find: [inverse]
+"""
+OF_CONSTRAINTS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: lambda1}, {theta: q2*, a: mu2}]
+masses: [{mass: tau1, link: 1}, {mass: u2, link: 2}]
+friction: {q1: f1}
+constraints: [tip.x - c, tip.y]
+find: [tau, lambda]
+"""
+TAKING = [CLASHING, TAKEN, OF_IDENTITIES, OF_SOLUTIONS, OF_CONSTRAINTS]
+
 PRINTERS = (UnicodePrinter, LatexPrinter, MathMLPrinter, TypstPrinter)
 
 
@@ -65,7 +98,7 @@ def signs(problem: str) -> set[Node]:
     return signs_in(document(problem).blocks, solved(problem).style)
 
 
-@pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING, TAKEN])
+@pytest.mark.parametrize("problem", [*PROBLEMS, *TAKING])
 @pytest.mark.parametrize("printer", PRINTERS, ids=lambda printer: printer.notation)
 def test_no_sign_stands_for_two_things(problem: str, printer: type[FormulaPrinter]) -> None:
     style = solved(problem).style
@@ -78,7 +111,7 @@ def test_no_sign_stands_for_two_things(problem: str, printer: type[FormulaPrinte
     assert {text: kinds for text, kinds in meanings.items() if len(kinds) > 1} == {}
 
 
-@pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING, TAKEN])
+@pytest.mark.parametrize("problem", [*PROBLEMS, *TAKING])
 @pytest.mark.parametrize("detail", Detail)
 def test_every_sign_is_in_the_list(problem: str, detail: Detail) -> None:
     solution = solved(problem)
@@ -88,7 +121,7 @@ def test_every_sign_is_in_the_list(problem: str, detail: Detail) -> None:
     assert kinds_in(formulas_in(blocks), solution.style) - known == set()
 
 
-@pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING, TAKEN])
+@pytest.mark.parametrize("problem", [*PROBLEMS, *TAKING])
 def test_nothing_is_listed_that_is_not_printed(problem: str) -> None:
     """The names of entries count for nothing: where a matrix fits the page, they are not printed."""
     solution = solved(problem)
@@ -229,6 +262,20 @@ def test_a_letter_that_is_taken_gives_way() -> None:
     assert solved("crustcrawler-2r").style.letters == elbow.letters  # c₁₂ would be read as a cosine
     clashing = solved(CLASHING).style
     assert {base for base, _, _ in clashing.letters} == {"c", "d", "g", "P", "K", "f"}
+
+
+@pytest.mark.parametrize(
+    ("problem", "others"),
+    [
+        (OF_IDENTITIES, {"eta": "chi", "u": "xi", "U": "mu", "V": "H"}),
+        (OF_SOLUTIONS, {"psi": "omega", "A": "E", "B": "F", "X": "S", "Y": "T"}),
+        (OF_CONSTRAINTS, {"lambda": "nu", "tau": "T", "f": "F", "u": "xi"}),
+    ],
+)
+def test_the_letters_of_a_solution_give_way_too(problem: str, others: dict[str, str]) -> None:
+    found = {base: other for (base, _, _), other in solved(problem).style.letters.items() if base != "c"}
+    assert found == others
+    assert "Spong writes ψ" not in str(solved(problem)) and "Spong writes η" not in str(solved(problem))
 
 
 @pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING])
