@@ -37,6 +37,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.questions.inverse.derive import Inverse, without_number
 from dynsolve.questions.inverse.equations import Squared
+from dynsolve.questions.inverse.solving import Relation as Condition
 from dynsolve.questions.inverse.subproblems import (
     Length,
     OneLine,
@@ -258,6 +259,13 @@ class InverseFormulas:
         return Quotient(self.form(value.numerator * whole), self.form(value.divisor * whole))
 
 
+def _signed_sides(one: Condition) -> tuple[Expr, Expr]:
+    """The sides of an equation; where one is 0 the other with as few minus signs as it may have."""
+    left, right = one.left, one.right
+    is_negative = right.is_zero and 2 * sum(factor < 0 for factor in left.poly.coeffs()) > len(left)
+    return (-left, right) if is_negative else (left, right)
+
+
 def _without_shared(a: Expr, b: Expr) -> tuple[Expr, Expr]:
     """Two expressions without a positive factor that both have."""
     if a.is_zero or b.is_zero:
@@ -347,7 +355,7 @@ class InverseForms(SetForms):
                 Equality((form(left), form(right)), one.is_angle)
                 for one in branch.when
                 for left, right in [
-                    (one.left, one.right) if one.is_angle else _without_shared(one.left, one.right)
+                    (one.left, one.right) if one.is_angle else _without_shared(*_signed_sides(one))
                 ]
             )
             for branch in self.solved.branches

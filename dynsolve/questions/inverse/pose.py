@@ -22,7 +22,8 @@ the axes of several joints that turn, which they do not move.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
 from itertools import combinations_with_replacement
 
 from msgspec import Struct
@@ -236,8 +237,10 @@ def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | N
     made = pose.map(Transfer(pose.ring, ring)).entries
     whole = [Relation(ring.symbol(name), entry) for name, entry in zip(values, made, strict=True)]
     fixed = [one for one in whole if not ring.depends_on_coordinates(one.right)]
-    told = sorted((*_of_points(start, names), *fixed), key=length)
     identities = tuple(_orthonormal(H))
+    known = (*identities, *_orthonormal(H.T))
+    points = (replace(one, left=_of_a_rotation(one.left, known)) for one in _of_points(start, names))
+    told = sorted((*points, *fixed), key=length)
     return Solving(
         ring,
         pose,
@@ -256,6 +259,18 @@ def _orthonormal(H: Matrix) -> Iterator[Relation]:
     ring = H.ring
     for i, j in combinations_with_replacement(H.rows[:3], 2):
         yield Relation(ring.dot(i[:3], j[:3]), ring.one if i is j else ring.zero)
+
+
+def _of_a_rotation(value: Expr, known: Iterable[Relation]) -> Expr:
+    """An expression without products of the rows or columns of a rotation, which are 0 or 1."""
+    for one in known:
+        (first, *_), ring = one.left.poly.monoms(), value.ring
+        factor = value
+        for k in (k for k, exponent in enumerate(first) for _ in range(int(exponent))):
+            factor = Expr(ring, factor.poly.derivative(k))
+        shorter = value - factor * Fraction(1, max(map(int, first))) * (one.left - one.right)
+        value = min(value, shorter, key=len)
+    return value
 
 
 def _of_points(block: _Block, names: Names) -> Iterator[Relation]:

@@ -55,3 +55,11 @@ def test_angles_that_are_found_in_numbers_are_rounded_in_the_table() -> None:
 def test_a_component_that_stands_in_two_equations_is_one() -> None:
     text = told("dh: [{theta: q1*, alpha: 90deg, a: b}, {theta: q2*, d: c, a: l}]")
     assert "Component 3 of the task has no other unknown. Two equations" in text
+
+
+def test_columns_of_a_rotation_are_at_right_angles_in_what_must_hold() -> None:
+    """The last frame sees the origin at (x r11 + ..., x r13 + ...): c (r11 r13 + ...) is 0."""
+    wrist = """
+dh: [{theta: q1*, alpha: -90deg}, {theta: q2*, alpha: 90deg, d: b}, {theta: q3*, a: c}]
+task: pose"""
+    assert "z - r₃₁ c = 0, x r₁₃ + y r₂₃ + z r₃₃ = 0, x =" in told(wrist)
