@@ -21,7 +21,7 @@ from dynsolve.answers.reading.grids import Grid, Value, divided, negative, times
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation import text as plain
-from dynsolve.notation.tree import Degrees, Node, Number, Power, Product, Quotient
+from dynsolve.notation.tree import Degrees, Node, Number, Product, Quotient
 
 # Numbers as they are written: decimals, and degrees as `90°`, `90 deg` or `90^\circ`
 
@@ -65,13 +65,6 @@ def _written(value: Fraction, text: str) -> Number:
 
 
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
-_SMALL_POWERS = frozenset("23456789")
-_SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
-_NOT_BARE = _SCRIPTS | {"(", "{", "["}
-"""What keeps a power from being the end of its factor: L_2^2(t) is the square of L_2(t)."""
-
-_AFTER_BARE_NAME = frozenset("+ - cdot times ) ] } & , ; \\\\ end name letter number command".split())
-"""What follows a name that is its symbol and no more: no script, no argument, no division."""
 
 
 class FormulaReader(Reader):
@@ -220,8 +213,6 @@ class FormulaReader(Reader):
     def word(self, token: Token) -> Value:
         """A letter or a run of them: a function, a call, a derivative or a name."""
         if token.kind == "name":
-            if (symbol := self.bare_symbol(token)) is not None:
-                return symbol
             if derivatives.stands_here(self):
                 return self.scripted(derivatives.read(self))
             if (function := references.name_of(token, self.vocabulary)) is not None:
@@ -231,34 +222,6 @@ class FormulaReader(Reader):
         if references.is_short_function(self):
             return references.read(self, "sin" if token.text in "sS" else "cos")
         return names.value_of(self, self.form())
-
-    def bare_symbol(self, token: Token) -> Node | None:
-        """A symbol of the problem with a small power or without scripts; None for everything else.
-
-        Most factors are one.  They need none of what `names` looks out for, and without this
-        short cut reading takes a third longer.
-        """
-        if self.naming or token.dots or (symbol := self.vocabulary.bare_symbol(token.text)) is None:
-            return None
-        after = self.peek()
-        kind = after.kind
-        value: Node = symbol
-        if kind == "^":
-            power = self.peek(2)
-            if power.kind != "number" or power.text not in _SMALL_POWERS or self.peek(3).kind in _NOT_BARE:
-                return None
-            value = Power(symbol, Number(int(power.text)))
-            self.position += 3
-            self.token = self.tokens[self.position]
-        elif names.stands_between_rates(self, token.start, self.position + 1):
-            return None
-        elif kind in _AFTER_BARE_NAME or (kind == "*" and self.peek(2).kind in BEGINS):
-            self.position += 1
-            self.token = after
-        else:
-            return None
-        self.symbols.setdefault(symbol.name)
-        return value
 
     def bracketed(self) -> Value:
         """A parenthesis, a group or a matrix, with its scripts."""
