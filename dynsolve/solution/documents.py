@@ -535,18 +535,13 @@ class _Parts(Struct, dict=True):
             *self.closing(),
             *part("the notation", lambda: self.notation((*stated, *derivation))),
         ))  # fmt: skip
-        if self.may_round():
+        if self.solution.may_round:
             style = self.solution.style
             among_words = partial(marked_among_words, style=style)
             document = rewritten(document, displayed=partial(marked, style=style), inline=among_words)
         return (
             rewritten(document, words=of_second_edition) if self.solution.problem.edition == 2 else document
         )
-
-    def may_round(self) -> bool:
-        """Whether there can be decimals: in a model in numbers, with values, and of what reaches numbers."""
-        is_numeric = self.solution.style.digits or self.solution.numbers is not None
-        return bool(is_numeric) or self.solution.robot.questions.target is not None
 
     def opening(self) -> Iterator[Block]:
         """The title, the source, and how numbers are printed."""

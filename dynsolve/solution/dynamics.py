@@ -156,6 +156,12 @@ class Dynamics(Struct, frozen=True, dict=True):
         """How the formulas of a report look: s_1 for sin θ_1, and no sign with two meanings."""
         return report_style(self.robot, self.digits)
 
+    @property
+    def may_round(self) -> bool:
+        """Whether there can be decimals: in a model in numbers, with values, and of what reaches numbers."""
+        is_numeric = self.style.digits or self.numbers is not None
+        return bool(is_numeric) or self.robot.questions.target is not None
+
     def starred(self, star: bool) -> Style:
         """The style in which every joint variable carries its mark, where `star` asks for it."""
         return (

@@ -13,7 +13,7 @@ The Denavit-Hartenberg table as JSON has it: rows of texts, with the marks of jo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -211,15 +211,13 @@ class _Exporter:
 
     def step(self, step: Step) -> dict[str, Any]:
         formulas = [*([step.formula] if step.formula else []), *step.further, *step.working, *step.result]
-        formulas = [marked(node, self.unicode.style) for node in formulas]
         return {
             "id": step.id,
             "stage": step.stage,
             "title": step.title,
             "why": self.prose(step.why),
             "source": by_itself(step.source),
-            "latex": "\n".join(map(self.latex.text, formulas)),
-            "text": "\n".join(map(self.unicode.text, formulas)),
+            **self.formulas(formulas),
             "notes": [self.prose(note) for note in step.notes],
             **({"lines": list(map(self.line, step.lines))} if step.lines else {}),
             **({"concluding": self.prose(step.concluding)} if step.concluding else {}),
@@ -227,9 +225,13 @@ class _Exporter:
 
     def line(self, line: Line) -> dict[str, str]:
         """A line between the formula and the result, with the operation that leads to it."""
-        formulas = [marked(node, self.unicode.style) for node in line.formulas]
+        return {"by": self.prose(line.by), **self.formulas(line.formulas)}
+
+    def formulas(self, formulas: Sequence[Node]) -> dict[str, str]:
+        """Formulas in both notations, with ≈ where a number is rounded."""
+        if self.solution.may_round:
+            formulas = [marked(node, self.unicode.style) for node in formulas]
         return {
-            "by": self.prose(line.by),
             "latex": "\n".join(map(self.latex.text, formulas)),
             "text": "\n".join(map(self.unicode.text, formulas)),
         }
@@ -245,7 +247,9 @@ class _Exporter:
                 return text
             case Reference():
                 return ""  # equations have names here, and no numbers
-        return self.unicode.text(marked_among_words(part, self.unicode.style))
+        if self.solution.may_round:
+            part = marked_among_words(part, self.unicode.style)
+        return self.unicode.text(part)
 
 
 def _exported(robot: Robot) -> Iterator[Family]:
