@@ -15,6 +15,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from dynsolve.algebra.angles import Angle, angle_node
+from dynsolve.algebra.compact.proof import node_of
 from dynsolve.algebra.compact.terms import (
     MASSES,
     RATES,
@@ -34,7 +35,7 @@ from dynsolve.algebra.compact.trig_forms import AngleGroup, TrigMonomial
 from dynsolve.algebra.fourier import TrigFunction
 from dynsolve.algebra.generators import Generator, is_sign
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.notation.tree import Function, Node, Number, Symbol, children
+from dynsolve.notation.tree import Function, Node, Number, children
 
 # Atoms: the factors of a printed product, and their order
 
@@ -116,8 +117,8 @@ class RingAtoms:
 
     `leading` are the names of masses and inertias, `groups` the ring's
     angles; `form` writes the denominator that an inverse stands for.  `monomials` numbers those of
-    masses, of other symbols and of rates that occur.  The atom of a sine or
-    cosine is made once: PUMA 560 would take a fifth longer without.
+    masses, of other symbols and of rates that occur.  A
+    product of sines and cosines is looked up by its number: PUMA 560 would take a fifth longer without.
     """
 
     def __init__(
@@ -138,7 +139,6 @@ class RingAtoms:
         self._places = dict(zip(ring.ctx.names(), self._of_generators(), strict=False))
         self._factors: dict[str, tuple[int, _Products]] = {}
         self._trig: dict[tuple[int, int], tuple[int, Monomial]] = {}
-        self._trig_atoms: dict[tuple[int, TrigFunction], tuple[int, int]] = {}
         self._functions: dict[int, tuple[str, Angle]] = {}
         self._of_functions: dict[tuple[str, Angle], int] = {}
         self._adds_angles = any(self._is_constant(pair.angle) for pair in ring.pairs)
@@ -160,7 +160,7 @@ class RingAtoms:
         """Masses first, then g, other parameters, coordinates, accelerations, velocities."""
         printed = [g for g in self.ring.generators if g.kind in ("symbol", "root", "function")]
         for g in sorted(printed, key=self._place):
-            self._symbols[g.index] = self.table.number(_node(g), self._rank(g)), 1
+            self._symbols[g.index] = self.table.number(node_of(g, self.ring), self._rank(g)), 1
 
     def _place(self, g: Generator) -> tuple[object, ...]:
         order = self._order.get(g.name, 0)
@@ -257,12 +257,6 @@ class RingAtoms:
         return self._trig_monomial(tuple(mono), group)
 
     def _trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
-        found = self._trig_atoms.get((group, function))
-        if found is None:
-            found = self._trig_atoms[group, function] = self._new_trig_atom(group, function)
-        return found
-
-    def _new_trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
         """(±1, atom) of a sine or cosine: -sin(θ₁ - θ₂) is printed as sin(θ₂ - θ₁)."""
         name, multiples = function
         if name == "sqrt":
@@ -331,9 +325,3 @@ class RingAtoms:
         moving = moving or [rate for _, rate in angle.terms]
         negative = sum(rate < 0 for rate in moving)
         return 2 * negative > len(moving) or (2 * negative == len(moving) and bool(moving) and moving[-1] < 0)
-
-
-def _node(g: Generator) -> Node:
-    if g.node is None:
-        return Symbol(g.name, g.dots)
-    return Function("sqrt", g.node) if g.kind == "root" else g.node

@@ -280,7 +280,11 @@ class Collector:
             case Number(p, q):
                 return (p if q == 1 else Fraction(p, q)), ()
             case Product(factors):
-                return self._decompose_all(factors)
+                factor, mono = 1, ()
+                for part in factors:
+                    own, more = self.decompose(part)
+                    factor, mono = factor * own, multiply(mono, more)
+                return factor, mono
             case Quotient(numerator, denominator):
                 f, above = self.decompose(numerator)
                 g, below = self.decompose(denominator)
@@ -289,14 +293,6 @@ class Collector:
                 factor, mono = self.decompose(base)
                 return factor**p, tuple((atom, e * p) for atom, e in mono)
         return 1, ((self.atoms.number(node), 1),)
-
-    def _decompose_all(self, factors: Iterable[Node]) -> tuple[Rational, Monomial]:
-        factor: Rational = 1
-        mono: Monomial = ()
-        for part in factors:
-            f, m = self.decompose(part)
-            factor, mono = factor * f, multiply(mono, m)
-        return factor, mono
 
     def sum_of(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree, with what the products share drawn out."""

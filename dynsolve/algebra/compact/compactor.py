@@ -285,9 +285,7 @@ class Compactor:
         g, terms = self._from_next_group(terms)
         if not any(any(e[1:MASSES]) for e in terms):
             return None
-        split: dict[int, Terms] = {}
-        for e, f in terms.items():
-            split.setdefault(e[0], {})[e[1:]] = f
+        split = split_at(terms, -len(next(iter(terms))))
         if all(len(part) < SMALLEST_SQUARE for part in split.values()):
             return None
         parts = []

@@ -145,7 +145,7 @@ def plain_form(expr: Expr) -> Node:
         parts = [
             (plain_form(Expr(ring, ring.inverses[g.index])), -int(e))
             if g.kind == "inverse"
-            else (_node(g, ring), int(e))
+            else (node_of(g, ring), int(e))
             for g, e in zip(ring.generators, exponents, strict=True)
             if e
         ]
@@ -153,7 +153,7 @@ def plain_form(expr: Expr) -> Node:
     return total(terms)
 
 
-def _node(g: Generator, ring: Ring) -> Node:
+def node_of(g: Generator, ring: Ring) -> Node:
     """What a generator is printed as."""
     match g.kind:
         case "symbol":

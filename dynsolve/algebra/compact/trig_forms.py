@@ -117,31 +117,23 @@ def _eliminations(poly: TrigPolynomial, basis: list[Multiples]) -> Iterator[Trig
         written: TrigPolynomial | None = poly
         for j, way in enumerate(ways):
             if written is not None and way == "c":
-                written = _without_cos_squares(written, j)
+                written = _without_squares(written, 2 * j + 1)
             elif written is not None and way == "neither":
                 written = _homogeneous(written, j)
         if written is not None:
             yield _products(written, basis)
 
 
-def _without_cos_squares(poly: TrigPolynomial, j: int) -> TrigPolynomial:
-    """c² → 1 - s² in angle j."""
+def _without_squares(poly: TrigPolynomial, place: int) -> TrigPolynomial:
+    """s² → 1 - c², where the sine stands at an even place; c² → 1 - s², where the cosine does at an odd."""
+    j, is_cosine = divmod(place, 2)
     result: TrigPolynomial = {}
     for e, f in poly.items():
-        s, c = e[2 * j], e[2 * j + 1]
-        half, odd = divmod(c, 2)
+        half, odd = divmod(e[place], 2)
+        other = e[place - 1 if is_cosine else place + 1]
         for k in range(half + 1):
-            add_term(result, _with_powers(e, j, s + 2 * k, odd), f * (-1) ** k * comb(half, k))
-    return result
-
-
-def _without_sin_squares(poly: TrigPolynomial, j: int) -> TrigPolynomial:
-    """s² → 1 - c² in angle j."""
-    result: TrigPolynomial = {}
-    for e, f in poly.items():
-        half, odd = divmod(e[2 * j], 2)
-        for k in range(half + 1):
-            add_term(result, _with_powers(e, j, odd, e[2 * j + 1] + 2 * k), f * (-1) ** k * comb(half, k))
+            powers = (other + 2 * k, odd) if is_cosine else (odd, other + 2 * k)
+            add_term(result, _with_powers(e, j, *powers), f * (-1) ** k * comb(half, k))
     return result
 
 
@@ -180,7 +172,7 @@ def _over_basis(fourier: FourierForm, basis: list[Multiples]) -> TrigPolynomial 
             for e, f in part.items() if factor else ():
                 add_term(result, e, f * factor)
     for j in range(len(basis)):
-        result = _without_sin_squares(result, j)
+        result = _without_squares(result, 2 * j)
     return result
 
 
