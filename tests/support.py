@@ -121,15 +121,16 @@ def explained_once(solution: dynsolve.Solution) -> dynsolve.Solution:
 
 def solve_json(problem: Path | str) -> dict[str, Any]:
     """The JSON of a solution without its steps; `problem` is a path, or the text of a problem file."""
-    return _json_of(problem) if isinstance(problem, Path) else _plain(dynsolve.solve(problem))
+    return _json_of(problem) if isinstance(problem, Path) else json_of(dynsolve.solve(problem))
 
 
 @cache
 def _json_of(problem: Path) -> dict[str, Any]:
-    return _plain(solved(problem))
+    return json_of(solved(problem))
 
 
-def _plain(solution: dynsolve.Solution) -> dict[str, Any]:
+def json_of(solution: dynsolve.Solution) -> dict[str, Any]:
+    """The JSON of a solution without its steps."""
     return json.loads(json.dumps(to_json(_Unexplained(solution))))
 
 

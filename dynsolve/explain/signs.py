@@ -46,6 +46,7 @@ from dynsolve.notation.tree import (
     walk,
 )
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.quantities import letters
 from dynsolve.quantities.letters import OWN, SPONGS
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
@@ -116,9 +117,11 @@ def _indices(robot: Robot, base: str, count: int) -> Iterable[str]:
         case "P":
             return (*bodies, "s")
         case "K":
-            return (f"{part}{index}" for part in ("", "v", "omega") for index in (*bodies, "m"))
+            return (f"{part}{index}" for part in ("", "v", "omega") for index in (*bodies, "m", "i"))
         case "eta":
-            return bodies
+            return (*bodies, "i")
+        case "m":  # of any body: those of the problem keep their names
+            return ("i",)
         case "x" | "y" | "z":
             return ("tip", *(point.name for point in robot.questions.points))
         case "lambda":
@@ -127,6 +130,9 @@ def _indices(robot: Robot, base: str, count: int) -> Iterable[str]:
             return (f"{part}{number}" for part in ("", "f", "static") for number in numbers)
         case "u":
             return "123"
+        case "theta" | "d" | "a" | "alpha" if count == 1:  # columns, where these have the number of a row
+            has_numbers = isinstance(letters.columns(robot, letters.COUNT)[0], Letter)
+            return (str(joint.index) for joint in robot.joints if has_numbers)
     return map("".join, product(numbers, repeat=count))
 
 

@@ -39,6 +39,7 @@ def build_robot(
     """
     inputs = names.inputs(parsed.coordinates, parsed.spelled) if any(map(holds_forces, asked)) else ()
     references = tuple(reference(q.name) for q in parsed.coordinates) if "Yr" in asked else ()
+    _check_references(faults, parsed, references)
     values = evaluate(faults, parsed, written, inputs, references)
     if values is None:
         return None
@@ -84,6 +85,14 @@ def build_robot(
     robot = with_questions(values, robot, parsed.questions, points, asked, parsed.normals is not None)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
+
+
+def _check_references(faults: Faults, parsed: ParsedFile, references: tuple[str, ...]) -> None:
+    """Report what is called as a reference is, of which Yr has the rates."""
+    found = {name.name: cell.span_of(name) for cell in parsed.cells for name in cell.names}
+    for name in found.keys() & set(references):
+        message = f"{name} is the reference in Yr of the coordinate {name[:-1]}"
+        faults.error(found[name], message, "give it another name")
 
 
 def _given_from_world(body: Body, base: Matrix) -> Body:

@@ -302,10 +302,12 @@ SPONGS: dict[tuple[str, int], tuple[str, ...]] = {
 
 OWN: dict[tuple[str, int], tuple[str, ...]] = {
     ("eta", 1): ("zeta", "chi"),
+    ("m", 1): ("mu", "M"),
     ("u", 1): ("xi", "w"),
     ("lambda", 1): ("mu", "nu"),
     ("Delta", 1): ("Theta",),
     ("Q", 1): ("Xi",),
+    ("n", 2): ("N", "nu"),
     ("rho", 0): ("gamma", "nu"),
     ("psi", 0): ("chi", "omega"),
     ("A", 0): ("E", "alpha"),
@@ -315,6 +317,10 @@ OWN: dict[tuple[str, int], tuple[str, ...]] = {
     ("Y", 0): ("T", "zeta"),
     ("U", 0): ("G", "mu"),
     ("V", 0): ("H", "nu"),
+    ("theta", 1): ("beta",),
+    ("d", 1): ("p",),
+    ("a", 1): ("b",),
+    ("alpha", 1): ("gamma",),
     **dict.fromkeys((("x", 1), ("y", 1), ("z", 1)), ()),
 }
 """The same for what the textbook has no letter of."""

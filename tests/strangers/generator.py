@@ -7,6 +7,7 @@ that is refused all the same is printed by `python -m tests.strangers`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from random import Random
 from typing import Any
@@ -69,9 +70,69 @@ class _Plain(yaml.SafeDumper):
 
 
 def stranger(seed: int) -> Problem:
-    """The mechanism of a seed; of one in seven the sections are those of the second edition."""
+    """The mechanism of a seed; of one in seven the sections are those of the second edition.
+
+    Parameters of one in six are called as the solution itself calls something.
+    """
     problem = _Stranger(Random(seed)).problem()
+    if seed % 6 == 4:
+        problem = renamed(problem, Random(seed))[0]
     return problem | {"edition": "2"} if seed % 7 == 0 else problem
+
+
+# -- parameters that are called as the solution calls something ----------------------------------------
+
+SOLUTIONS_OWN = (
+    "r1 r2 r3 r11 rd1 x y z xc zp f1 f2 F1 tau1 tau2 u1 u2 u11 lambda lambda1 mu1 eta1 eta2 h sigma1 sigma2 "
+    "h1 A B D X Y psi chi s c t k i j n E F N Q1 Delta1 U V W G H w C S T rho Q q1r P1 K1 Kv1 d11 c12 c112 "
+    "g1 n12 theta d a alpha A1 z1 o1 l m mi xtip V1 tauf1 e1 theta1 d1 a1"
+).split()
+"""What a solution calls something of its own."""
+
+_WORD = re.compile(r"[A-Za-z]\w*")
+_PARAMETER = re.compile(
+    r"(?:L|a|l|h|m|b|I|J|M|R|k0?|fv|F|Fx|Fy|vx|ax|l0|g)\d*"
+    r"|(?:lc|fc|rho|u|z|y|r|e|kr|Im|b|w)\d+"
+    r"|I\d(?:xx|yy|zz)"
+)
+"""The parameters that are given others' names."""
+
+_NAMING = ("title", "source", "find", "marks", "remarks", "reach", "candidates", "assume", "coordinates")
+"""Keys in which no parameter stands, or one that is asked for by its name."""
+
+
+def renamed(problem: Problem, random: Random) -> tuple[Problem, dict[str, str]]:
+    """A problem with some of its parameters called otherwise, and their names."""
+    parts = {key: value for key, value in problem.items() if key not in _NAMING}
+    words = set(_WORD.findall(written(problem)))
+    old = sorted({word for word in _words(parts) if _PARAMETER.fullmatch(word)})
+    free = [name for name in SOLUTIONS_OWN if name not in words]
+    chosen = random.sample(old, min(len(old), random.randint(1, 4)))
+    names = dict(zip(chosen, random.sample(free, len(chosen)), strict=True))
+    return problem | {key: _put(value, names) for key, value in parts.items()}, names
+
+
+def _words(part: Any) -> set[str]:
+    """The words in the formulas of a part of a problem."""
+    if isinstance(part, dict):
+        return set().union(*(_words(value) for key, value in part.items() if key not in ("name", "units")))
+    if isinstance(part, list):
+        return set().union(*map(_words, part))
+    return set(_WORD.findall(part)) if isinstance(part, str) else set()
+
+
+def _put(part: Any, names: dict[str, str]) -> Any:
+    """A part of a problem with these names; of keys those under `values` and `units` are names."""
+    if isinstance(part, dict):
+        return {
+            names.get(key, key) if isinstance(value, str) and _PARAMETER.fullmatch(key) else key: (
+                value if key == "name" else _put(value, names)
+            )
+            for key, value in part.items()
+        }
+    if isinstance(part, list):
+        return [_put(value, names) for value in part]
+    return _WORD.sub(lambda match: names.get(match[0], match[0]), part) if isinstance(part, str) else part
 
 
 class _Stranger:

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from dynsolve.notation import tree
+from dynsolve.notation.python import python_name
 from dynsolve.notation.tree import Node, walk
 
 CONDITIONAL = (
@@ -293,12 +294,13 @@ def state(solution: Any, seed: int, at: Mapping[str, float]) -> Point:
                     point.known.setdefault(tree.Symbol(name), Value(names[name], abs(names[name])))
     functions = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt, "pi": math.pi, "__builtins__": {}}
     functions["sgn"] = lambda x: math.copysign(1.0, x)
+    in_python = {python_name(name): number for name, number in names.items()}
 
     def value(form: Node, place: tuple[int, ...]) -> Value:
         if isinstance(form, tree.Matrix):
-            numbers = np.array([[eval(_code(e), functions, names) for e in row] for row in form.rows])  # noqa: S307
+            numbers = np.array([[eval(_code(e), functions, in_python) for e in row] for row in form.rows])  # noqa: S307
             return Value(numbers[place], np.abs(numbers[place]))
-        number = eval(_code(form), functions, names)  # noqa: S307
+        number = eval(_code(form), functions, in_python)  # noqa: S307
         return Value(number, abs(number))
 
     for name, letter, form, place in _results(solution):

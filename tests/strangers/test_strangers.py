@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
+from random import Random
+from typing import Any
 
 import pytest
 from msgspec.structs import replace
@@ -15,18 +18,21 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.compact.proof import Proof
 from dynsolve.algebra.ring import Expr
 from dynsolve.document import Formula
+from dynsolve.errors import InputError
 from dynsolve.explain.abbreviations import Abbreviate, Exchange
 from dynsolve.explain.recurring import _Writer
 from dynsolve.explain.step import Detail
 from dynsolve.notation.build import negated, times
 from dynsolve.notation.tree import Node, Relation, Sum, mapped, walk
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import read_problem
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.dynamics import Dynamics
-from tests.strangers.generator import stranger, written
+from tests.strangers.generator import Problem, renamed, stranger, written
 from tests.strangers.held import Refused, faults
 from tests.strangers.oracle import CONDITIONAL, Untrue, random_point, relations, untrue
+from tests.support import json_of
 
 SEEDS = (
     0, 1, 2, 3, 5, 6, 7, 8, 11, 12, 13, 15, 16, 18, 20, 21, 24, 25, 27, 31, 37, 44, 45, 47, 49, 50,
@@ -43,6 +49,35 @@ def test_a_stranger_is_solved_and_nothing_false_is_printed(seed: int) -> None:
         assert faults(written(stranger(seed)), seed) == []
     except Refused as refused:
         assert "help:" in str(refused)
+
+
+@pytest.mark.parametrize("seed", range(5, 125, 10))
+def test_results_do_not_depend_on_names(seed: int) -> None:
+    plain = stranger(seed)
+    other, names = renamed(plain, Random(seed))
+    assert _words(other, {own: name for name, own in names.items()}) == _words(plain, {})
+
+
+def _words(problem: Problem, names: Mapping[str, str]) -> list[str] | None:
+    """The words and signs of the results, the order of terms aside, each name by what it stands for."""
+    try:
+        solution = dynsolve.solve(read_problem(written(problem)))
+    except InputError:
+        return None
+    robot = solution.robot
+    given = [*robot.inputs, *robot.questions.reached]
+    known = {**names, **{name: f"given{k}" for k, name in enumerate(given)}}
+    words = re.findall(r"\w+|[^\w\s]", " ".join(_texts(json_of(solution)["results"])))
+    return sorted(known.get(word.removesuffix("_"), word) for word in words)
+
+
+def _texts(part: Any) -> Iterator[str]:
+    """The values in JSON, without keys."""
+    if isinstance(part, dict | list):
+        for value in part.values() if isinstance(part, dict) else part:
+            yield from _texts(value)
+    else:
+        yield str(part)
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.stem)

@@ -67,7 +67,7 @@ dh:
 masses:
   - {mass: u1, link: 2}
   - {mass: G, link: 2, center: [V, W, 0], inertia: {xx: h1, yy: h2, zz: h3}}
-  - {mass: sigma_1, link: 3}
+  - {mass: n_12, link: 3}
 """
 OF_SOLUTIONS = """
 gravity: none
@@ -88,7 +88,12 @@ friction: {q1: f1}
 constraints: [tip.x - c, tip.y]
 find: [tau, lambda]
 """
-TAKING = [CLASHING, TAKEN, OF_IDENTITIES, OF_SOLUTIONS, OF_CONSTRAINTS]
+OF_THE_TABLE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: theta}, {theta: q2*, a: a}, {d: d3*, a: a1}]
+masses: [{mass: d1, link: 1}, {mass: alpha, link: 2}, {mass: theta1, link: 3}]
+"""
+TAKING = [CLASHING, TAKEN, OF_IDENTITIES, OF_SOLUTIONS, OF_CONSTRAINTS, OF_THE_TABLE]
 
 PRINTERS = (UnicodePrinter, LatexPrinter, MathMLPrinter, TypstPrinter)
 
@@ -267,9 +272,10 @@ def test_a_letter_that_is_taken_gives_way() -> None:
 @pytest.mark.parametrize(
     ("problem", "others"),
     [
-        (OF_IDENTITIES, {"eta": "chi", "u": "xi", "U": "mu", "V": "H"}),
+        (OF_IDENTITIES, {"eta": "chi", "u": "xi", "U": "mu", "V": "H", "n": "N"}),
         (OF_SOLUTIONS, {"psi": "omega", "A": "E", "B": "F", "X": "S", "Y": "T"}),
         (OF_CONSTRAINTS, {"lambda": "nu", "tau": "T", "f": "F", "u": "xi"}),
+        (OF_THE_TABLE, {"theta": "beta", "d": "p", "a": "b"}),
     ],
 )
 def test_the_letters_of_a_solution_give_way_too(problem: str, others: dict[str, str]) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import dynsolve
+from dynsolve.errors import ProblemError
 from tests.support import solve_json
 
 SLIDE = """
@@ -86,6 +87,14 @@ def test_the_results_do_not_depend_on_names(
 ) -> None:
     expected = re.sub(r"[A-Za-z]\w*", lambda match: others.get(match[0], match[0]), results(problem))
     assert words(results(put(problem, names))) == words(put(expected, names))
+
+
+@pytest.mark.parametrize("name", ["q1r", "q2r"])
+def test_a_reference_is_no_parameter_and_no_coordinate(name: str) -> None:
+    text = PENDULUM.replace("K2", "L2").replace("lambda", "Yr").replace("constraints: [tip.x - c]\n", "")
+    text = text.replace("q2", "q1r") if name == "q1r" else text.replace("L2", name)
+    with pytest.raises(ProblemError, match=f"{name} is the reference in Yr of the coordinate {name[:-1]}"):
+        dynsolve.solve(put(text, ("l",)))
 
 
 BRANCHES = """inverse:
