@@ -59,6 +59,14 @@ def follows(value: Expr, others: Sequence[Expr]) -> bool:
     return _has_number([*map(_specialized, others), inverted], value.ring)
 
 
+def never_together(values: Sequence[Expr], nonzero: Expr) -> bool:
+    """Whether expressions are found to be 0 together for no parameters with which another one is not 0."""
+    polys = [_exact_terms(value.ring, value.poly) for value in values]
+    other = _inverted(_exact_terms(nonzero.ring, nonzero.poly), nonzero.ring)
+    _, basis = _basis([*polys, other], nonzero.ring, _exact_terms, Ordering.degrevlex, ())
+    return any(poly.is_constant() and poly for poly in basis)
+
+
 def _inverted(terms: Terms, ring: Ring) -> Terms:
     """t f - 1, with t behind the generators."""
     inverted = {(*key, 1): number for key, number in terms.items()}

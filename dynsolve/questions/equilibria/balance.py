@@ -14,7 +14,8 @@ lengths of the table where they can.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from math import prod
 
 from msgspec.structs import replace
 
@@ -23,6 +24,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.singular.zeros import never_together
 from dynsolve.questions.parameters.derive import minimal_parameters
 from dynsolve.robot.model import Robot
 
@@ -55,18 +57,29 @@ def balance(robot: Robot, gravity: Matrix) -> tuple[Expr, ...] | Skipped:
     if isinstance(found, Skipped):
         return found
     masses = never_zero(robot)
-    return tuple(_without_factors(entry, masses, table_lengths(robot)) for entry in found.entries)
+    zeros = dict.fromkeys(_without_factors(entry, masses, table_lengths(robot)) for entry in found.entries)
+    return tuple(
+        zero
+        for zero in zeros
+        if zero.is_number or not any(zero.quotient(other) for other in zeros if other not in (zero, -zero))
+    )
 
 
 def _without_factors(expr: Expr, masses: frozenset[str], lengths: frozenset[str]) -> Expr:
-    """What is 0 where an expression is, all of these being positive; a length where nothing else is left."""
-    rest = _open_part(expr, masses | lengths)
-    return _open_part(expr, masses) if rest.is_number else rest
+    """What is 0 where an expression is, all of these being positive; where nothing else is left, these."""
+    parts = (_open_part(expr, positive) for positive in (masses | lengths, masses))
+    return next((part for part in parts if not part.is_number), expr)
 
 
 def is_impossible(robot: Robot, condition: Expr) -> bool:
     """Whether a condition asks for a length of the table to be 0, or for what is positive with these."""
     return _open_part(condition, never_zero(robot) | table_lengths(robot)).is_number
+
+
+def exclude_each_other(robot: Robot, found: Sequence[Expr]) -> bool:
+    """Whether conditions are found to hold together for no parameters, masses and lengths not being 0."""
+    names = sorted(never_zero(robot) | table_lengths(robot))
+    return never_together(found, prod(map(robot.ring.symbol, names), start=robot.ring.one))
 
 
 def _open_part(expr: Expr, positive: frozenset[str]) -> Expr:

@@ -39,7 +39,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.questions.equilibria import linearization
-from dynsolve.questions.equilibria.balance import is_impossible
+from dynsolve.questions.equilibria.balance import exclude_each_other, is_impossible
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
 from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase, multipliers, wanted_rows
@@ -475,9 +475,16 @@ def _balance(context: Context) -> Step:
     shown = EquilibriaForms(context.robot, context.values).balance
     goal: Node = _ZERO if wanted is None else context.show(wanted)
     g = equation(letters.G, context.form("g"))
-    conditions = tuple(equation(value, Number(0)) for value in shown)
-    never = [one for one, value in zip(conditions, found, strict=True) if is_impossible(context.robot, value)]
-    outcome = say(_UNBALANCED, never=listed(never)) if never else ()
+    pairs = [(equation(form, Number(0)), value) for form, value in zip(shown, found, strict=True)]
+    conditions = tuple(one for one, value in pairs if not value.is_number)
+    never = [one for one, value in pairs if not value.is_number and is_impossible(context.robot, value)]
+    outcome: Prose = ()
+    if len(conditions) < len(found):
+        outcome = (_A_NUMBER,)
+    elif never:
+        outcome = say(_UNBALANCED, never=listed(never))
+    elif exclude_each_other(context.robot, found):
+        outcome = (_EXCLUDING,)
     notes = () if shown else (("Gravity is what it should be for all values of the parameters.",),)
     return Step(
         id="balance",
@@ -492,7 +499,7 @@ def _balance(context: Context) -> Step:
         source=spong("7.5.3"),
         working=(g,) if is_small(context.form("g")) else (),
         result=conditions,
-        listed=len(shown) > 1,
+        listed=len(conditions) > 1,
         notes=(outcome,) if outcome else notes,
         outcome=outcome,
         detail=Detail.BRIEF,
@@ -503,6 +510,8 @@ def _balance(context: Context) -> Step:
 
 
 _UNBALANCED = "{never} cannot hold, as masses and lengths of the table are positive: no parameters will do."
+_A_NUMBER = "A coefficient is a number other than 0: no parameters will do."
+_EXCLUDING = "They exclude each other, as no mass and no length of the table is 0: no parameters will do."
 _NOT_STEADY = "The equilibrium is one at rest, all rates being 0, and none of the motion above. "
 _SECOND_ORDER = (
     "$𝐂 𝐪̇$ is of second order in the rates and falls away; so does every change of $𝐃$, which stands beside "

@@ -86,3 +86,40 @@ def test_the_check_finds_a_condition_that_is_missing() -> None:
 def test_the_wanted_g_has_an_entry_for_each_coordinate() -> None:
     with pytest.raises(ProblemError, match="1 entries, for 2 coordinates"):
         read_problem(ARM.replace("find:", "balance: {g: [0]}\nfind:"))
+
+
+SLOPE = """
+gravity: [0, -g*sin(alpha), -g*cos(alpha)]
+dh: [{d: q1*, alpha: 90deg}, {d: q2*, alpha: 90deg, theta: 90deg}, {d: q3*}]
+masses: [{mass: m1, link: 1, center: origin}, {mass: m3, link: 3, center: origin}]
+springs: [{stiffness: k, of: q2 - q3}]
+find: [balance]
+"""
+IN_NUMBERS = """
+gravity: [0, -9.81, 0]
+dh: [{theta: q1*, a: 1}, {theta: q2*, a: 0.5}]
+masses: [{mass: 2, link: 1}, {mass: 1, link: 2}]
+find: [balance]
+"""
+LIFTED = """
+gravity: [0, 0, -g]
+dh: [{d: q1*}, {d: q2*}]
+masses: [{mass: m, link: 1, center: origin}, {mass: m, link: 2, center: origin}]
+springs: [{stiffness: k, of: q1}, {stiffness: k, of: q2, rest: d}]
+find: [balance]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "conditions", "said"),
+    [
+        (IN_NUMBERS, {"1 = 0"}, "is a number"),
+        (SLOPE, {"cos(alpha) = 0", "sin(alpha) = 0", "k = 0"}, "exclude each other"),
+        (LIFTED, {"m = 0", "k = 0"}, "cannot hold"),
+    ],
+)
+def test_no_1_is_said_to_be_0(problem: str, conditions: set[str], said: str) -> None:
+    solution = dynsolve.solve(problem)
+    (step,) = (step for step in solution.steps if step.id == "balance")
+    assert set(solution.to_json()["results"]["balance"]) == conditions
+    assert said in str(step.outcome) and "1 = 0" not in solution.to_markdown()
