@@ -278,6 +278,25 @@ def _without_shared(a: Expr, b: Expr) -> tuple[Expr, Expr]:
     return a, b
 
 
+def _without_same(a: Expr, b: Expr) -> tuple[Expr, Expr]:
+    """The sides of an equation without a positive factor, and without terms, that both have.
+
+    Where nothing is left of the right side, what is negative goes there.
+    """
+    a, b = _without_shared(a, b)
+    theirs = b.poly.to_dict()
+    same = {key: number for key, number in a.poly.to_dict().items() if theirs.get(key) == number}
+    if not same:
+        return a, b
+    both = Expr(a.ring, a.ring.ctx.from_dict(same))
+    a, b = a - both, b - both
+    if b.is_zero:
+        negative = {key: -number for key, number in a.poly.to_dict().items() if number < 0}
+        b = Expr(a.ring, a.ring.ctx.from_dict(negative))
+        a = a + b
+    return a, b
+
+
 def _in_whole_numbers(a: Expr, b: Expr) -> tuple[Expr, Expr]:
     """The same without a number that both have, and without fractions in front of terms."""
     numbers = [number for e in (a, b) for number in e.poly.coeffs()]
@@ -355,7 +374,7 @@ class InverseForms(SetForms):
                 Equality((form(left), form(right)), one.is_angle)
                 for one in branch.when
                 for left, right in [
-                    (one.left, one.right) if one.is_angle else _without_shared(*_signed_sides(one))
+                    (one.left, one.right) if one.is_angle else _without_same(*_signed_sides(one))
                 ]
             )
             for branch in self.solved.branches

@@ -24,6 +24,11 @@ CONDITIONS = [
     (TWO, "[tip.x, tip.x, tip.y]", ["r2 = r1"]),
     (TWO, "[q1, q2, q1 + q2]", ["r3 = r1 + r2"]),
     (TWO, "[tip.x, tip.y]", []),
+    (
+        TWO.replace("l1", "l").replace("l2", "l"),
+        "[tip.x, tip.y, q1 + q2]",
+        ["r1**2 + r2**2 = 2*l*(r2*sin(r3) + r1*cos(r3))"],
+    ),
 ]
 
 
