@@ -291,4 +291,16 @@ def _bounds(values: Sequence[Expr], signs: ParameterSigns) -> tuple[Bound, ...] 
     open_parts = [signs.open_part(value) for value in values]
     if any(signs.is_positive(-part) for part in open_parts):
         return None
-    return tuple(Bound(part, False) for part in open_parts if not part.is_number)
+    return tuple(
+        Bound(part, False) for part in open_parts if not (part.is_number or _swings_above(part, signs))
+    )
+
+
+def _swings_above(value: Expr, signs: ParameterSigns) -> bool:
+    """Whether sines and cosines of given angles are too small to make a value negative, as 1 - cos α."""
+    ring = value.ring
+    swings = fourier_parts(value, [(pair.sine, pair.cosine) for pair in ring.pairs])
+    sizes = [_size(both, signs) for n, both in swings.items() if any(n)]
+    known = [size for size in sizes if size is not None]
+    least = _constant(swings, ring) - sum(known, start=ring.zero)
+    return len(known) == len(sizes) > 0 and (least.is_zero or signs.is_positive(least))

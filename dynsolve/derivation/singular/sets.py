@@ -176,10 +176,9 @@ def zeros_of_any(sets: Iterable[Sequence[Expr]], special: Special | None = None)
     found = list(dict.fromkeys(map(cases.without_repeated, turned)))
     if any(sum(len(condition.expr) for condition in one) > MOST_CONDITION_TERMS for one in found):
         raise TooLong
-    for one in list(found):
-        if any(other is not one and cases.implies(one, other) for other in found):
-            found.remove(one)
-    return tuple(_merged(found))
+    found = cases.widest(found)
+    merged = _merged(found)
+    return tuple(found if merged == found else cases.widest(merged))
 
 
 def lies_in(known: Sequence[Expr], values: Iterable[Expr], special: Special | None = None) -> bool:
@@ -235,6 +234,14 @@ class _Cases(Struct, dict=True):
             if self.follows(condition.expr, others):
                 kept.remove(condition)
         return tuple(kept)
+
+    def widest(self, alternatives: Sequence[Alternative]) -> list[Alternative]:
+        """Those that are not within another."""
+        found = list(alternatives)
+        for one in alternatives:
+            if any(other is not one and self.implies(one, other) for other in found):
+                found.remove(one)
+        return found
 
     def implies(self, one: Alternative, other: Alternative) -> bool:
         """Whether `other` holds wherever `one` does."""

@@ -20,10 +20,12 @@ Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from math import prod
 from typing import Any
 
 from msgspec import Struct
 
+from dynsolve.algebra.factors import trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
@@ -35,7 +37,7 @@ from dynsolve.derivation.existence import conditions, is_seen, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
-from dynsolve.derivation.singular.zeros import Condition
+from dynsolve.derivation.singular.zeros import Condition, never_together
 from dynsolve.questions.equilibria.multipliers import Multipliers, Settled, remainder
 from dynsolve.questions.equilibria.stability import MOST_SHOWN_TERMS, Curvature, Point
 from dynsolve.questions.parameters.derive import generators
@@ -253,9 +255,23 @@ def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: Parameter
 
 
 def _modulo(factor: Expr, forces: Iterable[Expr]) -> tuple[Expr, ...]:
-    """What is left of forces where a factor is 0, without those that are 0, too."""
+    """What is left of forces where a factor is 0, without those that are 0, too.
+
+    And without factors that are not 0 then, as cos α where sin α is 0.
+    """
     rests = (remainder(force, factor) for force in forces)
-    return tuple(dict.fromkeys(rest for rest in rests if not rest.is_zero))
+    return tuple(dict.fromkeys(_where_zero(rest, factor) for rest in rests if not rest.is_zero))
+
+
+def _where_zero(rest: Expr, factor: Expr) -> Expr:
+    """The factors of what is left that may be 0 where another one is; 1 where there are none."""
+    ring = rest.ring
+    kept = (
+        own**times
+        for own, times in trig_factors(rest)
+        if ring.depends_on_coordinates(own) or not never_together((own, factor), ring.one)
+    )
+    return prod(kept, start=ring.one)
 
 
 def combined(robot: Robot, forces: Sequence[Expr], use: Callable[[Expr], None]) -> Iterator[Expr]:

@@ -134,12 +134,21 @@ class Curvature(Struct, frozen=True):
                 yield replace(told, inside=tuple(inside))
 
     def _possible(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
-        """Points without factors that are 0 nowhere in the case; stable where nothing else is asked."""
+        """Points without what always holds in the case; stable where nothing else is asked."""
         for point in self._points(alternative, exists):
             nonzero = tuple(factor for factor in point.nonzero if self._may_vanish(factor, alternative))
-            is_stable = point.nonzero and not (nonzero or point.conditions)
-            stability = Stability.STABLE if is_stable else point.stability
-            yield replace(point, nonzero=nonzero, stability=stability)
+            left = tuple(bound for bound in point.conditions if not self._always_holds(bound, alternative))
+            if (point.nonzero or point.conditions) and not (nonzero or left):
+                point = replace(point, stability=Stability.STABLE, falls=False)
+            yield replace(point, nonzero=nonzero, conditions=left)
+
+    def _always_holds(self, bound: Bound, alternative: Alternative) -> bool:
+        """Whether an inequality holds wherever the case does, as far as the squares of lengths show."""
+        value = bound.value
+        for condition in alternative:
+            if (square := _square_of(condition.expr)) is not None:
+                value = _at_square(value, *square)
+        return value != bound.value and self.signs.is_positive(value)
 
     def _may_vanish(self, factor: Expr, alternative: Alternative) -> bool:
         values = [condition.expr for condition in alternative]
@@ -296,6 +305,34 @@ def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
             flat = Condition(zero).reduced_together(matrix.entries)
             matrix = Matrix.of(matrix.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
     return matrix
+
+
+def _square_of(zero: Expr) -> tuple[int, Expr, Expr] | None:
+    """(generator d, m, n) of m d² + n with a length d, and m and n of parameters alone; None of any other."""
+    ring, degrees = zero.ring, zero.poly.degrees()
+    for name, kind in ring.coordinates:
+        index = ring.symbol_indices[name, 0]
+        if kind == "prismatic" and degrees[index] == 2:
+            d = ring.generator(index)
+            factor = ring.diff(ring.diff(zero, ring.names.index(name)), ring.names.index(name)) / 2
+            rest = zero - factor * d * d
+            if not any(map(ring.depends_on_coordinates, (factor, rest))):
+                return index, factor, rest
+    return None
+
+
+def _at_square(value: Expr, index: int, factor: Expr, rest: Expr) -> Expr:
+    """A value where m d² + n = 0, times m to an even power."""
+    ring = value.ring
+    most = max((int(e[index]) // 2 for e in value.poly.monoms()), default=0)
+    highest = most + most % 2
+    total = ring.zero
+    for exponents, number in value.poly.to_dict().items():
+        power = int(exponents[index]) // 2
+        plain = tuple(int(e) % 2 if k == index else e for k, e in enumerate(exponents))
+        own = Expr(ring, ring.ctx.from_dict({plain: number}))
+        total += own * (-rest) ** power * factor ** (highest - power)
+    return total
 
 
 def _at_turn(second: Matrix, turn: Turn) -> Matrix:

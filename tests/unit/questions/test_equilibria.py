@@ -894,3 +894,51 @@ find: [equilibria]
 """
     text = report(dynsolve.solve(arm), Format.TEXT).decode()
     assert "d₂ = 1/10, c₁ = 0 and s₃ = 0" in text and "is not 0" not in text
+
+
+def test_cases_that_are_merged_are_not_told_twice() -> None:
+    """sin a sin b = 0 by half angles: a = 0 and a = π of two choices come to the same."""
+    results = dynsolve.solve(TWO_ARMS.replace("M,", "m,") % "sin(a)*sin(b)").to_json()["results"]
+    assert [sorted(case) for case in results["equilibria"]] == [["sin(a) = 0", "sin(b) = 0"]]
+
+
+ROPE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {from: 0, theta: q2*, a: l}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+constraints: [cos(q1 - q2) - cos(alpha)]
+find: [equilibria]
+"""
+WEDGE = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, s: prismatic}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + s*cos(alpha), s*sin(alpha), 0]}]
+constraints: [s*sin(alpha) - x*cos(alpha)]
+find: [equilibria]
+"""
+
+
+def test_what_a_cosine_always_is_is_no_condition() -> None:
+    assert "has solutions only where" not in dynsolve.solve(ROPE).to_markdown()
+
+
+def test_a_factor_that_is_not_0_for_special_parameters_is_left_out() -> None:
+    special = dynsolve.solve(WEDGE).to_json()["results"]["equilibria_special"]
+    assert special == [
+        {"where": "sin(alpha) = 0", "equilibria": [["x = 0"]]},
+        {"where": "cos(alpha) = 0", "equilibria": [["s = 0"]]},
+    ]
+
+
+def test_the_square_of_a_length_that_a_case_gives_is_put_into_the_second_derivatives() -> None:
+    """By hand: k⁴ a⁶ y² = k² a⁴ c² + c⁴, so that 3 k² a² y² is more than c²."""
+    well = """
+gravity: none
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+springs: [{energy: "k*(x^2 - a^2)^2/4 + c*x*y + k*a^2*y^2/2"}]
+assume: ["k*a^2 > c"]
+find: [equilibria]
+"""
+    of_case = dynsolve.solve(well).to_json()["results"]["equilibria_stability"]
+    assert of_case == [[{"stability": "unstable"}], [{"stability": "stable"}]]
