@@ -10,7 +10,7 @@ accelerations.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import chain, combinations, islice, product
+from itertools import combinations, islice, product
 from math import radians
 
 from msgspec import Struct
@@ -165,11 +165,12 @@ def verify_equilibria(
             ):
                 raise VerificationError("something moves in an equilibrium; this is a fault of dynsolve")
             none = (zero_near(robot, one, start) for one in without)
-            if any(at is not None and holds(at) for at in none):
+            others = [one for one in programs if one is not program]
+            if any(at is not None and holds(at) and not _lies_in_any(robot, others, at) for at in none):
                 raise VerificationError("an equilibrium is left out; this is a fault of dynsolve")
         found = zero_near(robot, forces, start)
         is_one = found is not None and holds(found)
-        if found is not None and is_one and not any(_lies_in(robot, program, found) for program in programs):
+        if found is not None and is_one and not _lies_in_any(robot, programs, found):
             raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
     whole = compile_trees([balanced, *([constraints] if constraints else [])])
     for program, case in zip(programs, cases, strict=True):
@@ -183,10 +184,12 @@ def verify_excluded(
     sets: Iterable[Sequence[Node]],
     zeros: Sequence[Node],
     holds: Callable[[Mapping[str, float]], bool],
+    others: Sequence[Program] = (),
 ) -> None:
     """Look for what is held in the sets that are left out, where two parameters are equal.
 
-    Raises VerificationError where there is something, and it is not told that there may be.
+    But for what lies in other cases.  Raises VerificationError where there is something, and it is not told
+    that there may be.
     """
     assumed = [bound.value for bound in robot.questions.model.assumed]
     told = [case.factor for case in found.special if not case.is_known]
@@ -198,7 +201,8 @@ def verify_excluded(
             at = near and zero_near(robot, held, near)
             if at is None or any(evaluate(value, at) <= 0 for value in assumed):
                 continue
-            if holds(at) and not any(abs(evaluate(factor, at)) < _NEAR_ZERO for factor in told):
+            is_told = any(abs(evaluate(factor, at)) < _NEAR_ZERO for factor in told)
+            if holds(at) and not is_told and not _lies_in_any(robot, others, at):
                 raise VerificationError("special parameters are forgotten; this is a fault of dynsolve")
 
 
@@ -208,6 +212,10 @@ def _lies_in(robot: Robot, case: Program, found: Mapping[str, float]) -> bool:
         return True
     near = zero_near(robot, case, found)
     return near is not None and all(abs(near[q.name] - found[q.name]) < _NEAR_ZERO for q in robot.coordinates)
+
+
+def _lies_in_any(robot: Robot, cases: Iterable[Program], found: Mapping[str, float]) -> bool:
+    return any(_lies_in(robot, case, found) for case in cases)
 
 
 def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
@@ -324,7 +332,10 @@ def verify(held: Held) -> None:
         zeros, holds = in_balance(forms, balanced), holding(forms, balanced)
         A = forms("Ac") if robot.questions.constraints else None
         verify_equilibria(robot, balanced, zeros, [Case(*case) for case in told], holds, A)
-        verify_excluded(robot, values["equilibria"], chain(*shown.excluded), zeros, holds)
+        programs = [compile_trees(list(case)) for case in shown.equilibria]
+        for k, sets in enumerate(shown.excluded):
+            others = [*programs[:k], *programs[k + 1 :]]
+            verify_excluded(robot, values["equilibria"], sets, zeros, holds, others)
 
 
 def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:

@@ -42,7 +42,13 @@ from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.balance import exclude_each_other, is_impossible
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
-from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase, multipliers, wanted_rows
+from dynsolve.questions.equilibria.solving import (
+    Equilibria,
+    SpecialCase,
+    held_elsewhere,
+    multipliers,
+    wanted_rows,
+)
 from dynsolve.questions.equilibria.stability import Point, Stability, turned
 from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.questions.set_forms import SetForms, vanishing
@@ -197,11 +203,13 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
     """Where in the alternatives the rows of A_c are dependent, and do not hold the forces."""
     general = ", but for special values of the parameters" * found.may_be_others
     known = [shown.comparison(one.factor, "≠") for one in found.special if not one.is_known]
-    for number, sets in enumerate(shown.excluded, 1):
-        place = f" in case {number}" if len(shown.excluded) > 1 else ""
-        for one in sets:
+    for number, sets in enumerate(shown.excluded):
+        place = f" in case {number + 1}" if len(shown.excluded) > 1 else ""
+        for one, conditions in zip(sets, found.excluded[number], strict=True):
             zero = listed([*known, *(equation(value, Number(0)) for value in one)])
-            yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}{general}.", where=as_row(zero))
+            others = [str(k + 1) for k in held_elsewhere(found, number, conditions)]
+            but = f" but in case{'s' * (len(others) > 1)} {and_joined(others)}" if others else ""
+            yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}{but}{general}.", where=as_row(zero))
     if found.may_be_dependent:
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
 

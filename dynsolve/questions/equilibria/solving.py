@@ -20,6 +20,7 @@ Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from math import prod
 from typing import Any
 
@@ -36,7 +37,7 @@ from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import conditions, is_seen, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros
+from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, lies_in
 from dynsolve.derivation.singular.zeros import Condition, never_together
 from dynsolve.questions.equilibria.multipliers import Multipliers, Settled, remainder
 from dynsolve.questions.equilibria.stability import MOST_SHOWN_TERMS, Curvature, Point
@@ -93,6 +94,18 @@ class Equilibria(Struct, frozen=True):
     may_be_dependent: bool = False
     never: tuple[tuple[Alternative, Expr], ...] = ()
     is_seen: tuple[bool, ...] = ()
+
+
+def held_elsewhere(found: Equilibria, number: int, without: Alternative) -> list[int]:
+    """The cases, from 0, that have equilibria in a set that another one, of this number, is without."""
+    meeting = []
+    for k, case in enumerate(found.alternatives):
+        both = [one.expr for one in (*without, *case)]
+        with suppress(TooLong):
+            is_out = any(lies_in(both, [one.expr for one in other]) for other in found.excluded[k])
+            if k != number and common_zeros(both) and not is_out:
+                meeting.append(k)
+    return meeting
 
 
 def _kept_turning(robot: Robot) -> set[int]:

@@ -942,3 +942,11 @@ find: [equilibria]
 """
     of_case = dynsolve.solve(well).to_json()["results"]["equilibria_stability"]
     assert of_case == [[{"stability": "unstable"}], [{"stability": "stable"}]]
+
+
+def test_what_is_left_out_of_a_case_may_be_an_equilibrium_of_another() -> None:
+    """sin a sin b = 0 and a spring of a: where both sines are 0, a = 0 alone rests."""
+    sprung = (TWO_ARMS % "sin(a)*sin(b)").replace("[0, -g, 0]", "none")
+    solution = dynsolve.solve(sprung.replace("find:", "springs: [{stiffness: k, of: a}]\nfind:"))
+    assert ["a = 0", "sin(b) = 0"] in solution.to_json()["results"]["equilibria"]
+    assert "no equilibrium but in case 1" in " ".join(solution.to_markdown().split())
