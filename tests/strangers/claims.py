@@ -821,8 +821,8 @@ def _stable_where(m: Mechanism, s: Sentence) -> bool:
     "<stable> where {&}[, not stable where one of these inequalities is reversed][, ...].",
 )
 def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
-    at = s.words[0].count("{}")
-    conditions = tuple(node for node in s.formulas[at:] if not isinstance(node, Symbol))
+    at, told = s.words[0].count("{}"), s.text.partition(", not stable where")[0].count("{}")
+    conditions = tuple(node for node in s.formulas[at:told] if not isinstance(node, Symbol))
     found = _stable_there(m, s, s.formulas[:at], "stable", conditions)
     return bool(found) and all(found)
 

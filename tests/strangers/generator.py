@@ -160,6 +160,7 @@ class _Stranger:
             (0.1, self.bodies_by_position),
             (0.06, self.by_energies),
             (0.03, self.candidates),
+            (0.04, self.held_together),
         ]
         if self.chance(0.7):
             self.file["title"] = self.one(
@@ -749,6 +750,48 @@ class _Stranger:
             self.draw_actions()
         self.ask_of_model()
 
+    def held_together(self) -> None:
+        """Equal arms or blocks under constraints that repeat, touch, square or hold whatever falls."""
+        self.file["gravity"] = self.one([[0, "-g", 0], [0, "-g", 0], [0, "-9.81", 0], "none"])
+        kind, masses = self.one(["revolute", "prismatic"]), self.one([["m", "m"], ["m", "m"], ["m1", "m2"]])
+        alike = {
+            "revolute": ["l*sin({q})", "-l*cos({q})", 0],
+            "prismatic": self.one([[0, "{q}", 0], ["{q}", 0, 0]]),
+        }[kind]
+        places = [[str(x).format(q=q) if x else 0 for x in alike] for q in "ab"]
+        constraints = {
+            "revolute": [
+                ["a - b"],
+                ["a - b - 180deg"],
+                ["a + b"],
+                ["sin(a) - sin(b)", "cos(a) - cos(b)"],
+                ["sin(a) + sin(b)", "cos(a) + cos(b)"],
+                ["sin(a)*sin(b)"],
+                ["cos(a) + cos(b) - 2"],
+                ["cos(a - b) - cos(beta)"],
+                ["(a - b)^2"],
+            ],
+            "prismatic": [
+                ["b"],
+                ["a + b"],
+                ["a - b", "a - b"],
+                ["(a - b)^2"],
+                ["a^2 + b^2 - R^2"],
+                ["a^2 + b^2"],
+                ["a^2 + b^2 - R^2", "b - R"],
+                [{"rates": "a' - R*b'"}],
+            ],
+        }
+        self.joints = [("a", kind), ("b", kind)]
+        self.file["model"] = {
+            "coordinates": {"a": kind, "b": kind},
+            "bodies": [{"mass": m, "at": at} for m, at in zip(masses, places, strict=True)],
+        }
+        self.file["constraints"] = self.one(constraints[kind])
+        if self.chance(0.3):
+            self.file["springs"] = [{"stiffness": "k", "of": "a"}]
+        self.file["find"] = ["equilibria", *self.some(["Ac", "lambda", "reduced", "balance"], 3)]
+
     def ask_of_model(self) -> None:
         if self.chance(0.5):
             find = ["D", "C", "g"]
@@ -790,6 +833,9 @@ class _Stranger:
             "Mc": [["a1", "a2"], ["a3", "a4"]],
             "Md": [["2", "cos(q2)"], ["cos(q2)", "1"]],
             "Me": [["a1", "a2*q2"], ["a2*q2", "a3"]],
+            "Mf": [["2", "cos(q2) + sin(q2)"], ["cos(q2) + sin(q2)", "1"]],
+            "Mg": [["1 + q1^2", "1 + q1"], ["1 + q1", "2"]],
+            "Mh": [["a1 + a2*q1 + a3*q1^2", "0"], ["0", "a4"]],
         }
         self.file["candidates"] = {name: matrices[name] for name in sorted(self.some(list(matrices), 3))}
         if self.chance(0.5):
