@@ -175,6 +175,9 @@ def equilibria(
         for one in alternatives
         if (exist := conditions([condition.expr for condition in one], signs)) is not None
     }
+    for condition in (condition for one in found for condition in one):
+        if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free
+            special.add(condition.linear[0])
     points: tuple[tuple[Point, ...], ...] = tuple(() for _ in found)
     if constrained is None or constrained.is_of_energy(robot.n):
         kept = _kept_turning(robot)
