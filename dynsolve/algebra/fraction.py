@@ -151,6 +151,8 @@ def cancelled(value: RationalExpr) -> RationalExpr:
 def with_integers(value: RationalExpr) -> RationalExpr:
     """The same fraction with integer coefficients that have no common factor, above and below together.
 
+    Beside π a fraction stays: q₁ - π/2.
+
     >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.tree import Symbol
     >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
@@ -160,7 +162,11 @@ def with_integers(value: RationalExpr) -> RationalExpr:
     """
     if value.divisor is None:
         return value
-    both = (*value.numerator.poly.coeffs(), *value.divisor.poly.coeffs())
+    place = value.ring.symbol_indices.get(("pi", 0))
+    terms = (*value.numerator.poly.terms(), *value.divisor.poly.terms())
+    both = [c for exponents, c in terms if place is None or not exponents[place]]
+    if not both:
+        return value
     common = lcm(*(int(c.q) for c in both))
     scale = Fraction(common, gcd(*(int(c.p) * common // int(c.q) for c in both)))
     return RationalExpr(value.numerator * scale, value.divisor * scale)
