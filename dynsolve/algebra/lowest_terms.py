@@ -44,6 +44,19 @@ def lowest_terms(above: Expr, below: Expr) -> tuple[Expr, Expr] | None:
     return halves.expr(over * missing), halves.expr(under * missing)
 
 
+def is_decided(above: Expr, below: Expr) -> bool:
+    """Whether `lowest_terms` finds all that is shared: they are not too long, and hold no root of letters."""
+    halves = _halves((above, below))
+    return all(map(halves.can_hold, (above, below))) and _shared(halves, (above, below)) is not None
+
+
+def zero_of_all(values: Sequence[Expr]) -> Expr | None:
+    """What is 0 where a common factor of expressions is, which are not 0; None where they are too long."""
+    halves = _halves(values)
+    shared = _shared(halves, values)
+    return None if shared is None else halves.expr(shared * _odd_part(halves, shared))
+
+
 def without_shared(values: Sequence[Expr]) -> list[Expr]:
     """Expressions that are not 0 without what all share; of long ones without what their normal forms do."""
     plain = reduce(fmpq_mpoly.gcd, (value.poly for value in values))

@@ -27,7 +27,8 @@ from tests.strangers.oracle import Point, Unknown
 WORDS = re.compile(
     r"\b(?:ranks?|stretched|bent|folded|constant|mov(?:es?|ing)|depends?|minim(?:um|a)|maxim(?:um|a)|saddle"
     r"|(?:un)?stable|along|negative|positive|conserved|parallel|perpendicular|always|never|zero|vanish(?:es)?"
-    r"|independent|same|singular|occurs?|appears?|diagonal)\b",
+    r"|independent|same|singular|occurs?|appears?|diagonal"
+    r"|vectors are dependent|too few|this vector)\b",
     re.IGNORECASE,
 )
 
@@ -89,6 +90,11 @@ class Sentence:
         for block in self.step[: self.place + 1]:
             if isinstance(block, document.Text | document.Note):
                 yield from _split(block.parts)
+
+    def vectors(self) -> list[tree.Matrix]:
+        """The columns of the space that the step shows."""
+        found = [one.parts[-1] for one in self.shown() if "span" in to_unicode(one.parts[-1])]
+        return [node for node in walk(*found) if isinstance(node, tree.Matrix)]
 
     def shown(self) -> Iterator[tree.Relation]:
         """The equations in the displays of the step."""
@@ -920,6 +926,23 @@ def _rank_where(m: Mechanism, s: Sentence) -> bool:
     return rank(m.result(m.jacobian, point)) == int(s.words[0]) and all(
         rank(m.result(m.jacobian, p)) == int(s.words[1]) for p in m.points()
     )
+
+
+@says("Where {&}, more is free than the columns of {} span, and the equations are too few.")
+def _more_is_free(m: Mechanism, s: Sentence) -> bool:
+    *where, letter = s.formulas
+    for condition in where:
+        p = m.where(condition)
+        Z = next(m.value(one.parts[-1], p) for one in s.shown() if one.parts[0] == letter)
+        if rank(Z) >= len(Z) - rank(m.result("Ac", p)):
+            return False
+    return True
+
+
+@says("Where {}, <these vectors are dependent|this vector is 0>.")
+def _vectors_are_dependent(m: Mechanism, s: Sentence) -> bool:
+    columns = [m.value(node, m.where(s.formulas[0])) for node in s.vectors()]
+    return rank(np.hstack(columns)) < len(columns)
 
 
 @says("The rank of {} is <# more than|as great as> that of this matrix.")

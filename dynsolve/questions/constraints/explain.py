@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.algebra.linear_systems import adjugate, nullspace, quotient
-from dynsolve.algebra.matrix import determinant
+from dynsolve.algebra.linear_systems import adjugate, dependent_where, nullspace, quotient
+from dynsolve.algebra.lowest_terms import zero_of_all
+from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.graph import Skipped
@@ -30,6 +31,7 @@ from dynsolve.explain.terms import (
 from dynsolve.explain.writing import is_small, listed, mls, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    ONE,
     ZERO,
     Node,
     Number,
@@ -42,7 +44,7 @@ from dynsolve.notation.tree import (
 from dynsolve.quantities import letters
 from dynsolve.questions.constraints.derive import bordered, holonomic
 from dynsolve.questions.forward_dynamics.derive import Reduced, acting_names
-from dynsolve.questions.forward_dynamics.explain import inverse_of_inertia
+from dynsolve.questions.forward_dynamics.explain import and_cancelled, inverse_of_inertia
 from dynsolve.questions.set_forms import SetForms, without_number
 from dynsolve.questions.task.explain import with_letters
 
@@ -138,7 +140,9 @@ def _multipliers(context: Context) -> Step:
     )
     explicit = formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting)
     together = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] [𝐪̈; 𝛌] = [{acting}; -𝐀̇_c 𝐪̇]", acting=acting)
-    concluding = "Put in, and cancelled:" if is_regular else "Solved for the multipliers:"
+    concluding = f"Put in{and_cancelled(context.values['lambda'])}:"
+    if not is_regular:
+        concluding = "Solved for the multipliers:"
     if not is_regular and not sign_of(context, _determinant_of_both(context)):
         concluding = "Solved for the multipliers, where the determinant of the matrix is not 0:"
     if not is_regular:
@@ -215,16 +219,14 @@ def _reduced(context: Context) -> Iterator[Step]:
     right = driving_side(context, constrained=False)
     free, rows = formula("𝐙 = {shown}", shown=context.show(Z)), _free_rows(context, found)
     led = "Row by row" if len(rows) > 1 else "Multiplied out"
-    zeros, is_divided = [], False
-    if rows:
-        zeros = [equation(without_number(context.show(zero)), Number(0)) for zero in found.zeros]
-        is_divided = any(shared != shared.ring.one for shared in found.divided)
+    zeros = [equation(without_number(context.show(zero)), Number(0)) for zero in found.zeros] if rows else []
     yield Step(
         id="reduced",
         title=title,
         why=say(
             "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 𝟎$. "
-            "Multiplied by $𝐙ᵀ$ the equations of motion lose the forces of constraint."
+            "Multiplied by $𝐙ᵀ$ the equations of motion lose the forces of constraint. {more}",
+            more=_freer(context, Z) if rows else "",
         ),
         formula=formula(
             "𝐙ᵀ ({moving}) = 𝐙ᵀ {right}",
@@ -237,13 +239,24 @@ def _reduced(context: Context) -> Iterator[Step]:
             "{led}{zeros}{divided}:",
             led=led,
             zeros=say(", with {zeros}", zeros=listed(zeros)) if zeros else "",
-            divided=", divided by what both sides share" if is_divided else "",
+            divided=", divided by what both sides share" * found.is_divided,
         )
         if rows
         else (),
         result=rows or (free,),
         uses=("Ac", "D", *acting_names(context.robot)),
     )
+
+
+def _freer(context: Context, Z: Matrix) -> Prose:
+    """Where the columns of Z, or the rows of A_c, are dependent: where more is free than these columns."""
+    A, free = context.values["Ac"], Z.shape[1]
+    lost = dependent_where(A, Z), zero_of_all(list(minors(A, A.shape[1] - free)))
+    forms = SetForms(context.robot, context.values)
+    where = [shown for value in lost if value is not None and (shown := forms.vanishing(value)) != ONE]
+    zeros = [equation(one, ZERO) for one in dict.fromkeys(where)]
+    text = "Where {zeros}, more is free than the columns of $𝐙$ span, and the equations are too few."
+    return say(text, zeros=listed(zeros, "or")) if zeros else ()
 
 
 def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:

@@ -24,6 +24,7 @@ from functools import partial
 from msgspec import Struct
 
 from dynsolve.algebra.linear_systems import FractionMatrix, inverse_times, nullspace
+from dynsolve.algebra.lowest_terms import without_shared
 from dynsolve.algebra.matrix import Matrix, work
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Rule, Skipped
@@ -93,13 +94,13 @@ class Reduced(Struct, frozen=True):
     """Z, n×(n-c), and (left, right) of each equation.
 
     `zeros` are products that constraints make 0, and that were put in; an equation is divided by what both
-    sides share, its entry in `divided`.
+    sides share.
     """
 
     free: Matrix
     equations: tuple[tuple[Expr, Expr], ...]
     zeros: tuple[Expr, ...]
-    divided: tuple[Expr, ...]
+    is_divided: bool
 
 
 def reduced(
@@ -126,14 +127,10 @@ def reduced(
             rest = divmod(left.poly, zero.poly)[1]
             used |= {zero: None} if rest != left.poly else {}
             left = Expr(left.ring, rest)
-        shared = left.ring.one if right.is_zero else Expr(left.ring, left.poly.gcd(right.poly))
-        equations.append((_divided(left, shared), _divided(right, shared)))
-        divided.append(shared)
-    return Reduced(Z, tuple(equations), tuple(used), tuple(divided))
-
-
-def _divided(value: Expr, factor: Expr) -> Expr:
-    return Expr(value.ring, divmod(value.poly, factor.poly)[0])
+        both = (left, right) if right.is_zero or left.is_zero else tuple(without_shared((left, right)))
+        equations.append((both[0], both[1]))
+        divided.append(both != (left, right))
+    return Reduced(Z, tuple(equations), tuple(used), any(divided))
 
 
 # Forward dynamics, put back

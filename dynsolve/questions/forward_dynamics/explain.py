@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.linear_systems import adjugate, fraction_of, inverse_times, is_diagonal
+from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, fraction_of, inverse_times, is_diagonal
+from dynsolve.algebra.lowest_terms import is_decided
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.ring_values import build_ring
 from dynsolve.derivation.graph import Skipped
@@ -48,13 +49,20 @@ def steps(context: Context) -> Iterator[Step]:
         formula=formula("𝐪̈ = 𝐃⁻¹ ({acting})", acting=acting_side(context)),
         source=LYNCH_PARK.section("8.5"),
         lines=lines,
-        concluding=(f"Multiplied out{', and cancelled' * (not is_diagonal(context.values['D']))}:",)
+        concluding=(f"Multiplied out{'' if is_diagonal(context.values['D']) else and_cancelled(value)}:",)
         if lines
         else (),
         result=(equation(letters.QDD, shown),),
         entries=tuple((Symbol(q.name, 2),) for q in context.robot.coordinates),
         detail=Detail.BRIEF,
     )
+
+
+def and_cancelled(value: Matrix | FractionMatrix) -> str:
+    """That nothing is left above and below, where that is known."""
+    entries = [fraction_of(entry) for entry in value.entries]
+    fractions = [(one.numerator, one.divisor) for one in entries if one.divisor is not None]
+    return ", and cancelled" * all(is_decided(above, below) for above, below in fractions)
 
 
 def inverse_of_inertia(context: Context) -> tuple[Line, ...]:

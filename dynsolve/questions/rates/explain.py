@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.linear_systems import is_solvable, rank_parts
+from dynsolve.algebra.linear_systems import dependent_where, is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
@@ -17,10 +17,11 @@ from dynsolve.explain.given import of_task
 from dynsolve.explain.step import TOLD, Detail, Part, Step
 from dynsolve.explain.writing import column_of, is_small, side_by_side, spong
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Node, Parenthesized, Power, Sum, Symbol, Words, equation
+from dynsolve.notation.tree import ONE, ZERO, Node, Parenthesized, Power, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.questions.rates.derive import MOST_PRODUCTS, squared, wanted_by_accelerations
+from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import Robot
 
 _J = letters.J_TASK
@@ -207,6 +208,9 @@ def _space(context: Context, name: str) -> Step:
     vectors = [column_of(form, k) for k in range(len(form.rows[0]))]
     spanned = formula("span ({vectors})", vectors=side_by_side(vectors)) if vectors else Words("{0}")
     rank, count = rank_parts(J).rank, len(vectors)
+    dependent: Prose = ()
+    if vectors and name != "rangespace":
+        dependent = _dependent(context, J.T if name == "lost" else J, context.values[name])
     if name == "lost" and not vectors:
         what = "Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost."
     return replace(
@@ -214,8 +218,20 @@ def _space(context: Context, name: str) -> Step:
         why=say("{what} {state}", what=say(what), state=_state_once(context, name)),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
-        notes=((f"The rank is {rank}, and the dimension of this space {count}.",),),
+        notes=((f"The rank is {rank}, and the dimension of this space {count}.", *dependent),),
     )
+
+
+def _dependent(context: Context, matrix: Matrix, vectors: Matrix) -> Prose:
+    """Where a factor makes the vectors of a null space dependent, or the only one 0."""
+    value = dependent_where(matrix, vectors)
+    if value is None:
+        return ()
+    where = SetForms(context.robot, context.values).vanishing(value)
+    if where == ONE:
+        return ()
+    are = "these vectors are dependent" if vectors.shape[1] > 1 else "this vector is 0"
+    return say(f" Where {{zero}}, {are}.", zero=equation(where, ZERO))
 
 
 # -- forces from outside, held at rest --------------------------------------------------------------
