@@ -31,6 +31,7 @@ from dynsolve.render.files import Format
 from dynsolve.solution.documents import solution_documents
 from dynsolve.solution.reports import rendered, report
 from tests.strangers.claims import Mechanism, untrue_sentences
+from tests.strangers.fractions import reducible
 from tests.strangers.oracle import Point, Unknown, random_point, relations, untrue
 from tests.strangers.reading import Unreadable, value_of_latex, value_of_text
 from tests.support import explained_once
@@ -112,6 +113,8 @@ def _faults(text: str, which: int | None) -> Iterator[Fault]:
     mechanism = Mechanism(solution, written_out[-1], seed)
     for sentence, why in untrue_sentences(mechanism, *(one.blocks for one in reversed(written_out))):
         yield Fault("claim", f"{sentence.where}: {why}: {sentence}")
+    for name, quotient, factor in reducible(solution, seed):
+        yield Fault("reducible", f"{name}: {to_unicode(quotient)}, where {to_unicode(factor)} = 0")
     for place, ((abbreviate, detail), document) in enumerate(zip(ways, documents, strict=True)):
         is_chosen = place == seed % len(ways)
         if is_chosen:

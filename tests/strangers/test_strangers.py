@@ -22,12 +22,14 @@ from dynsolve.explain.abbreviations import Abbreviate, Exchange
 from dynsolve.explain.recurring import _Writer
 from dynsolve.explain.step import Detail
 from dynsolve.notation.build import negated, times
-from dynsolve.notation.tree import Node, Relation, Sum, mapped, walk
+from dynsolve.notation.text import read
+from dynsolve.notation.tree import Node, Quotient, Relation, Sum, mapped, walk
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.dynamics import Dynamics
+from tests.strangers.fractions import finite_at
 from tests.strangers.generator import Problem, renamed, stranger, written
 from tests.strangers.held import Refused, faults
 from tests.strangers.oracle import CONDITIONAL, Untrue, random_point, relations, untrue
@@ -181,3 +183,18 @@ def _turned(relation: Relation) -> Iterator[Node]:
 
 def _put(part: Node, other: Node, node: Node) -> Node:
     return other if node == part else node
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("sin(2*q1 + q2)/(sin(q2)*sin(2*q1 + q2))", ["sin(2q₁ + q₂)"]),
+        ("(1 - cos(2*q1 + q2))/(cos(q1) - cos(q1 + q2))^2", ["cos(q₁) - cos(q₁ + q₂)"]),
+        ("sin(q1)/(1 + cos(q1))", []),
+        ("cos(q1)/sin(q2)^2", []),
+    ],
+)
+def test_what_is_left_above_and_below_is_found(text: str, found: list[str]) -> None:
+    quotient = read(text).tree
+    assert isinstance(quotient, Quotient)
+    assert [*map(to_unicode, finite_at(dynsolve.solve(ELBOW), quotient))] == found
