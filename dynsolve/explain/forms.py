@@ -401,16 +401,22 @@ class ProductForms:
                 numerator, divisor = numerator * base, divisor * base
         if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
             numerator, divisor = -numerator, -divisor
-        below, under = self._factors(divisor, apart=True)
-        if below < 0:
-            below, numerator, divisor = -below, -numerator, -divisor
         parts = divmod(numerator.poly, divisor.poly)
         whole, rest = (Expr(self.ring, self.ring.reduce(part)) for part in parts)
         if len(whole) + len(rest) < len(numerator) and not rest.is_zero:
             return total([self.form(whole), self._quotient(RationalExpr(rest, divisor))])
-        above, over = self._factors(numerator)
-        factors = [*over, *((node, -power) for node, power in under)]
-        return times(above / below, factors, decimal=self.decimal)
+        below, under = self._factors(divisor, apart=True)
+
+        def signed(sign: int) -> Node:
+            above, over = self._factors(numerator * sign)
+            return times(
+                sign * above / below,
+                [*over, *((node, -power) for node, power in under)],
+                decimal=self.decimal,
+            )
+
+        found = signed(1)
+        return found if split_sign(found)[0] > 0 else min(signed(-1), found, key=cost)
 
     def _is_negative(self, expr: Expr) -> bool:
         """Whether of the terms without a coordinate more is negative."""
