@@ -332,20 +332,20 @@ class HalfAngles:
         self.ctx: Any = fmpq_mpoly_ctx.get(("h", ring.ctx.nvars()), Ordering.lex)
         self.gens: tuple[fmpq_mpoly, ...] = self.ctx.gens()
 
-    def can_hold(self, expr: Expr) -> bool:
+    def can_hold(self, expr: Expr, most: int = MOST_TERMS) -> bool:
         """Whether the expression is a polynomial in sines, cosines and symbols, and not too long."""
         degrees = expr.poly.degrees()
         plain = ("sin", "cos", "symbol")
         known = parameters(expr) | self.roots.keys()
         others = (g.index for g in self.ring.generators if g.kind not in plain and g.index not in known)
-        return not any(degrees[index] > 0 for index in others) and self.has_room(expr)
+        return not any(degrees[index] > 0 for index in others) and self.has_room(expr, most)
 
-    def has_room(self, expr: Expr) -> bool:
-        """Whether the expression is not too long in half angles."""
+    def has_room(self, expr: Expr, most: int = MOST_TERMS) -> bool:
+        """Whether the expression has no more than so many terms in half angles."""
         degrees, size = expr.poly.degrees(), len(expr)
         for pair in self.pairs:
             size *= 1 + 2 * max(int(degrees[pair.sine]) + int(degrees[pair.cosine]), 0)
-        return size <= MOST_TERMS
+        return size <= most
 
     def homogeneous(self, expr: Expr) -> fmpq_mpoly:
         """The polynomial in S and C, of one degree in each pair."""

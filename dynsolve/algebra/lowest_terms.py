@@ -19,6 +19,9 @@ from flint import fmpq_mpoly
 from dynsolve.algebra.factors import HalfAngles, factors, quotient
 from dynsolve.algebra.ring import Expr
 
+MOST_TERMS = 200_000
+"""A polynomial that may have more terms in half angles is left as it is."""
+
 MOST_ROOTED = 150
 """Polynomials of more terms with roots of numbers are not taken apart: that takes minutes."""
 
@@ -47,7 +50,8 @@ def lowest_terms(above: Expr, below: Expr) -> tuple[Expr, Expr] | None:
 def is_decided(above: Expr, below: Expr) -> bool:
     """Whether `lowest_terms` finds all that is shared: they are not too long, and hold no root of letters."""
     halves = _halves((above, below))
-    return all(map(halves.can_hold, (above, below))) and _shared(halves, (above, below)) is not None
+    is_plain = all(halves.can_hold(value, MOST_TERMS) for value in (above, below))
+    return is_plain and _shared(halves, (above, below)) is not None
 
 
 def zero_of_all(values: Sequence[Expr]) -> Expr | None:
@@ -80,7 +84,7 @@ def _halves(values: Sequence[Expr]) -> HalfAngles:
 
 def _shared(halves: HalfAngles, values: Sequence[Expr]) -> fmpq_mpoly | None:
     """The greatest common divisor in half angles; None where one is too long."""
-    if not all(map(halves.has_room, values)):
+    if not all(halves.has_room(value, MOST_TERMS) for value in values):
         return None
     polys = sorted(map(halves.homogeneous, values), key=len)
     rooted = [poly for poly in polys if any(poly.degrees()[index] > 0 for index in halves.roots)]
