@@ -24,7 +24,7 @@ RESULTS = ("qdd_forward", "lambda", "Lambda", "qd", "qdd")
 NEAR, NEARER = 1e-2, 1e-4
 """How far from a zero a fraction is looked at; of a simple one it is a hundred times as great there."""
 
-GROWS = 10
+GROWS, SAME, SIDES = 10, 0.05, 5
 TRIES = 4
 
 Names = dict[str, float]
@@ -58,7 +58,7 @@ def finite_at(solution: Any, quotient: Quotient, seed: int = 0) -> Iterator[Node
         for k in range(TRIES):
             names = dict(state(solution, seed + k, {}).names)
             zero = _zero(factor, names, free)
-            if zero is not None and _growth(quotient, zero, free, Random(seed + k)) < GROWS:
+            if zero is not None and _has_value(quotient, zero, free, Random(seed + k)):
                 yield factor
                 break
 
@@ -85,11 +85,18 @@ def _zero(factor: Node, names: Names, free: tuple[str, ...]) -> Names | None:
     return None
 
 
-def _growth(quotient: Node, zero: Names, free: tuple[str, ...], random: Random) -> float:
-    """How many times as great the quotient is a hundred times nearer to the zero."""
-    program, along = compile_trees([quotient]), {q: random.uniform(-1, 1) for q in free}
-    far, close = (
-        abs(float(program.run(zero | {q: zero[q] + step * along[q] for q in free})[0]))
-        for step in (NEAR, NEARER)
-    )
-    return close / far if far else float("inf")
+def _has_value(quotient: Node, zero: Names, free: tuple[str, ...], random: Random) -> bool:
+    """Whether next to a zero the quotient has one value on all sides, as x y/(x² + y²) has not."""
+    program = compile_trees([quotient])
+    reached: list[float] = []
+    for _ in range(SIDES):
+        along = {q: random.uniform(-1, 1) for q in free}
+        far, close = (
+            float(program.run(zero | {q: zero[q] + step * along[q] for q in free})[0])
+            for step in (NEAR, NEARER)
+        )
+        if abs(close) > GROWS * abs(far):
+            return False
+        reached.append(close)
+
+    return max(reached) - min(reached) < SAME * max(map(abs, reached))

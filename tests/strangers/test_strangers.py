@@ -192,6 +192,7 @@ def _put(part: Node, other: Node, node: Node) -> Node:
         ("(1 - cos(2*q1 + q2))/(cos(q1) - cos(q1 + q2))^2", ["cos(q₁) - cos(q₁ + q₂)"]),
         ("sin(q1)/(1 + cos(q1))", []),
         ("cos(q1)/sin(q2)^2", []),
+        ("sin(q1)*sin(q2)/(sin(q1)^2 + sin(q2)^2)", []),  # 0/0 where both are 0, with other values around
     ],
 )
 def test_what_is_left_above_and_below_is_found(text: str, found: list[str]) -> None:
