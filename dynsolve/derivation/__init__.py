@@ -23,6 +23,7 @@ What several questions solve equations with:
     configurations  solutions put into formulas in numbers, and zeros found by Newton's method
     reached         configurations in numbers: what they give the task, whether two are the same
     elimination     systems, determinants and ranks of numbers; the signs of polynomials in parameters
+    allowed         the rank of the constraint matrix where the constraints hold
     existence       for which parameters sums of sines and cosines can be 0 together
 
 And the independent check, which shares no formula with any of these:

@@ -12,12 +12,13 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import needed_roots
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.rules import derive
-from dynsolve.errors import AlgebraError, ProblemError
+from dynsolve.errors import AlgebraError, ProblemError, VerificationError, warn_left_out
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.python import to_python
 from dynsolve.problem import Problem
+from dynsolve.quantities.index import quantities
 from dynsolve.quantities.owners import asked_stages
-from dynsolve.quantities.stages import ASKED_FOR
+from dynsolve.quantities.stages import ASKED_FOR, Stage
 from dynsolve.questions.held import Held
 from dynsolve.questions.inverse.forms import InverseForms
 from dynsolve.questions.inverse.target import Configuration
@@ -29,17 +30,29 @@ from dynsolve.solution.numbers.substitution import robot_with
 # What only some exercises ask, verified by computations that share no formula with it
 
 
-def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) -> None:
-    """Verify what is asked for beside the course's derivation, and what that is derived from.
+def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) -> Derivation:
+    """The values, of which what is asked for beside the course's derivation was verified.
 
-    Raises VerificationError where a result is wrong.
+    Where a check fails, what is asked of that question is left out, with a warning; all others stand.
     """
     left_out = {name for name, _ in skipped(robot, values)}
     held = Held(robot, values, forms, values.leading_to(robot.questions.asked) - left_out, states)
     asked = asked_stages(robot.questions)
+    wrong: dict[str, Skipped] = {}
     for stage in ASKED_FOR:
         if stage in asked and (question := stage.part("check")) is not None:
-            question.verify(held)
+            try:
+                question.verify(held)
+            except VerificationError as error:
+                warn_left_out(f"the part {stage}", str(error))
+                names = [name for name in robot.questions.asked if _stage_of(robot, name) is stage]
+                wrong |= dict.fromkeys(names, Skipped("its check found it to be wrong"))
+    return Derivation(values.rules.values(), wrong) if wrong else values
+
+
+def _stage_of(robot: Robot, name: str) -> Stage | None:
+    quantity = quantities(robot).get(name)
+    return quantity.family.stage if quantity is not None else None
 
 
 def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:

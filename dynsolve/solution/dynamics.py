@@ -141,7 +141,9 @@ class Dynamics(Struct, frozen=True, dict=True):
         if robot.questions.asked:
             from dynsolve.solution.asked_checks import skipped, verify_asked
 
-            verify_asked(robot, values, forms, states)
+            verified = verify_asked(robot, values, forms, states)
+            if verified is not values:
+                values, forms = verified, Forms(robot, verified)
             told = (f"{name} is left out: {why}" for name, why in skipped(robot, values))
             warnings = (*warnings, *(problem.finding(("find",), text) for text in told))
         return cls(problem, values, forms, verification, agreed, warnings)

@@ -5,6 +5,7 @@ stability      how stable that is
 multipliers    what constraints hold, and how the energy is curved along what they leave free
 balance        conditions on the parameters for gravity to move nothing
 linearization  the motion near an equilibrium; equilibria of steady motion
+linear_check   that motion, by differences on numbers
 forms          all of these as formulas
 """
 

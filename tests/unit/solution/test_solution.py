@@ -13,7 +13,7 @@ import sympy
 
 import dynsolve
 from dynsolve.document import Document, Fold, Formula, Text
-from dynsolve.errors import ProblemError, UsageError, VerificationError
+from dynsolve.errors import ExplanationWarning, ProblemError, UsageError, VerificationError
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import SPONG
 from dynsolve.notation.text import read
@@ -368,3 +368,15 @@ def test_pages_at_a_depth(solution: dynsolve.Solution) -> None:
     assert 'id="brief" checked' in solution.to_html("brief")
     with pytest.raises(UsageError, match="long is no depth"):
         solution.to_markdown("long")
+
+
+def test_a_check_that_fails_takes_away_its_own_question_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(held: object) -> None:
+        raise VerificationError("planted")
+
+    monkeypatch.setattr("dynsolve.questions.equilibria.check.verify", fails)
+    arm = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+    with pytest.warns(ExplanationWarning, match="equilibria is left out: planted"):
+        found = dynsolve.solve(arm + "find: [g, equilibria]\n").to_json()["results"]
+    assert found["g"] == ["m*g*l*cos(q1)"]
+    assert found["equilibria"] == {"skipped": "its check found it to be wrong"}
