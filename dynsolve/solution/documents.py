@@ -499,8 +499,8 @@ def solution_documents(
 _IN_NUMBERS = (
     "Numbers are exact, in SI units (m, kg, s, N). One with more than {digits} significant digits is "
     "rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands behind a result "
-    "that is a number other than 0, and behind a matrix of which all entries have it where there is room; "
-    "any other formula has that of its left side, and so has an entry of a matrix."
+    "that is a number other than 0, and behind some matrices of which all entries have it; any other formula "
+    "has that of its left side, and so has an entry of a matrix."
 )
 
 

@@ -103,7 +103,7 @@ _AT_REST = (
     "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion {left} is left. "
     "{loads}"
 )
-_COULOMB = "Coulomb friction is left out: where it holds what gravity and springs do, there is rest, too."
+_COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too."
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."

@@ -21,6 +21,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.surds import (
+    DIGITS,
     Exact,
     NotExact,
     NoValue,
@@ -35,6 +36,7 @@ from dynsolve.derivation.reached import CLOSE, angle_rows, gap, near, same_confi
 from dynsolve.document import Prose, Table
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
+from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import NOTED, Detail, Group, Step
 from dynsolve.explain.writing import agreeing, listed
 from dynsolve.notation.build import cost, negated, split_sign, times, total
@@ -440,7 +442,7 @@ def _in_numbers(forms: TargetForms, one: Configuration, name: str) -> Relation:
     formula, value = one.formulas[name], one.numbers[name]
     if rational_value(formula) == 0 or _depends(one, name):
         return equation(Symbol(name), formula)
-    number, exact = _number(formula, value)
+    number, exact = _number(forms, formula, value)
     if cost(formula) > LONGEST:
         formula = decimal(value)
     is_decimal = _is_decimal(formula)
@@ -456,13 +458,13 @@ def _in_numbers(forms: TargetForms, one: Configuration, name: str) -> Relation:
     )
 
 
-def _number(formula: Node, value: float) -> tuple[Node, bool]:
-    """A value as a decimal, and whether that is the value itself."""
-    whole = rational_value(formula)
-    places = Fraction(str(round(value, _DIGITS)))
+def _number(forms: TargetForms, formula: Node, value: float) -> tuple[Node, bool]:
+    """A value as a decimal, and whether that is the value; of a model in numbers the page rounds it."""
+    whole, digits = rational_value(formula), DIGITS if is_numeric(forms.robot) else _DIGITS
+    places = Fraction(str(round(value, digits)))
     if whole is not None and whole == places:
         return Number(whole.numerator, whole.denominator, decimal=True), True
-    return decimal(value, _DIGITS), False
+    return decimal(value, digits), False
 
 
 def _is_of_pi(formula: Node) -> bool:
@@ -551,7 +553,7 @@ def _table(forms: TargetForms) -> Table:
             elif _depends(one, name):
                 row.append(one.formulas[name])
             else:
-                cell, exact = _number(one.formulas[name], value)
+                cell, exact = _number(forms, one.formulas[name], value)
                 if forms.turns(name):
                     cell, exact = _in_degrees(value), _is_of_pi(one.formulas[name])
                 is_marked = exact or _is_decimal(cell)  # a rounded number gets its sign where it is printed

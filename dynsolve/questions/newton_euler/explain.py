@@ -433,7 +433,7 @@ def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
             context,
             f"fl{i}",
             title,
-            (_force_why(context, i),),
+            say(_force_why(context, i)),
             letters.in_link("f", i),
             list(_forces(context, i)),
         )
@@ -463,7 +463,10 @@ def _force_why(context: Context, i: int) -> str:
         return f"The link has no mass: it passes on what {after}." if follows else "The link has no mass."
     own = " beside its weight" if _is_heavy(context) else ""
     rest = f", and what {after}." if follows else ". No link follows, so nothing is passed on."
-    return f"Newton's law: what the mass needs{own}{rest}"
+    outside = " What acts from outside is left out here: it follows as $𝐐$." * bool(
+        context.robot.questions.loads
+    )
+    return f"Newton's law: what the mass needs{own}{rest}{outside * (not follows)}"
 
 
 def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:

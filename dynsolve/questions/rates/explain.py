@@ -78,9 +78,13 @@ def state_prose(context: Context, with_rates: bool = True) -> Prose:
 
 
 def _state_once(context: Context, name: str) -> Prose:
-    """The state, told with the first of the results that are asked for there."""
+    """The state, told with the first of the results that are asked for there; its rates with q̈."""
     first = next(one for one in ("qd", "qdd", *_SPACES) if one in context.wanted)
-    return state_prose(context, with_rates="qdd" in context.wanted) if name == first else ()
+    if name == first:
+        return state_prose(context, with_rates=name == "qdd")
+    rates = [one for one in context.robot.questions.state.values if one[1]] if name == "qdd" else []
+    given = side_by_side([equation(Symbol(name, dots), value) for name, dots, value in rates])
+    return say("In the state {given}.", given=given) if rates else ()
 
 
 def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, why: Prose) -> Step:
