@@ -1092,7 +1092,7 @@ Other independent combinations serve as well:
 It is given along axes of its link, and turned into the world.
 Each motion is along or about an axis of the frame that those before it have led to.
 Where the matrix of <the|its> second derivatives[ of the <potential energy|energy {}, the ...>] is positive
-  definite, the <equilibrium|motion> is stable; where <the energy|it> falls in some direction, it is not.
+  definite, the <equilibrium|motion> is stable; where <the energy|{}> falls in some direction, it is not.
 """
 """What is true of every mechanism, or is a step of a proof whose end is held; indented lines go on."""
 

@@ -639,16 +639,17 @@ def energy_of_motion(context: Context, flat: Prose) -> tuple[Prose, Node]:
     """
     value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
     shown = equation(letters.STEADY_ENERGY, formula("𝒫 - 𝒦"), value)
-    elsewhere = "; where it falls in some direction, it is not. "
+    elsewhere = "; where {V} falls in some direction, it is not. "
     if may_be_held(context.robot, context.values["D"]):
         elsewhere = (
-            ". Elsewhere nothing is said: what V alone lets fall may be held by forces of first order in the "
+            ". Elsewhere nothing is said: what {V} alone lets fall may be held by forces of first order in the "
             "rates, or by a rate that is free to change. "
         )
     return say(
-        "These forces are the derivatives of V, the potential energy less the kinetic energy of the motion. "
+        "These forces are the derivatives of {V}, the potential energy less the kinetic energy of the motion. "
         "Where the matrix of its second derivatives{flat} is positive definite, the motion is stable"
-        f"{elsewhere}",
+        + elsewhere,
+        V=letters.STEADY_ENERGY,
         flat=flat,
     ), shown
 

@@ -236,3 +236,10 @@ find: [inverse]
 """
     page = solve(sliding).to_latex()
     assert r"\approx 3.732" in page and r"\approx \approx" not in page
+
+
+def test_a_model_in_numbers_keeps_all_digits_until_they_are_printed() -> None:
+    """acos(-1/40) = 1.595799."""
+    arm = "gravity: [0, -9.81, 0]\ndh: [{theta: q1*, a: 1/2}, {theta: q2*, a: 2/5}]\n"
+    arm += "masses: [{mass: 2, link: 2}]\nreach: [3/5, 1/5]\nfind: [inverse]\n"
+    assert "1.59580" in solve(arm).to_markdown()
