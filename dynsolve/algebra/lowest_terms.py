@@ -34,7 +34,7 @@ def lowest_terms(above: Expr, below: Expr) -> tuple[Expr, Expr] | None:
     >>> ring = build_ring([("q1", "revolute")], [], [Angle.of("q1")])
     >>> s, c = ring.sin(Angle.of("q1")), ring.cos(Angle.of("q1"))
     >>> lowest_terms(ring.one - c, s)
-    (Expr(1/2*sin(1*(('q1', 1),))), Expr(1/2*cos(1*(('q1', 1),)) + 1/2))
+    (Expr(1*sin(1*(('q1', 1),))), Expr(1*cos(1*(('q1', 1),)) + 1))
     """
     halves = _halves((above, below))
     shared = _shared(halves, (above, below))

@@ -212,7 +212,7 @@ def factors_of(poly: Polynomial) -> tuple[tuple[Polynomial, int], ...]:
 
     >>> a, b = ((0, 1),), ((1, 1),)
     >>> factors_of({multiply(a, a): 2, multiply(a, b): 4, multiply(b, b): 2})
-    (({(): 2}, 1), ({((0, 1),): 1, ((1, 1),): 1}, 2))
+    (({(): 2}, 1), ({((1, 1),): 1, ((0, 1),): 1}, 2))
     """
     powers = [{(a, e > 0): abs(e) for a, e in mono} for mono in poly]
     letters = sorted(set().union(*powers), reverse=True)

@@ -642,12 +642,12 @@ def energy_of_motion(context: Context, flat: Prose) -> tuple[Prose, Node]:
     elsewhere = "; where {V} falls in some direction, it is not. "
     if may_be_held(context.robot, context.values["D"]):
         elsewhere = (
-            ". Elsewhere nothing is said: what {V} alone lets fall may be held by forces of first order in the "
-            "rates, or by a rate that is free to change. "
+            ". Elsewhere nothing is said: what {V} alone lets fall may be held by forces of first order in "
+            "the rates, or by a rate that is free to change. "
         )
     return say(
-        "These forces are the derivatives of {V}, the potential energy less the kinetic energy of the motion. "
-        "Where the matrix of its second derivatives{flat} is positive definite, the motion is stable"
+        "These forces are the derivatives of {V}, the potential energy less the kinetic energy of the "
+        "motion. Where the matrix of its second derivatives{flat} is positive definite, the motion is stable"
         + elsewhere,
         V=letters.STEADY_ENERGY,
         flat=flat,
