@@ -160,17 +160,22 @@ def existence(alternative: Alternative) -> tuple[Bound, ...] | None:
     return conditions([condition.expr for condition in alternative], ParameterSigns())
 
 
-def common_zeros(values: Sequence[Expr], special: Special | None = None) -> tuple[Alternative, ...]:
+def common_zeros(
+    values: Sequence[Expr], special: Special | None = None, *, keeps_products: bool = False
+) -> tuple[Alternative, ...]:
     """Where expressions are all 0: alternatives of as few conditions as say it, none within another.
 
-    Where the parameters are `special` it may be elsewhere.  Raises TooLong.
+    Where the parameters are `special` it may be elsewhere.  With `keeps_products` more is taken apart, and
+    some of the alternatives may be empty.  Raises TooLong.
     """
-    return zeros_of_any([values], special)
+    return zeros_of_any([values], special, keeps_products=keeps_products)
 
 
-def zeros_of_any(sets: Iterable[Sequence[Expr]], special: Special | None = None) -> tuple[Alternative, ...]:
+def zeros_of_any(
+    sets: Iterable[Sequence[Expr]], special: Special | None = None, *, keeps_products: bool = False
+) -> tuple[Alternative, ...]:
     """The same where the expressions of any of several sets are all 0."""
-    cases = _Cases(special)
+    cases = _Cases(special, keeps_products)
     every = (one for values in sets for one in cases.of(tuple(values), ()))
     turned = (turned for one in every for turned in _at_quarter_turns(one))
     found = list(dict.fromkeys(map(cases.without_repeated, turned)))
@@ -191,6 +196,7 @@ class _Cases(Struct, dict=True):
     """The choices of a factor of each expression, and the terms that were looked at."""
 
     special: Special | None = None
+    keeps_products: bool = False
     terms: int = 0
 
     def of(self, values: tuple[Expr, ...], held: Alternative) -> Iterator[Alternative]:
@@ -266,7 +272,11 @@ class _Cases(Struct, dict=True):
     def _reduced(self, value: Expr, condition: Condition) -> Expr:
         if self.special is not None:
             self.special.add(condition.multiplier([value]))
-        return condition.reduced(value)
+        found = condition.reduced(value)
+        if self.keeps_products and not (condition.fixes_coordinate or found.is_zero):
+            longest = max((len(factor) for factor, _ in trig_factors(value)), default=0)
+            return found if len(found) < longest else value
+        return found
 
     def follows(self, value: Expr, others: Sequence[Expr]) -> bool:
         found = follows(value, others)

@@ -29,7 +29,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.factors import is_positive, trig_factors, trig_quotient
+from dynsolve.algebra.factors import is_positive, trig_quotient
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
@@ -224,13 +224,10 @@ class Condition(Struct, frozen=True, dict=True):
         return self.expr.ring.one
 
     def _remainder(self, other: Expr) -> Expr:
-        """Another expression less a multiple of this one, where that is shorter than all its factors."""
+        """Another expression less a multiple of this one, where that is shorter."""
         rest = Expr(other.ring, other.ring.reduce(divmod(other.poly, self.expr.poly)[1]))
         shortest = min((rest, *self._less_terms(other)), key=len)
-        if len(shortest) >= len(other):
-            return other
-        longest = max((len(factor) for factor, _ in trig_factors(other)), default=0)
-        return shortest if len(shortest) < longest else other
+        return shortest if len(shortest) < len(other) else other
 
     def _less_terms(self, other: Expr) -> Iterator[Expr]:
         """Another expression less multiples of this one, in each of which a term is gone."""

@@ -184,7 +184,7 @@ class Multipliers(Struct, frozen=True):
                 sets = [one for choice in choices for one in _solved(rows, choice, by_halves)]
                 special.join(by_halves)
                 return zeros_of_any(sets)
-        return common_zeros(rows, special)
+        return common_zeros(rows, special, keeps_products=True)
 
     def settled(self, found: Sequence[Alternative], rank: int, special: Special) -> Settled:
         """The `found` sets, on which `zeros(rank)` are 0, where there are multipliers.

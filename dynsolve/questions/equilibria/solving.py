@@ -155,7 +155,11 @@ def equilibria(
     try:
         rows = [there(row) for row in left]
         constrained = held.moved(there) if held else None
-        alternatives = constrained.found(rows, special) if constrained else common_zeros(rows, special)
+        alternatives = (
+            constrained.found(rows, special)
+            if constrained
+            else common_zeros(rows, special, keeps_products=True)
+        )
     except TooLong:
         return Skipped(TOO_LONG)
     settled: Settled | None = Settled(alternatives, tuple(() for _ in alternatives), True)
