@@ -316,10 +316,13 @@ class ContentsCollector:
         return ()
 
     def angle(self, angle: Angle) -> None:
-        """Note an angle with the names in it."""
+        """Note an angle with the names in it; the slope of x/h has h below."""
         self.angles.setdefault(angle)
-        for name in names_of(angle):
-            self.symbols.setdefault(name)
+        for atom, _ in angle.terms:
+            for name, exponent in atom:
+                self.symbols.setdefault(name)
+                if exponent < 0:
+                    self.denominators.setdefault(Symbol(name))
 
     def root(self, node: Function, argument: Node) -> None:
         """Note a root, after those inside it."""

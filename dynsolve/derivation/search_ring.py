@@ -21,16 +21,16 @@ def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, An
     such values and of other coordinates: the names of these values are angles too.
     """
     names = [name for name, _ in ring.coordinates]
+    carried = [_put(pair.angle, given_angles) for pair in ring.pairs]
     turning = tuple(
-        (_unit(names, name, _finest_rate(ring, name)), Angle())
+        (_unit(names, name, _finest_rate(carried, name)), Angle())
         for name, kind in ring.coordinates
-        if kind == "revolute" and name not in given_angles
+        if (kind == "revolute" or _turns(carried, name)) and name not in given_angles
     )
-    carried = (_put(pair.angle, given_angles).degrees for pair in ring.pairs)
-    constants = Contents(angles=tuple(Angle((), degrees) for degrees in carried if degrees % 90))
+    constants = Contents(angles=tuple(Angle((), one.degrees) for one in carried if one.degrees % 90))
     plan = ring.plan.extended(constants, 0) if given_angles else ring.plan
     fixed = dict(plan.fixed)
-    for atom, rate in (term for angle in given_angles.values() for term in angle.terms):
+    for atom, rate in (term for angle in (*given_angles.values(), *carried) for term in angle.terms):
         if name_alone(atom) not in names:
             fixed[atom] = rational_gcd((rate, fixed.get(atom, rate)))
     symbols = tuple(dict.fromkeys((*plan.symbols, *values)))
@@ -53,7 +53,12 @@ def _unit(names: Sequence[str], name: str, rate: Fraction) -> tuple[Fraction, ..
     return tuple(rate if other == name else Fraction(0) for other in names)
 
 
-def _finest_rate(ring: Ring, name: str) -> Fraction:
+def _turns(angles: Sequence[Angle], name: str) -> bool:
+    """Whether a coordinate stands alone in an angle, as the length x does in cos(x/2)."""
+    return any(atom == ((name, 1),) for angle in angles for atom, _ in angle.terms)
+
+
+def _finest_rate(angles: Sequence[Angle], name: str) -> Fraction:
     """The part of a coordinate of which all its multiples in angles are whole multiples."""
-    rates = [rate for pair in ring.pairs for atom, rate in pair.angle.terms if atom == ((name, 1),)]
+    rates = [rate for angle in angles for atom, rate in angle.terms if atom == ((name, 1),)]
     return Fraction(1, lcm(*(rate.denominator for rate in rates))) if rates else Fraction(1)

@@ -443,7 +443,9 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
         yield Text((f"{step.title}. ", *step.outcome))
     elif step.result:
         yield Equations(step.result)
-        yield from (Text(step.outcome),) if step.outcome and name in ("equilibria", "balance") else ()
+        yield from (
+            (Text(step.outcome),) if step.outcome and name in ("equilibria", "balance", "singular") else ()
+        )
     else:
         own = [one for one in steps if one.id == name or one.id.startswith(f"{name}_")]
         told = tuple(one.outcome for one in own if one.outcome)

@@ -69,7 +69,8 @@ def _words(problem: Problem, names: Mapping[str, str]) -> list[str] | None:
     given = [*robot.inputs, *robot.questions.reached]
     known = {**names, **{name: f"given{k}" for k, name in enumerate(given)}}
     words = re.findall(r"\w+|[^\w\s]", " ".join(_texts(json_of(solution)["results"])))
-    return sorted(known.get(word.removesuffix("_"), word) for word in words)
+    stems = (re.fullmatch(r"(.*?)(_d?dot)?_?", word) for word in words)
+    return sorted(known.get(stem[1], stem[1]) + (stem[2] or "") for stem in stems if stem)
 
 
 def _texts(part: Any) -> Iterator[str]:

@@ -26,4 +26,4 @@ def rules(robot: Robot) -> Iterator[Rule]:
     if robot.questions.model.linearize:
         acting = (*outside_names(robot), *robot.actions.resistance)
         yield Rule("linear_A", ("D", "g", *acting), partial(linearization.state_matrix, robot))
-        yield Rule("linear_B", ("D",), partial(linearization.input_matrix, robot))
+        yield Rule("linear_B", ("D", "linear_A"), partial(linearization.input_matrix, robot))

@@ -46,6 +46,7 @@ MOST_PRODUCTS = 200_000
 
 TOO_LARGE = "the inverse of the inertia matrix is too large to be read"
 SINGULAR = "the inertia matrix has no inverse"
+NO_EQUILIBRIUM = "the given state is no equilibrium"
 CONSTRAINED = "the constraints leave fewer coordinates free than the state has"
 
 Linear = Matrix | FractionMatrix | Skipped
@@ -106,7 +107,7 @@ def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, *acting: Matrix) -> L
         by = "gravity and springs move" if robot.actions.stored else "gravity moves"
         by = "the given forces move" if robot.questions.loads else by
         moved = to_unicode(Symbol(name))
-        return Skipped(f"the given state is no equilibrium: {by} {moved}, which no motor holds")
+        return Skipped(f"{NO_EQUILIBRIUM}: {by} {moved}, which no motor holds")
     below = Matrix(
         robot.ring,
         tuple(
@@ -120,10 +121,10 @@ def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, *acting: Matrix) -> L
     )
 
 
-def input_matrix(robot: Robot, D: Matrix) -> Linear:
-    """B, 2n×m, a column for each coordinate that a motor drives."""
-    if robot.questions.constraints:
-        return Skipped(CONSTRAINED)
+def input_matrix(robot: Robot, D: Matrix, A: Linear) -> Linear:
+    """B, 2n×m, a column for each coordinate that a motor drives; nothing where A is of no motion."""
+    if isinstance(A, Skipped) and A.why.startswith((CONSTRAINED, NO_EQUILIBRIUM)):
+        return A
     inputs = driven(robot)
     selected = Matrix.of(
         robot.ring,

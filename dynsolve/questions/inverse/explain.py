@@ -199,7 +199,7 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
     shown = names_in(*results, *(lines[-1].formulas if lines else working))
     starts_anew = any(e.expr not in known for e in first)
     if isinstance(step, Remainder):
-        gives = "the sum of the angles; the others are known now" if step.others else "this angle"
+        gives = "a combination of the angles; the others are known now" if step.others else "this angle"
         why: Prose = (f"The task gives {gives}.",)
     else:
         put_in = list(_sums_put_in(forms, step.equations, before))

@@ -159,12 +159,14 @@ def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:
         "Constant lengths are not 0."
     )
     seen = [is_seen([each.expr for each in case], ParameterSigns()) for case in found.alternatives]
+    exist = tuple(forms.existence("singular", found.exist, seen))
     return replace(
         step,
         title=_TITLE,
         why=(one if len(cases) == 1 else several,),
         result=tuple(map(vanishing, cases)),
-        notes=(*forms.existence("singular", found.exist, seen), *special),
+        notes=(*exist, *special),
+        outcome=tuple(part for note in exist for part in (*note, " "))[:-1],
         uses=("singular_minors",),
     )
 

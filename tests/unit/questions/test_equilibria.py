@@ -950,3 +950,16 @@ def test_what_is_left_out_of_a_case_may_be_an_equilibrium_of_another() -> None:
     solution = dynsolve.solve(sprung.replace("find:", "springs: [{stiffness: k, of: a}]\nfind:"))
     assert ["a = 0", "sin(b) = 0"] in solution.to_json()["results"]["equilibria"]
     assert "no equilibrium but in case 1" in " ".join(solution.to_markdown().split())
+
+
+@pytest.mark.parametrize("angle", ["x/L", "x/2", "x"])
+def test_a_length_may_stand_in_an_angle_of_a_constraint_alone(angle: str) -> None:
+    """A bead on the wire y = c cos(x/L) stands at its crests."""
+    wire = f"""
+gravity: [0, -g, 0]
+model: {{coordinates: {{x: prismatic, y: prismatic}}, bodies: [{{mass: m, at: [x, y, 0]}}]}}
+constraints: [y - c*cos({angle})]
+find: [equilibria, lambda]
+"""
+    results = dynsolve.solve(wire).to_json()["results"]
+    assert results["equilibria"][0][0] == f"sin({angle}) = 0" and isinstance(results["lambda"], list)

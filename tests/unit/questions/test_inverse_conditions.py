@@ -156,3 +156,10 @@ def test_what_a_cosine_is_divided_by_must_not_be_0() -> None:
 def test_conditions_that_are_the_pose_itself_are_not_written_out() -> None:
     *_, note = steps_of(FIVE)["inverse"].notes
     assert len(note) < 10 and note[0] == "They hold only where "
+
+
+def test_a_task_of_a_multiple_of_an_angle_is_read() -> None:
+    """q₁ - 2 q₂: half of it stands beside q₁/2 in the others."""
+    arm = "gravity: none\ndh: [{theta: q1*, a: r}, {theta: q2*, a: s}]\n"
+    for task in ("[tip.x, q1 - 2*q2]", "[tip.x, tip.y, q1 + 2*q2]"):
+        assert solve_json(arm + f"task: {task}\nfind: [inverse, Jr]\n")["results"]["Jr"]

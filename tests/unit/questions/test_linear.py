@@ -188,3 +188,8 @@ find: [linear_A]
     solution = dynsolve.solve(bead)
     assert solution.to_json()["results"]["linear_A"][1][0] == expected
     assert solution.steps
+
+
+def test_where_the_state_is_no_equilibrium_there_is_no_b_either() -> None:
+    found = results(ARM.replace("q1: 60deg, q2: 30deg", "q1: 60deg, q2: 0"))
+    assert found["linear_B"] == found["linear_A"]
