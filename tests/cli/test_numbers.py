@@ -71,7 +71,7 @@ def test_digits_of_a_model_in_numbers(digits: tuple[str, ...], shown: str) -> No
     said = " ".join(out.split())
     assert shown in out
     assert f"One with more than {digits[1] if digits else 6} significant digits is rounded" in said
-    assert "A unit stands behind a result that is a number other than 0, and behind a matrix" in said
+    assert "A unit stands behind a result that is a number other than 0, and behind some matrices" in said
 
 
 def test_stages_choose_numbers_too() -> None:
