@@ -37,6 +37,9 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.robot.model import Robot
 
+_MOST_WHOLE = 999
+"""Larger coefficients of a model in numbers are written as decimals."""
+
 
 class SetForms(Inequalities):
     """The formulas of sets of equations of one robot, by the names of their rules."""
@@ -99,13 +102,16 @@ class SetForms(Inequalities):
         return without_number(self._signed(expr * self._denominator(expr))[0])
 
     def _denominator(self, *parts: Expr) -> int:
-        """What makes all coefficients whole, but where the file has decimals."""
-        return 1 if is_numeric(self.robot) else lcm(*(int(c.q) for part in parts for c in part.poly.coeffs()))
+        """What makes all coefficients whole; 1 where they are long in a model in numbers."""
+        coefficients = [Fraction(int(c.p), int(c.q)) for part in parts for c in part.poly.coeffs()]
+        whole = lcm(*(c.denominator for c in coefficients))
+        is_long = any(abs(c * whole) > _MOST_WHOLE for c in coefficients)
+        return 1 if is_long and is_numeric(self.robot) else whole
 
     def vanishing(self, value: Expr) -> Node:
         """What is 0 where an expression is, without the factors that never are."""
         factors = (factor for factor, _ in trig_factors(value) if not is_positive(factor))
-        return self._signed(prod(factors, start=value.ring.one))[0]
+        return self._whole(prod(factors, start=value.ring.one))
 
     def product(self, value: Expr) -> Node:
         """An expression as the product of its factors in sines and cosines, parameters in front."""

@@ -963,3 +963,14 @@ find: [equilibria, lambda]
 """
     results = dynsolve.solve(wire).to_json()["results"]
     assert results["equilibria"][0][0] == f"sin({angle}) = 0" and isinstance(results["lambda"], list)
+
+
+def test_conditions_of_a_model_in_numbers_are_exact() -> None:
+    """sin(a) (1/3 - cos(a)) = 0: 1 - 3 cos a, and not 0.333333 - cos a."""
+    ring = """
+gravity: none
+model: {coordinates: {a: revolute}, bodies: [{mass: 2, at: [0, 0, 0]}]}
+springs: [{energy: "-cos(a)/3 + cos(a)^2/2"}]
+find: [equilibria]
+"""
+    assert "3cos(a) - 1 = 0" in " ".join(map(to_unicode, told_of(ring).result))
