@@ -945,7 +945,7 @@ def _vectors_are_dependent(m: Mechanism, s: Sentence) -> bool:
     return rank(np.hstack(columns)) < len(columns)
 
 
-@says("The rank of {} is <# more than|as great as> that of this matrix.")
+@says("The rank of {} is <# more than|as great as> that of what is left.")
 def _cleared(m: Mechanism, s: Sentence) -> bool:
     core = next(block.node for block in s.step[s.place :] if isinstance(block, document.Formula))
     pivots = int(s.words[1] or 0)

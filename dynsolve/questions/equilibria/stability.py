@@ -186,7 +186,8 @@ class Curvature(Struct, frozen=True):
         """The stability along what constraints leave free, where their rows are independent."""
         apart = signs.beside(nonzero=signs.open_factors(along.divisor))
         point = replace(self._point(values, along.without_fractions, apart, (), here), along=along)
-        dependent = tuple(signs.open_factors(along.size))
+        inside = signs.beside(*point.conditions)
+        dependent = tuple(inside.open_factors(along.size))
         if not dependent or not point.is_told or point.stability is Stability.UNSTABLE:
             return point
         nonzero = tuple(dict.fromkeys((*point.nonzero, *dependent)))

@@ -72,7 +72,7 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
         equation(name, minor) for name, minor in zip(names, minors, strict=True)
     )
     working: tuple[Node, ...] = ()
-    way = SILENT
+    way, is_told = SILENT, False
     text = "${J}$ is {rows}×{columns}, and its rank is {rank} almost everywhere. "
     if found.core is not None:
         text += (
@@ -81,7 +81,7 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
             "can so be cleared and count 1. "
         )
         if size:
-            text += "The rank of ${J}$ is {more} that of this matrix. It is less where {of_all}"
+            text += "The rank of ${J}$ is {more} that of what is left. It is less where {of_all}"
             working = (forms.matrix(found.core),)
         else:
             cleared = "One row and one column" if found.pivots == 1 else "{pivots} rows and columns"
@@ -90,7 +90,8 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
     elif rows == columns == found.rank:
         text = "${J}$ is square: it has an inverse unless its determinant is 0."
         results = (formula("det {J} = {minor}", J=J, minor=minors[0]),)
-        if "det" not in context.wanted:
+        is_told = "det" in context.wanted
+        if not is_told:
             way = determinant_way(context, formula("det {J}", J=J), context.values[name], minors[0])
     else:
         text += "It is less where {of_all}"
@@ -115,7 +116,7 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
         concluding=way.concluding or left_out,
         result=results,
         listed=len(results) > 1,
-        normal=TOLD & ~Part.RESULT if len(results) == 1 and "det" in context.wanted else TOLD,
+        normal=TOLD & ~Part.RESULT if is_told else TOLD,
         uses=(name,),
     )
 
