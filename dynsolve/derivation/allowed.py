@@ -88,7 +88,7 @@ def _on(robot: Robot, h: Matrix, slopes: Matrix, start: Mapping[str, float]) -> 
             for q, x in zip(robot.coordinates, step, strict=True):
                 at[q.name] += x
     except NO_VALUE:
-        pass
+        return None
     return None
 
 

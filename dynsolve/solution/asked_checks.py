@@ -44,8 +44,10 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
             try:
                 question.verify(held)
             except VerificationError as error:
-                warn_left_out(f"the part {stage}", str(error))
                 names = [name for name in robot.questions.asked if _stage_of(robot, name) is stage]
+                if not names:
+                    raise
+                warn_left_out(f"the part {stage}", str(error))
                 wrong |= dict.fromkeys(names, Skipped("its check found it to be wrong"))
     return Derivation(values.rules.values(), wrong) if wrong else values
 

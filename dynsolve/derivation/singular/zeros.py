@@ -203,7 +203,7 @@ class Condition(Struct, frozen=True, dict=True):
         for pair, sine, cosine in self._turn:
             return tuple(_at_angle(other, pair, sine, cosine) for other in others)
         for images in self._given:
-            return tuple(_with_images(other, images) for other in others)
+            return tuple(other.ring.put(other, images) for other in others)
         for index, factor, rest in self._length:
             highest = max(
                 (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
@@ -287,7 +287,7 @@ class Condition(Struct, frozen=True, dict=True):
         return []
 
     @cached_property
-    def _given(self) -> list[dict[int, Expr]]:
+    def _given(self) -> list[dict[int, fmpq_mpoly]]:
         """What generators are where the condition gives an angle by others: of the last one of these."""
         ring = self.expr.ring
         relation = _linear_in_angles(self.expr)
@@ -347,23 +347,16 @@ def _linear_in_angles(expr: Expr) -> Angle | None:
     return found
 
 
-def _angle_put(ring: Ring, relation: Expr, name: str, rest: Angle) -> dict[int, Expr]:
+def _angle_put(ring: Ring, relation: Expr, name: str, rest: Angle) -> dict[int, fmpq_mpoly]:
     """The generators of an angle as it is by others; `relation` is 0 there."""
     own = ring.coefficient(relation, name)
-    found = {ring.symbol_indices[name, 0]: ring.symbol(name) - relation / own.number}
+    found = {ring.symbol_indices[name, 0]: (ring.symbol(name) - relation / own.number).poly}
     for pair in ring.pairs:
         rate = dict(pair.angle.terms).get(((name, 1),))
         if rate:
             turned = pair.angle + (rest - Angle.of(name)) * rate
-            found |= {pair.sine: ring.sin(turned), pair.cosine: ring.cos(turned)}
+            found |= {pair.sine: ring.sin(turned).poly, pair.cosine: ring.cos(turned).poly}
     return found
-
-
-def _with_images(expr: Expr, images: Mapping[int, Expr]) -> Expr:
-    """An expression with others for some generators."""
-    ring = expr.ring
-    every = [images.get(g.index, ring.generator(g.index)).poly for g in ring.generators]
-    return Expr(ring, ring.reduce(expr.poly.compose(*every, ctx=ring.ctx)))
 
 
 def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr, highest: int) -> Expr:
