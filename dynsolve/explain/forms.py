@@ -28,7 +28,7 @@ from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matr
 from dynsolve.explain.parameter_meanings import angles_in
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
-from dynsolve.notation.tree import ZERO, Negative, Node, Power, Product, Symbol, walk
+from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Symbol, walk
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
@@ -154,8 +154,8 @@ class Forms:
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
             return total([self("K"), negated(self("P"))])
-        if name == "P":
-            return self._potential_energy(self.of(value))
+        if name in ("P", "Ps"):
+            return _with_halves(self._potential_energy(self.of(value)) if name == "P" else self.of(value))
         return self.of(value)
 
     def _potential_energy(self, compact: Node) -> Node:
@@ -252,6 +252,16 @@ def _without_minus(node: Node) -> Node:
         if isinstance(factor, tree.Sum) and any(isinstance(term, Negative) for term in factor.terms):
             terms = sorted(map(negated, factor.terms), key=lambda term: isinstance(term, Negative))
             return Product((*factors[:k], tree.Sum(tuple(terms)), *factors[k + 1 :]))
+    return node
+
+
+def _with_halves(node: Node) -> Node:
+    """An energy in decimals with the ½ of its squares: 0.5 k x² is ½ k x²."""
+    match node:
+        case tree.Sum(terms):
+            return tree.Sum(tuple(map(_with_halves, terms)))
+        case Product((Number(1, 2), *others)) if any(isinstance(factor, Power) for factor in others):
+            return Product((letters.HALF, *others))
     return node
 
 

@@ -30,10 +30,12 @@ from dynsolve.algebra.compact.terms import (
     join,
     joined_pair,
     multiply,
+    rational_root,
     whole_content,
 )
 from dynsolve.notation.build import cost, number_in_front, split_sign, times, total
 from dynsolve.notation.tree import (
+    ONE,
     ZERO,
     Function,
     Matrix,
@@ -229,6 +231,9 @@ class Collector:
                     factor, whole = self._without_fractions(factor, poly, alone=len(atoms) == 1)
                     atoms[place : place + 1] = whole or [(atom, 1)]
                     break
+                if exponent == 2 and (half := self._half_a_square(factor, atom)):
+                    factor, atoms[place] = Fraction(1, 2), (half, 2)
+                    break
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
         return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=self.decimal)
 
@@ -261,6 +266,16 @@ class Collector:
         terms = [self.product(exact(f, shared), mono, ()) for mono, f in scaled.items()]
         own, whole = self.decompose(total(terms))
         return shared * own, whole
+
+    def _half_a_square(self, factor: Rational, atom: int) -> int | None:
+        """The sum of ½ (q - 1/4)², which is (4q - 1)²/32."""
+        root, node = rational_root(2 * factor), self.atoms.nodes[atom]
+        if root is None or root.numerator != 1 or root == 1 or not isinstance(node, Sum):
+            return None
+        terms = [self.decompose(term) for term in node.terms]
+        if all(abs(f * root) != 1 for f, _ in terms):
+            return None
+        return self.atoms.number(total([self.product(f * root, mono, ()) for f, mono in terms]))
 
     def _is_mass(self, mono: Monomial) -> bool:
         return len(mono) == 1 and mono[0][1] == 1 and self.atoms.ranks[mono[0][0]][0] is Rank.LEADING
@@ -336,7 +351,10 @@ class Collector:
         return best if completed is None or self.cost(completed) - 2 > least else completed
 
     def _completed(self, poly: Polynomial) -> Node | None:
-        """a x² + b x y + c y² + ..., x being a coordinate, as a (x + b y / 2a)² + (c - b² / 4a) y² + ..."""
+        """a x² + b x y + c y² + ..., x being a coordinate, as a (x + b y / 2a)² + (c - b² / 4a) y² + ...
+
+        y may be 1: d²/2 - d/10 + 1/200 is (d - 1/10)²/2.
+        """
         ranks = self.atoms.ranks
         squares = {mono[0][0]: f for mono, f in poly.items() if len(mono) == 1 and mono[0][1] == 2}
         for x in squares:
@@ -344,16 +362,18 @@ class Collector:
                 continue
             with_x = [mono for mono in poly if any(atom == x for atom, _ in mono)]
             mixed = [mono for mono in with_x if dict(mono)[x] == 1]
-            if len(with_x) != 2 or len(mixed) != 1 or len(mixed[0]) != 2:
+            if len(with_x) != 2 or len(mixed) != 1 or len(mixed[0]) > 2:
                 continue
-            ((y, exponent),) = divide(mixed[0], ((x, 1),))
+            y = divide(mixed[0], ((x, 1),))
+            of_y = multiply(y, y)
             half = exact(poly[mixed[0]], 2 * squares[x])
-            square = squares.get(y, 0) - squares[x] * half * half
-            if exponent != 1 or y not in squares or not square:
+            square = poly.get(of_y, 0) - squares[x] * half * half
+            if of_y not in poly or any(exponent != 1 for _, exponent in y) or bool(y) != bool(square):
                 continue
             rest = {mono: f for mono, f in poly.items() if mono not in with_x}
-            rest[((y, 2),)] = square
-            whole = self.atoms.number(self._sum_node(x, y, half))
+            add_term(rest, of_y, square - rest.get(of_y, 0))
+            other = y[0][0] if y else self.atoms.number(ONE)
+            whole = self.atoms.number(self._sum_node(x, other, half))
             return self.form({((whole, 2),): squares[x], **rest})
         return None
 

@@ -185,7 +185,10 @@ class Compactor:
                     numbers.append((number, mono, tree.ONE))
                     continue
             key, scale = primitive(part)
-            _, own, factors = shared.setdefault(key, (part, scale, {}))
+            first: Rational = scale
+            if self.collector.decimal and len(part) == 1:  # 1.3 g and 3 g: g (1.3 s₁ + 3 s₁₂)
+                part, first = {e: exact(f, scale) for e, f in part.items()}, 1
+            _, own, factors = shared.setdefault(key, (part, first, {}))
             factors[mono] = exact(scale, own)
         sums = ((*self.collector.whole(factors), form(part)) for part, _, factors in shared.values())
         return [*numbers, *sums]

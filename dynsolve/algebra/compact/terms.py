@@ -285,7 +285,7 @@ def square_in(terms: Mapping[Product, Rational], *, completed: bool = False) -> 
 def _roots(terms: Mapping[Product, Rational]) -> Iterator[Root]:
     """The roots of the terms that are squares: cosines of those with a plus, sines of those with a minus."""
     for monomial, factor in terms.items():
-        root = _rational_root(-factor if factor < 0 and any(monomial[0]) else factor)
+        root = rational_root(-factor if factor < 0 and any(monomial[0]) else factor)
         half = _half(monomial, sine=factor < 0)
         if root is not None and half is not None:
             yield Root(root, half)
@@ -295,7 +295,7 @@ def _others(terms: Mapping[Product, Rational]) -> Iterator[Product]:
     """What is squared in a term of which the number is no square."""
     for monomial, factor in terms.items():
         half = _half(monomial, sine=factor < 0)
-        if half is not None and _rational_root(factor if factor > 0 else -factor) is None:
+        if half is not None and rational_root(factor if factor > 0 else -factor) is None:
             yield half
 
 
@@ -313,7 +313,7 @@ def _half(monomial: Product, *, sine: bool) -> Product | None:
     return tuple(int(i == place) for i in range(len(trig))), root
 
 
-def _rational_root(value: Rational) -> Rational | None:
+def rational_root(value: Rational) -> Rational | None:
     """The square root of a positive rational number, None where it is not rational."""
     p, q = value.numerator, value.denominator
     if p <= 0 or isqrt(p) ** 2 != p or isqrt(q) ** 2 != q:
