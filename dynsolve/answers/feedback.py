@@ -36,7 +36,7 @@ from dynsolve.document import (
     Verbatim,
 )
 from dynsolve.errors import Finding
-from dynsolve.notation.tree import Letter, Matrix, Node, Number, Power, Relation, Row, Symbol
+from dynsolve.notation.tree import Letter, Node, Number, Power, Relation, Row, Symbol
 
 _SAID = {
     Verdict.CORRECT: "correct",
@@ -314,7 +314,7 @@ def readings(report: Report, view: FeedbackView) -> Iterator[Block]:
 
 def _reading(said: str, answer: JudgedAnswer) -> Iterator[Block]:
     """What was read: a matrix, and what is to be looked at, as a formula; else, or if too long, as text."""
-    is_set = answer.verdict is not Verdict.CORRECT or isinstance(answer.written, Matrix)
+    is_set = answer.verdict is not Verdict.CORRECT
     if is_set and answer.written is not None and len(answer.read_as) <= _MOST_SET:
         yield Text((f"{said}:",))
         yield Formula(_equation(answer.name, answer.written))

@@ -52,7 +52,7 @@ def test_the_first_slip_comes_first_with_what_was_written_set_beside() -> None:
     assert r"K = \frac{I_{1,zz} \dot{\theta}_{1}^{2}}{2}" in page[slip:]
     assert "the $L_{2}$ should be squared" in page[slip:]
     assert "tau (line 4), correct (right, though your own earlier answers lead elsewhere):" in page
-    assert "[[" not in page and r"D = \begin{bmatrix}" in page
+    assert "D (line 5), correct: `[[I_1zz + m₂ L₂², 0], [0, m₂]]`" in page
 
 
 def test_what_is_said_of_everything_is_said_of_the_entry_that_it_holds_for() -> None:
