@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, times, total
+from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Letter, Node, Number, Product, Relation, Symbol
 from dynsolve.quantities import letters
@@ -132,12 +132,20 @@ def collected_coriolis_force(coordinates: Sequence[str], c: ChristoffelSymbols, 
 
 
 def _collected(terms: Iterable[tuple[Node, Node]]) -> Node:
-    """Σ symbol · rate, the rates of each symbol in one sum."""
-    shared: dict[Node, list[Node]] = {}
+    """Σ symbol · rate, the rates of each symbol in one sum: σ (q̇₁ - q̇₂) of σ and -σ."""
+    shared: dict[Node, list[tuple[int, Node]]] = {}
     for symbol, rate in terms:
         if symbol != ZERO:
-            shared.setdefault(symbol, []).append(rate)
-    return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
+            sign, inner = split_sign(symbol)
+            shared.setdefault(inner, []).append((sign, rate))
+    return total([_with_rates(symbol, rates) for symbol, rates in shared.items()])
+
+
+def _with_rates(symbol: Node, rates: Sequence[tuple[int, Node]]) -> Node:
+    """symbol · Σ ± rate, the first of them with a plus."""
+    first = rates[0][0]
+    inner = total([rate if sign == first else negated(rate) for sign, rate in rates])
+    return times(first, [(symbol, 1), (inner, 1)])
 
 
 # -- the formulas of a long model, in the names of the entries -------------------------------------
