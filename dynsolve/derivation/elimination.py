@@ -97,15 +97,20 @@ def is_positive_definite(matrix: Rows, rounding: float = 0.0) -> bool:
     >>> is_positive_definite([[2.0, 1.0], [1.0, 1.0]]), is_positive_definite([[1.0, 2.0], [2.0, 1.0]])
     (True, False)
     """
+    least = rounding * max((abs(x) for row in matrix for x in row), default=0.0)
+    return all(pivot > least for pivot in pivots(matrix))
+
+
+def pivots(matrix: Rows) -> Iterator[float]:
+    """The pivots of a symmetric matrix, up to the first that is not positive."""
     rows = [list(row) for row in matrix]
-    least = rounding * max((abs(x) for row in rows for x in row), default=0.0)
     for k, pivot in enumerate(rows):
-        if pivot[k] <= least:
-            return False
+        yield pivot[k]
+        if pivot[k] <= 0:
+            return
         for row in rows[k + 1 :]:
             factor = row[k] / pivot[k]
             row[k:] = [a - factor * b for a, b in zip(row[k:], pivot[k:], strict=True)]
-    return True
 
 
 def shortest_step(values: Sequence[float], rows: Rows) -> list[float]:

@@ -12,7 +12,7 @@ from random import Random
 
 from dynsolve.algebra.inequality import Bound, opposite
 from dynsolve.algebra.ring_values import evaluate
-from dynsolve.derivation.elimination import is_positive_definite
+from dynsolve.derivation.elimination import is_positive_definite, pivots
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import VerificationError
 from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
@@ -110,16 +110,12 @@ def _lowest(robot: Robot, candidate: Candidate, poses: Sequence[dict[str, float]
 def _least(candidate: Candidate, values: Mapping[str, float]) -> float:
     """The smallest of the pivots, each beside its entry of the diagonal; -1 where one is not positive."""
     rows = _numbers(candidate, values)
-    diagonal = [row[k] for k, row in enumerate(rows)]
-    least = 1.0
-    for k, pivot in enumerate(rows):
-        if pivot[k] <= 0:
-            return -1.0
-        least = min(least, pivot[k] / max(diagonal[k], 1.0))
-        for row in rows[k + 1 :]:
-            factor = row[k] / pivot[k]
-            row[k:] = [a - factor * b for a, b in zip(row[k:], pivot[k:], strict=True)]
-    return least
+    found = list(pivots(rows))
+    if found[-1] <= 0:
+        return -1.0
+    return min(
+        1.0, *(pivot / max(row[k], 1.0) for k, (pivot, row) in enumerate(zip(found, rows, strict=True)))
+    )
 
 
 def _numbers(candidate: Candidate, values: Mapping[str, float]) -> list[list[float]]:
