@@ -165,11 +165,19 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
         return self.name.partition("{")[0]
 
     def names(self, name: str) -> bool:
-        """Whether a quantity of that name is of this family: wl2 of wl{i}, acltool of acl{b}."""
-        stem, field, _ = self.name.partition("{")
-        if not field or not name.startswith(stem) or name == stem:
+        """Whether a quantity so named is of this family: wl2 of wl{i}, acltool of acl{b}, K1_x of K{b}_x.
+
+        >>> family = Family(name="K{b}_x", stage=Stage.ENERGY, owner=Owner.BODY)
+        >>> [family.names(name) for name in ("K1_x", "K_x", "K1", "K1_xx")]
+        [True, False, False, False]
+        """
+        stem, end = self.stem, self.name.rpartition("}")[2]
+        if end == self.name:
             return name == self.name
-        return self.owner is Owner.BODY or name[len(stem) :].isdecimal()
+        index = name.removeprefix(stem).removesuffix(end)
+        if not index or name != f"{stem}{index}{end}":
+            return False
+        return self.owner is Owner.BODY or index.isdecimal()
 
     @property
     def has_letter(self) -> bool:

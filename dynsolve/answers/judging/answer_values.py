@@ -310,7 +310,7 @@ class OwnNames:
         yield self._from_parts(name, row, column)
         family = quantities[name].family
         if family in _BY_RATES and row is not None:
-            yield self._times_rates(_BY_RATES[family] + name[len(family.name.partition("{")[0]) :], row)
+            yield self._times_rates(_BY_RATES[family] + name[len(family.stem) :], row)
 
     def _given(self, name: str, row: int | None, column: int | None) -> RationalExpr | None:
         for place in self._places.get(name, ()):

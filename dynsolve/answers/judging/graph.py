@@ -63,7 +63,7 @@ class Route(Struct, frozen=True):
 
 def differentiation_routes(robot: Robot, quantity: Quantity) -> Iterator[Route]:
     """The routes to a velocity or a Jacobian of a point in the world's axes from where the point is."""
-    owner = quantity.rule.removeprefix(quantity.family.name.partition("{")[0])
+    owner = quantity.rule.removeprefix(quantity.family.stem)
     match quantity.family:
         case families.JV_BODY:
             yield Route((f"rc{owner}",), partial(position_jacobian, robot))
