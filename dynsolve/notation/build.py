@@ -90,7 +90,7 @@ def summands(node: Node) -> tuple[Node, ...]:
 
 
 def total(terms: Sequence[Node]) -> Node:
-    """The sum of terms, flattened; it starts with a plus where that leaves the rates in their order.
+    """The sum of terms, flattened; it starts with a plus where that leaves rates and accelerations in order.
 
     Terms with a minus at the front go behind the positive terms that follow: I_yy s² + I_xx c² - I_zz.
     """
@@ -111,20 +111,17 @@ def total(terms: Sequence[Node]) -> Node:
 def _plus_first(terms: list[Node]) -> list[Node]:
     """The terms with the first positive ones before the negative ones that they start with."""
     first = next((i for i, t in enumerate(terms) if not isinstance(t, Negative)), 0)
-    if not first or _is_velocity(terms[0]):
+    if not first or _moves_once(terms[0]):
         return terms
     last = next((i for i in range(first, len(terms)) if isinstance(terms[i], Negative)), len(terms))
     return [*terms[first:last], *terms[:first], *terms[last:]]
 
 
-def _is_velocity(term: Node) -> bool:
-    """Whether a term is a velocity, or a sum of velocities, times lengths or angles."""
+def _moves_once(term: Node) -> bool:
+    """Whether a term is a rate or an acceleration, or a sum of these, times lengths or angles."""
     factors = [factor for factor in factors_of(split_sign(term)[1]) if not isinstance(factor, Number)]
-    moving = [(dots, factor) for factor in factors if (dots := _dots(factor))]
-    if len(moving) != 1 or len(factors) == 1:
-        return False
-    ((dots, factor),) = moving
-    return dots == 1 and not isinstance(factor, Power)
+    moving = [factor for factor in factors if _dots(factor)]
+    return len(moving) == 1 < len(factors) and not isinstance(moving[0], Power)
 
 
 def _dots(node: Node) -> int:
@@ -148,9 +145,10 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     """coefficient · Π node^exponent; negative exponents go below the fraction line.
 
     Signs and numbers of the factors are drawn to the front, products flattened, in
-    the given order: 1/(2·3 a) is 1/(6 a).  With `decimal` a fraction is one number in front, 0.12 c₂ and not
-    3 c₂/25; one that does not end is kept exact, and rounded where it is shown.
+    the given order: 1/(2·3 a) is 1/(6 a).  With `decimal`, and of a decimal, a fraction is one number in
+    front, 0.12 c₂ and not 3 c₂/25; one that does not end is kept exact, and rounded where it is shown.
     """
+    factors = tuple(factors)
     above: list[Node] = []
     below: list[Node] = []
     for node, exponent in factors:
@@ -176,7 +174,7 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
         return total([negated(term) for term in above[0].terms])
     size = coefficient if coefficient > 0 else -coefficient
-    if decimal and size.denominator != 1:
+    if size.denominator != 1 and (decimal or any(_begins_with_decimal(node) for node, _ in factors)):
         node = _decimal(size, above)
         node = Quotient(node, _product(below)) if below else node
     else:
@@ -221,6 +219,11 @@ def _put_factor(node: Node, coefficient: Fraction | int, above: list[Node]) -> F
         case _:
             above.append(node)
     return coefficient
+
+
+def _begins_with_decimal(node: Node) -> bool:
+    first = factors_of(split_sign(node)[1])[0]
+    return isinstance(first, Number) and first.decimal
 
 
 def _decimal(coefficient: Fraction | int, above: list[Node]) -> Node:

@@ -32,6 +32,8 @@ def misspelled(forms: Iterable[Node]) -> Iterator[tuple[str, Node]]:
                         met[frozenset(factor.terms)] = factor
             case tree.Sum(terms) if _is_one_sine(terms):
                 yield "the sine or cosine of a sum", node
+            case tree.Sum(terms) if _has_acceleration_last(terms):
+                yield "an acceleration behind what has none", node
             case tree.BigSum(_, _, lower, upper) if lower == upper:
                 yield "a sum of one term", node
             case tree.Power(Number(1, 1)):
@@ -86,6 +88,12 @@ def _turns_or_moves(node: Node) -> bool:
         (isinstance(n, tree.Function) and n.name in CO_FUNCTION) or (isinstance(n, tree.Symbol) and n.dots)
         for n in walk(node)
     )
+
+
+def _has_acceleration_last(terms: tuple[Node, ...]) -> bool:
+    """Whether the terms with accelerations are not the first."""
+    accelerated = [any(isinstance(n, tree.Symbol) and n.dots == 2 for n in walk(term)) for term in terms]
+    return accelerated != sorted(accelerated, reverse=True)
 
 
 def _is_one_sine(terms: tuple[Node, ...]) -> bool:

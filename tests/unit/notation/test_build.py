@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 
-from dynsolve.notation.build import times
+from dynsolve.notation.build import times, total
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Negative, Node, Product, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 
 
@@ -29,3 +31,18 @@ def test_numbers_of_all_factors_are_one(
 ) -> None:
     node = times(coefficient, [(tree(text), power) for text, power in factors])
     assert UnicodePrinter().text(node) == written
+
+
+def test_what_is_made_of_a_decimal_is_one() -> None:
+    own, rate = times(Fraction(1, 2), [(tree("x"), 2)], decimal=True), Symbol("q", 2)
+    printed = UnicodePrinter().text
+    assert printed(times(1, [(own, 1), (rate, 1)])) == "0.5 x² q̈"
+    assert printed(times(1, [(times(-1, [(own, 1)]), 1), (rate, 1)])) == "-0.5 x² q̈"
+    assert printed(times(2, [(own, 1), (rate, 1)])) == "x² q̈"
+
+
+def test_accelerations_stay_in_their_order() -> None:
+    d12, first, second = tree("-(a + b)"), Symbol("q1", 2), Symbol("q2", 2)
+    terms = [times(1, [(d12, 1), (first, 1)]), Product((tree("c"), second)), Symbol("g")]
+    assert UnicodePrinter().text(total(terms)) == "-(a + b) q̈₁ + c q̈₂ + g"
+    assert UnicodePrinter().text(total([Negative(first), second])) == "q̈₂ - q̈₁"
