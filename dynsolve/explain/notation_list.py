@@ -61,11 +61,15 @@ def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
                 [(name, told) for name, told in alike if frames and told.words]
             ):
                 yield _named(names, agreeing(words, len(names)), unit)
-            names = [name for name, told in alike if not (frames and told.words)]
-            if names:
+            by_share: dict[str, list[str]] = {}
+            is_in_figure = role is Role.LENGTH and not frames
+            for name, told in alike:
+                if not (frames and told.words):
+                    by_share.setdefault("" if is_in_figure else told.share, []).append(name)
+            for share, names in by_share.items():
                 is_told = unit == "m" or has_bodies  # a₁ (kg) of a given 𝐃 need be no mass
-                meaning = role.of(len(names), unit if is_told else "")
-                if role is Role.LENGTH and not frames:
+                meaning = share + role.of(len(names), unit if is_told else "")
+                if is_in_figure:
                     meaning = agreeing("length|lengths in the figure", len(names))
                 yield _named(names, meaning, unit)
 

@@ -1,9 +1,9 @@
 """What each parameter of a problem is, in words: length of link 2, from o_1 to o_2.
 
-It is told where the parameter itself is the value: alone, as the entry a of row 2, it is the distance between
-two axes; as a term of that entry it is a length in that row.  In any other expression, m l²/12, the place
-says nothing of it, and it is called by its dimension: a length.  Parameters that are alike, each with its own
-number, are told in one line with i (`told_together`).
+It is told where no other parameter is in the value: as the entry a of row 2 it is the distance between
+two axes, in the stiffness 2k it is half of that; as a term of that entry it is a length in that row.  In any
+other expression, m l²/12, the place says nothing of it, and it is called by its dimension: a length.
+Parameters that are alike, each with its own number, are told in one line with i (`told_together`).
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import rational_sqrt
 from dynsolve.algebra.ring import Expr
 from dynsolve.explain.writing import agreeing, and_joined
 from dynsolve.notation.build import split_sign
@@ -39,14 +40,16 @@ class Meaning(Struct, frozen=True):
     """What a parameter is.
 
     `words` hold {link}, {body} and {before} where numbers stand, as o{link} where one is an index of 𝐨, 𝐱 or
-    𝐳, and {axes} or {coordinates} where some of x, y and z stand.
+    𝐳, and {axes} or {coordinates} where some of x, y and z stand.  `share` is what of that it is: half the.
+    Without words it is that of what its role says.
     """
 
-    words: str
+    words: str = ""
     link: int = 0
     body: str = ""
     before: int = -1
     axes: tuple[str, ...] = ()
+    share: str = ""
 
     @property
     def number(self) -> str:
@@ -62,7 +65,9 @@ class Meaning(Struct, frozen=True):
         values = {"link": str(self.link), "body": self.body, "before": str(self.before)}
         if counted:
             values = {"link": "i", "body": "i", "before": "i-1"}
-        text = _INDEXED.sub(lambda found: _AXIS[found[1]] + lowered(values[found[2]]), self.words)
+        text = _INDEXED.sub(
+            lambda found: _AXIS[found[1]] + lowered(values[found[2]]), self.share + self.words
+        )
         several, which = len(self.axes) > 1, and_joined(self.axes)
         axes, coordinates = ("axes", "coordinates") if several else ("axis", "coordinate")
         return text.format(**values, axes=f"{axes} {which}", coordinates=f"{coordinates} {which}")
@@ -70,9 +75,6 @@ class Meaning(Struct, frozen=True):
 
 _AXIS = {"o": "𝐨", "x": "𝐱", "z": "𝐳"}
 _INDEXED = re.compile(r"\b([oxz])\{(\w+)\}")
-
-_UNTOLD = Meaning("")
-"""What is said of a parameter of which its role says all."""
 
 
 class Role(Enum):
@@ -151,7 +153,7 @@ def roles(robot: Robot) -> dict[str, tuple[AnyRole, str]]:
         found.setdefault(name, role)
     dimensions, at_state = _dimensions(robot), units_of_values(robot)
     acting = (one for act in robot.actions.acts for one in act.parameters(robot) if one.unit)
-    of_acts = {name: one.unit for one in acting for name in _alone(one.value)}
+    of_acts = {name: one.unit for one in acting for name in names_in(one.value) if _factor(one.value, name)}
     pairs = (pair.angle for pair in robot.ring.pairs)
     angles = frozenset(name for angle in pairs for name in names_of(angle))
 
@@ -183,14 +185,15 @@ def meanings(robot: Robot) -> dict[str, tuple[AnyRole, str, Meaning]]:
     """The role, the SI unit and the meaning of every parameter, in their order."""
     places: dict[tuple[AnyRole, str], dict[Meaning, None]] = {}
     for role, name, meaning in _places(robot):
-        if meaning is not _UNTOLD:
-            places.setdefault((role, name), {})[meaning] = None
+        places.setdefault((role, name), {})[meaning] = None
     told = {(role, name): _as_one(role, tuple(of)) for (role, name), of in places.items()}
     found = {}
     for name, (role, unit) in roles(robot).items():
-        own, shape = (told.get((one, name), _UNTOLD) for one in (role, Role.SHAPE))
+        own, shape = (told.get((one, name), Meaning()) for one in (role, Role.SHAPE))
         if role is Role.LENGTH and own.words and shape.words:  # height of o_1 above o_0; length of body 1
-            own = replace(own, words=f"{own.words}; {shape.words}", body=shape.body, axes=shape.axes)
+            own = replace(
+                own, words=f"{own.words}; {shape.share}{shape.words}", body=shape.body, axes=shape.axes
+            )
         found[name] = role, unit, own
     return found
 
@@ -209,25 +212,28 @@ def _dimensions(robot: Robot) -> dict[str, str]:
 
 def _as_one(role: AnyRole, places: Sequence[Meaning]) -> Meaning:
     """What a parameter is that may stand in several places: in two rows, of two bodies, about two axes."""
-    if role is Role.SHAPE:  # r is the inner radius, if it is half the outer one as well
-        derived = ("half ", "twice ", "in ")
-        places = [place for place in places if not place.words.startswith(derived)] or places
+    places = [place for place in places if place.words] or places
+    places = [place for place in places if not place.share] or places  # the inner radius, not half the outer
     first, *others = places
     if not others:
         return first
     axes = tuple(dict.fromkeys(axis for place in places for axis in place.axes))
     if all(replace(place, axes=first.axes) == first for place in others):
         return replace(first, axes=axes)
+    alike = all(place.words == first.words and place.share == first.share for place in others)
     if role is Role.LENGTH:
+        if alike and first.words.startswith("length of link "):
+            links = [place.text().partition(",")[0].split()[-1] for place in places]
+            return Meaning(f"length of links {and_joined(links)}", share=first.share)
         rows = sorted({place.link for place in places})
         return Meaning(f"length in rows {and_joined([str(row) for row in rows])} of the table")
     if role is Role.SHAPE and len({place.body for place in places}) == 1:
         return Meaning(and_joined([place.text() for place in places]))
-    alike = all(place.words == first.words and place.axes == first.axes for place in others)
-    if alike and not first.link:
+    if alike and not first.link and all(place.axes == first.axes for place in others):
         bodies = and_joined([place.body for place in places])
-        return Meaning(first.words.replace("body {body}", f"bodies {bodies}"), axes=axes)
-    return Meaning("")
+        words = first.words.replace("body {body}", f"bodies {bodies}")
+        return Meaning(words, axes=axes, share=first.share)
+    return Meaning(share=first.share if alike else _WITHIN if first.share else "")
 
 
 # -- where parameters stand ------------------------------------------------------------------------
@@ -235,17 +241,21 @@ def _as_one(role: AnyRole, places: Sequence[Meaning]) -> Meaning:
 
 def _places(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Where parameters stand, and what they are there; the strongest role first."""
+    squared = sum((entry * entry for entry in robot.gravity.entries), start=robot.ring.zero)
     for entry in robot.gravity.entries:
-        yield from _untold(Role.GRAVITY, names_in(entry))
+        for name in names_in(entry):
+            size = rational_sqrt(_factor(squared, name, 2))
+            yield Role.GRAVITY, name, Meaning(share=_of_multiple(size) if size else "")
         yield from _untold(Role.DOWN, angles_in(entry))
     for joint in robot.joints:
         for name in _terms_of(joint.a):
-            yield Role.LENGTH, name, _along_x(robot, joint, name) if _is(joint.a, name) else _in_row(joint)
+            yield Role.LENGTH, name, _along_x(robot, joint, name)
         for name in _terms_of(joint.d):
             yield Role.LENGTH, name, _along_z(robot, joint, name)
         yield from _untold(Role.ANGLE, names_of(joint.theta), names_of(joint.alpha))
-    for name, words, axis in _coordinates(robot.base_position):
-        yield Role.BASE, name, Meaning(f"{words} of o{{before}} in the world", before=0, axes=(axis,))
+    for name, share, axis in _coordinates(robot.base_position):
+        at = "{coordinates} of o{before} in the world"
+        yield Role.BASE, name, Meaning(at, before=0, axes=(axis,), share=share)
     yield from _untold(Role.TURN, names_in_trees(*(angle for _, angle in robot.base_turns)))
     for body in robot.bodies:
         yield from _mass(body)
@@ -260,13 +270,15 @@ def _places(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
         rates = (rate for turn in body.turns for rate in turn.rates.entries)
         yield from _untold(Role.POSITION, *map(names_in, rates))
     for one in (one for act in robot.actions.acts for one in act.parameters(robot) if one.words):
-        yield from _untold(Acting(one.words), _alone(one.value) if one.is_whole else names_in(one.value))
+        shares = _shares(one.value) if one.is_whole else ((name, "") for name in names_in(one.value))
+        for name, share in shares:
+            yield Acting(one.words), name, Meaning(share=share)
     yield from _asked(robot)
 
 
 def _untold(role: AnyRole, *names: Iterable[str]) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Parameters of which a role tells all that there is to say."""
-    return ((role, name, _UNTOLD) for some in names for name in some)
+    return ((role, name, Meaning()) for some in names for name in some)
 
 
 def _asked(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
@@ -305,27 +317,32 @@ def _in_row(joint: Joint) -> Meaning:
 def _along_x(robot: Robot, joint: Joint, name: str) -> Meaning:
     """What a is: the length of a link where its d is zero, so that no way along z is added."""
     modified = robot.convention is Convention.MODIFIED
+    factor = _factor(joint.a, name)
+    if not factor:
+        return _in_row(joint)
     if joint.d.is_zero and (joint.parent or not modified):
         words = f"length of link {{{'before' if modified else 'link'}}}, from o{{before}} to o{{link}}"
     else:
-        way = "along" if joint.a == robot.ring.symbol(name) else "against"
+        way = "along" if factor > 0 else "against"
         words = f"distance from z{{before}} to z{{link}}, {way} x{{{'before' if modified else 'link'}}}"
-    return Meaning(words, joint.index, before=joint.parent)
+    return Meaning(words, joint.index, before=joint.parent, share=_of_multiple(factor))
 
 
 def _along_z(robot: Robot, joint: Joint, name: str) -> Meaning:
     """What stands in d: alone, or beside a coordinate."""
     axis = "z{before}" if robot.convention is Convention.STANDARD else "z{link}"
-    if not _is(joint.d, name):
-        if joint.variable == "d":
-            return Meaning("constant part of d in row {link} of the table", joint.index)
+    moved = [joint.d.ring.symbol(robot.coordinates[k].name) * rate for k, rate in joint.rates]
+    factor = _factor(joint.d - sum(moved, joint.d.ring.zero) if joint.variable == "d" else joint.d, name)
+    share = _of_multiple(factor) if factor else ""
+    if joint.variable == "d":
+        return Meaning("constant part of d in row {link} of the table", joint.index, share=share)
+    if not factor:
         return _in_row(joint)
-    is_forwards = joint.d == robot.ring.symbol(name)
-    if is_forwards and joint.parent == 0 and _is_upright(robot):
-        return Meaning("height of o{link} above o{before}", joint.index, "", 0)
+    if factor > 0 and joint.parent == 0 and _is_upright(robot):
+        return Meaning("height of o{link} above o{before}", joint.index, "", 0, share=share)
     ends = "o{before} to o{link}" if joint.a.is_zero else "x{before} to x{link}"
-    way = f"{'along' if is_forwards else 'against'} {axis}"
-    return Meaning(f"distance from {ends}, {way}", joint.index, "", joint.parent)
+    way = f"{'along' if factor > 0 else 'against'} {axis}"
+    return Meaning(f"distance from {ends}, {way}", joint.index, "", joint.parent, share=share)
 
 
 def _is_upright(robot: Robot) -> bool:
@@ -341,9 +358,10 @@ def _mass(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """The mass or the density, and the dimensions of a body with a density."""
     density = body.density
     if density is None:
-        part = "" if len(body.mass) == 1 else "part of the "
-        for name in _alone(body.mass) if len(body.mass) == 1 else _terms_of(body.mass):
-            yield Role.MASS, name, Meaning(f"{part}mass of body {{body}}", body=body.name)
+        is_sum = len(body.mass) > 1
+        shares = ((name, "part of the ") for name in _terms_of(body.mass)) if is_sum else _shares(body.mass)
+        for name, share in shares:
+            yield Role.MASS, name, Meaning("mass of body {body}", body=body.name, share=share)
         return
     yield from _sizes(body, density.shape)
     part = "" if isinstance(density.formula, Symbol) else "parameter of the "
@@ -358,16 +376,11 @@ def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[AnyRole, str, Mean
             yield Role.SHAPE, name, _dimension(body, key, value, name)
 
 
-_SHARES = {Fraction(1): "", Fraction(2): "half the ", Fraction(1, 2): "twice the "}
-"""What a parameter is of a dimension that is so many times it."""
-
-
 def _dimension(body: Body, key: str, value: Expr, name: str) -> Meaning:
     """A dimension of a shape, or its half: l is half the length of a rod that is 2 l long."""
     axes = (key,) if key in AXES else ()
     what = "side of body {body} along its {axes}" if axes else f"{DIMENSIONS[key]} of body {{body}}"
-    share = next((words for factor, words in _SHARES.items() if _is(value, name, factor)), "in the ")
-    return Meaning(share + what, body=body.name, axes=axes)
+    return Meaning(what, body=body.name, axes=axes, share=dict(_shares(value)).get(name, _WITHIN))
 
 
 def _inertia(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
@@ -381,15 +394,14 @@ def _inertia(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     moment = Meaning(f"moment of inertia of body {{body}} about {{axes}} through {point}", body=body.name)
     for i, row in enumerate(rows):
         for j, entry in enumerate(row):
-            for name in _alone(entry):
-                if i != j:
-                    yield (
-                        Role.PRODUCT,
-                        name,
-                        Meaning("product|products of inertia of body {body}", body=body.name),
-                    )
+            for name, share in _shares(entry):
+                if i == j:
+                    yield Role.INERTIA, name, replace(moment, axes=(AXES[i],), share=share)
                 else:
-                    yield Role.INERTIA, name, replace(moment, axes=(AXES[i],))
+                    product = Meaning(
+                        "product|products of inertia of body {body}", body=body.name, share=share
+                    )
+                    yield Role.PRODUCT, name, product
 
 
 def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
@@ -398,27 +410,28 @@ def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     coordinates = list(_coordinates(body.center))
     link, before = body.link, robot.joints[body.link - 1].parent
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
-        if _is_distance(body.center, name):
-            words = "distance from o{link} to the mass centre of body {body}"
-            yield Role.CENTER, name, Meaning(words, link, body.name)
-        elif near is not None and _is_distance(near, name):
-            words = "distance from o{before} to the mass centre of body {body}"
-            yield Role.CENTER, name, Meaning(words, link, body.name, before)
+        words = "distance from o{%s} to the mass centre of body {body}"
+        if factor := _far_out(body.center, name):
+            share = _of_multiple(factor)
+            yield Role.CENTER, name, Meaning(words % "link", link, body.name, share=share)
+        elif near is not None and (factor := _far_out(near, name)):
+            share = _of_multiple(factor)
+            yield Role.CENTER, name, Meaning(words % "before", link, body.name, before, share=share)
         else:
-            where = "of the mass centre of body {body}, in frame {link}"
-            for of, words, axis in coordinates:
+            words = "{coordinates} of the mass centre of body {body}, in frame {link}"
+            for of, share, axis in coordinates:
                 if of == name:
-                    yield Role.CENTER, name, Meaning(f"{words} {where}", link, body.name, axes=(axis,))
+                    yield Role.CENTER, name, Meaning(words, link, body.name, axes=(axis,), share=share)
             in_near = () if near is None else chain.from_iterable(map(_alone, near.entries))
             yield from _untold(Role.CENTER, [name] if name in set(in_near) else [])
 
 
 def _coordinates(place: Matrix) -> Iterator[tuple[str, str, str]]:
-    """(parameter, what of its coordinate it is, axis) where it is a coordinate of a place or its negative."""
+    """(parameter, what of its coordinate it is, axis) where a coordinate of a place is a multiple of it."""
     for axis, entry in zip(AXES, place.entries, strict=True):
-        for name in _alone(entry):
-            is_own = entry == entry.ring.symbol(name)
-            yield name, "{coordinates}" if is_own else "minus {coordinates}", axis
+        for name in names_in(entry):
+            if factor := _factor(entry, name):
+                yield name, "minus " * (factor < 0) + _of_multiple(factor), axis
 
 
 def _from_near_end(robot: Robot, link: int, place: Matrix) -> Matrix | None:
@@ -433,21 +446,48 @@ def _from_near_end(robot: Robot, link: int, place: Matrix) -> Matrix | None:
     return place + Matrix.column(ring, (row.a, across, along))
 
 
-def _is_distance(place: Matrix, name: str) -> bool:
-    """Whether a place lies on an axis, as far out as the parameter says."""
+def _far_out(place: Matrix, name: str) -> Fraction:
+    """How many times a parameter a place lies out on an axis; 0 where it does not."""
     far = [entry for entry in place.entries if not entry.is_zero]
-    return len(far) == 1 and _is(far[0], name)
+    return _factor(far[0], name) if len(far) == 1 else Fraction(0)
 
 
-def _is(value: Expr, name: str, factor: Fraction = Fraction(1)) -> bool:
-    """Whether a value is the parameter itself, or its negative; or such a multiple of it."""
-    symbol = value.ring.symbol(name) * factor
-    return value in (symbol, -symbol)
+def _factor(value: Expr, name: str, power: int = 1) -> Fraction:
+    """Which multiple of a parameter, or of a power of it, a value is; 0 where it is none."""
+    times = value.quotient(value.ring.symbol(name) ** power)
+    return times.number if times is not None and times.is_number else Fraction(0)
 
 
 def _alone(value: Expr) -> list[str]:
     """The parameter that a value is, or is the negative of."""
-    return [name for name in names_in(value) if _is(value, name)]
+    return [name for name in names_in(value) if abs(_factor(value, name)) == 1]
+
+
+def _shares(value: Expr) -> Iterator[tuple[str, str]]:
+    """The only parameter of a value, and what of the value it is."""
+    names = set(names_in(value))
+    if len(names) == 1:
+        (name,) = names
+        inverse = value * value.ring.symbol(name)
+        if factor := _factor(value, name):
+            yield name, _of_multiple(factor)
+        else:
+            yield name, f"{_of_multiple(inverse.number)}inverse of the " if inverse.is_number else _WITHIN
+
+
+_WITHIN = "in the "
+"""What a parameter is of a value with other parameters, or in which it stands in another way."""
+
+
+def _of_multiple(factor: Fraction) -> str:
+    """What a parameter is of a multiple of it: k is half the stiffness 2k.
+
+    >>> [_of_multiple(Fraction(factor)) for factor in ("-1", "2", "1/2", "3", "1/6")]
+    ['', 'half the ', 'twice the ', '1/3 of the ', '6 times the ']
+    """
+    share = 1 / abs(factor)
+    known = {Fraction(1): "", Fraction(1, 2): "half the ", Fraction(2): "twice the "}
+    return known.get(share, f"{share} {'times' if share > 1 else 'of'} the ")
 
 
 def _terms_of(value: Expr) -> list[str]:
@@ -466,28 +506,35 @@ def _alone_in_tree(formula: Node) -> list[str]:
 
 
 def told_together(of: Sequence[tuple[str, Meaning]]) -> Iterator[tuple[list[str], str]]:
-    """Names that are told by the same words, and these: with i where each name has its own number."""
+    """Names that are told by the same words, and these: with i where each name has its own number.
+
+    x_1 and y_2 are not coordinates x and y of the mass centre of body i.
+    """
     told: dict[tuple[str, object], list[tuple[str, Meaning]]] = {}
     for name, meaning in of:
         told.setdefault(_key(name, meaning), []).append((name, meaning))
     for (_, counted), alike in told.items():
-        names = [name for name, _ in alike]
-        meaning = _over_all_axes([meaning for _, meaning in alike])
-        numbers = {meaning.number for _, meaning in alike}
-        yield names, meaning.text(counted is True and len(numbers) > 1)
+        of_number: dict[str, dict[str, Meaning]] = {}
+        for name, meaning in alike:
+            of_number.setdefault(meaning.number, {})[name] = meaning
+        axes = {tuple(sorted(one.axes for one in own.values())) for own in of_number.values()}
+        is_counted = counted is True and len(of_number) > 1 and len(axes) == 1
+        for own in [dict(alike)] if len(axes) == 1 else of_number.values():
+            yield list(own), _over_all_axes(own.values()).text(is_counted)
 
 
 def _key(name: str, meaning: Meaning) -> tuple[str, object]:
     """What names have in common that are told together."""
     axes = () if not meaning.axes or _names_axis(name, meaning.axes) else meaning.axes
     if meaning.number and _has_number(name, meaning.number):
-        return f"{meaning.words} {axes}", True
+        return f"{meaning.share}{meaning.words} {axes}", True
     return f"{meaning.text()} {axes}", (meaning.link, meaning.body)
 
 
-def _over_all_axes(alike: Sequence[Meaning]) -> Meaning:
-    axes = dict.fromkeys(axis for meaning in alike for axis in meaning.axes)
-    return replace(alike[0], axes=tuple(sorted(axes)))
+def _over_all_axes(alike: Iterable[Meaning]) -> Meaning:
+    first, *others = alike
+    axes = {axis for meaning in (first, *others) for axis in meaning.axes}
+    return replace(first, axes=tuple(sorted(axes)))
 
 
 def _has_number(name: str, number: str) -> bool:
@@ -559,3 +606,5 @@ def names_in(expr: Expr) -> Iterator[str]:
     for generator, degree in zip(expr.ring.generators, expr.poly.degrees(), strict=True):
         if degree > 0 and generator.kind == "symbol":
             yield generator.name
+        elif degree > 0 and generator.kind == "inverse":
+            yield from names_in(Expr(expr.ring, expr.ring.inverses[generator.index]))

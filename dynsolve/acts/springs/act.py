@@ -50,7 +50,7 @@ class Spring(Stored, frozen=True):
         x = measured_along(robot, self.of)
         k, words = x and times(ENERGY, x, -2), "stiffness|stiffnesses of a|the spring|springs"
         yield Parameter(self.stiffness, words, k, along(x, "N m/rad", "N/m"))
-        yield Parameter(self.rest, "where a|the spring|springs is|are relaxed", x, along(x, "rad", "m"))
+        yield Parameter(self.rest, "rest position|positions of a|the spring|springs", x, along(x, "rad", "m"))
         yield Parameter(self.of, dimension=x)
 
     def mistaken(self, robot: Robot) -> Iterator[tuple[str, Expr]]:

@@ -6,7 +6,7 @@ import pytest
 
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import meanings, told_together
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Node, Symbol
 from tests.support import solved
 
 MASS = "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]"
@@ -27,7 +27,11 @@ LENGTHS = [
     ("[{theta: q1*, a: l1, d: h}, {theta: q2*}]", "l1", "distance from 𝐳₀ to 𝐳₁, along 𝐱₁"),
     ("[{theta: q1*, d: h}, {theta: q2*}]", "h", "distance from 𝐨₀ to 𝐨₁, along 𝐳₀"),
     ("[{theta: q1*}, {d: q2* + h}]", "h", "constant part of d in row 2 of the table"),
-    ("[{theta: q1*, a: l}, {theta: q2*, a: l}]", "l", "length in rows 1 and 2 of the table"),
+    ("[{theta: q1*, a: l}, {theta: q2*, a: l}]", "l", "length of links 1 and 2"),
+    ("[{theta: q1*, a: l}, {theta: q2*, a: l, d: h}]", "l", "length in rows 1 and 2 of the table"),
+    ("[{theta: q1*, a: l/2}, {theta: q2*}]", "l", "twice the length of link 1, from 𝐨₀ to 𝐨₁"),
+    ("[{theta: q1*, d: -2*h}, {theta: q2*}]", "h", "half the distance from 𝐨₀ to 𝐨₁, against 𝐳₀"),
+    ("[{theta: q1*}, {d: q2* + 3*e}]", "e", "1/3 of the constant part of d in row 2 of the table"),
     ("[{theta: q1*, a: l + b}, {theta: q2*}]", "b", "length in row 1 of the table"),
 ]
 
@@ -79,6 +83,18 @@ BODIES = [
      "moment of inertia of body 1 about axis z through its joint"),
     ("{mass: m, link: 1, center: tip, shape: {disk: {radius: r}}}", "r", "radius of body 1"),
     ("{mass: m, link: 1}, {mass: m, link: 1}", "m", "mass of bodies 1 and 2"),
+    ("{mass: 2*m, link: 1}", "m", "half the mass of body 1"),
+    ("{mass: 2*m, link: 1}, {mass: m, link: 1}", "m", "mass of body 2"),
+    ("{mass: 1/m, link: 1}", "m", "inverse of the mass of body 1"),
+    ("{mass: m^2, link: 1}", "m", "in the mass of body 1"),
+    ("{mass: m, link: 1, center: [2*c, 0, 0]}", "c",
+     "half the distance from 𝐨₁ to the mass centre of body 1"),
+    ("{mass: m, link: 1, center: [-2*x1, y1, 0]}", "x1",
+     "minus half the coordinate x of the mass centre of body 1, in frame 1"),
+    ("{mass: m1, link: 1, center: [x1, -p, 0]}, {mass: m2, link: 1, center: [-p, y2, 0]}", "y2",
+     "coordinate y of the mass centre of body 2, in frame 1"),
+    ("{mass: m, link: 1, center: tip, inertia: {zz: J/2}}", "J",
+     "twice the moment of inertia of body 1 about axis z through its mass centre"),
     ("{mass: M + m, link: 1}", "M m", "part of the mass of body 1"),
     ("{link: 1, shape: {rod: {length: b, density: rho0 + k*x}}}", "rho0 k",
      "parameter of the density of body 1"),
@@ -98,7 +114,7 @@ PARTS = [
      "moment of inertia (kg m^2)"),
     ("masses: [{mass: m, link: 1, center: tip, inertia: {zz: J + M*l^2}}]", "M", "mass (kg)"),
     ("masses: [{mass: m, link: 1, center: [b/2 - c, 0, 0]}]", "b", "length (m)"),
-    ("masses: [{mass: 2*m, link: 1}]", "m", "mass (kg)"),
+    ("masses: [{mass: m, link: 1}]\nsprings: [{stiffness: k + b^2, of: q}]", "k", "torque (N m)"),
     ("masses: [{mass: m, link: 1}]\npoints: {P: {link: 1, at: [b + c, 0, 0]}}\nfind: [pP]", "b",
      "length (m)"),
     ("masses: [{mass: m, link: 1}]\nforces: [{link: 1, at: [b/3, 0, 0], force: [2*F, 0, 0]}]\nfind: [Q]", "F",
@@ -161,3 +177,33 @@ def test_what_turns_and_what_slides_have_units_of_their_own() -> None:
     found = {name: unit for name, (_, unit, _) in meanings(solved(ACTING).robot).items()}
     assert [found[name] for name in ("k1", "b1", "f1")] == ["N m/rad", "N m s/rad", "N m s/rad"]
     assert [found[name] for name in ("k2", "b2", "f2", "c2")] == ["N/m", "N s/m", "N s/m", "N"]
+
+
+EXPRESSIONS = """
+gravity: [0, -g/6*cos(beta), -g/6*sin(beta)]
+dh: [{theta: q1*}, {d: q2*}]
+masses: [{mass: m1, link: 1, center: origin, inertia: {zz: I1}}, {mass: m2, link: 2}]
+springs: [{stiffness: 2*k1, of: q1}, {stiffness: k2/3, of: q2, rest: 2*delta}, {stiffness: 2*k, of: q1},
+          {stiffness: 3*k, of: q1}]
+dampers: [{damping: b/2, of: q1}]
+motors: [{turns: q1, inertia: J, ratio: 1/R}]
+"""
+
+
+def test_what_is_in_an_expression_alone_is_told_by_what_that_is() -> None:
+    robot = solved(EXPRESSIONS).robot
+    for frames in (True, False):
+        lines = [line for line in problem_names(robot, frames=frames) if not isinstance(line.words, Node)]
+        found = {sign.name: f"{line.words} ({line.unit})" for line in lines for sign in line.signs}
+        assert found | EXPRESSIONS_TOLD == found
+
+
+EXPRESSIONS_TOLD = {
+    "g": "6 times the acceleration of gravity (m/s^2)",
+    "k1": "half the stiffness of a spring (N m/rad)",
+    "k2": "3 times the stiffness of a spring (N/m)",
+    "k": "in the stiffness of a spring (N m/rad)",
+    "delta": "half the rest position of a spring (m)",
+    "b": "twice the coefficient of a damper (N m s/rad)",
+    "R": "inverse of the ratio of a gear ()",
+}

@@ -79,7 +79,7 @@ def test_parameters_of_what_is_asked_are_told_by_what_they_are() -> None:
     )
     for line in (
         "k: stiffness of a spring (N m/rad)",
-        "δ: where a spring is relaxed (rad)",
+        "δ: rest position of a spring (rad)",
         "F: force from outside (N)",
         "M: moment from outside (N m)",
         "v: given velocity of the task (m/s)",
