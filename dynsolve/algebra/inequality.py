@@ -82,11 +82,21 @@ def simplified(bound: Bound, known: Sequence[Bound]) -> Bound:
 
 
 def independent(needed: Sequence[Bound], assumed: Sequence[Bound]) -> tuple[Bound, ...]:
-    """Inequalities without those that follow from the others."""
+    """Inequalities without those that follow from the others, the later ones left out first.
+
+    >>> from dynsolve.algebra.ring_values import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol(name) for name in "abc"])
+    >>> a, b, c = map(ring.symbol, "abc")
+    >>> [one.value for one in independent([Bound(a), Bound(c), Bound(a * c - b * b)], [])]
+    [Expr(1*a), Expr(1*a*c + -1*b^2)]
+    """
     kept = list(dict.fromkeys(needed))
-    for bound in list(kept):
+    for bound in reversed(list(kept)):
         rest = [other for other in kept if other is not bound]
-        if follows(bound, [*assumed, *rest]):
+        known = [*assumed, *rest]
+        positive = (Bound(bound.value * other.value, bound.is_strict) for other in known if other.is_strict)
+        if any(follows(one, known) for one in (bound, *positive)):
             kept = rest
     return tuple(kept)
 
@@ -116,9 +126,9 @@ def _products(target: Expr, assumed: Sequence[Bound]) -> Iterator[tuple[Polynomi
             if _degree(product.value) + _degree(factor.value) > most or len(found) >= MOST_PRODUCTS:
                 continue
             made = Bound(product.value * factor.value, product.is_strict and factor.is_strict)
-            if made.value not in found:
+            if made.value not in found or (made.is_strict and not found[made.value]):
                 waiting.append((made, k))
-            found[made.value] = found.get(made.value, False) or made.is_strict
+                found[made.value] = made.is_strict
     return ((_polynomial(value), is_strict) for value, is_strict in found.items())
 
 

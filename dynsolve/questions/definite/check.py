@@ -22,6 +22,9 @@ from dynsolve.robot.questions import Candidate
 
 SEED = 20_190_429
 
+EDGES = 6
+"""Where a condition fails so many times more values are drawn: some where it is an equality."""
+
 
 DRAWS = 20_000
 """So many values are drawn in the search for some that satisfy what is assumed."""
@@ -47,7 +50,7 @@ def verify_definite(robot: Robot, candidate: Candidate, found: Definiteness, sta
     told = [(values, not is_no) for values in _parameters(candidate, bounds, random, states)]
     for condition in found.conditions if found.is_exact else ():
         fails = (*candidate.assumed, opposite(condition))
-        told += [(values, False) for values in _parameters(candidate, fails, random, 1)]
+        told += [(values, False) for values in _parameters(candidate, fails, random, EDGES * states)]
     for parameters, is_told in told:
         poses = list(_poses(robot, parameters, random))
         every = all(_is_definite(candidate, values) for values in poses)
@@ -63,13 +66,14 @@ def verify_definite(robot: Robot, candidate: Candidate, found: Definiteness, sta
 def _parameters(
     candidate: Candidate, bounds: Sequence[Bound], random: Random, states: int
 ) -> Iterator[dict[str, float]]:
-    """Values of the parameters that satisfy inequalities."""
+    """Values of the parameters that satisfy inequalities, some of them 0 or the same."""
     ring, count = candidate.matrix.ring, 0
     for _ in range(DRAWS):
-        values = {
-            name: random.choice((random.uniform(-2, 2), random.uniform(0.1, 3))) for name in ring.parameters
-        }
-        if all(evaluate(b.value, values) > 1e-3 * b.is_strict for b in bounds):
+        values: dict[str, float] = {}
+        for name in ring.parameters:
+            edge = random.choice((0.0, *values.values()))
+            values[name] = random.choice((edge, random.uniform(-2, 2), random.uniform(0.1, 3)))
+        if all(evaluate(b.value, values) >= 1e-3 * b.is_strict for b in bounds):
             count += 1
             yield values
             if count == states:

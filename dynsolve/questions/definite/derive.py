@@ -16,7 +16,7 @@ so one coordinate after the other is taken out.
     A + B u,  u a sine or cosine     smallest at u = 1 or u = -1
     A + B u²                         at u = 0 or u = ±1
     A + B u + C u²                   at u = ±1 where C ≤ 0, or its vertex lies outside
-    A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²
+    A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²; A > |B| where C = 0
     A + B cos² θ + C sin θ cos θ     the same of 2θ
     A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²; also A > 0 where B = C = 0
 """
@@ -138,7 +138,10 @@ def _without_angle(pair: Pair, extreme: Extreme, assumed: Sequence[Bound]) -> li
         A = A + B
     elif not keys <= {(0, 0), (0, 1), (1, 0)}:
         return None
-    if not extreme.bound.is_strict:
+    strict = extreme.bound.is_strict
+    if B.is_zero or C.is_zero:
+        return [replace(extreme, bound=Bound(A + most, strict)) for most in (B + C, -B - C)]
+    if not strict:
         return None
     return [replace(extreme, bound=Bound(A)), replace(extreme, bound=Bound(A * A - B * B - C * C))]
 
@@ -280,7 +283,8 @@ def _is_possible(matrix: Matrix, bounds: Sequence[Bound]) -> bool:
     ring, random = matrix.ring, Random(TRIES)  # noqa: S311 - the same values every time are wanted
     for _ in range(TRIES):
         values = {
-            name: random.choice((random.uniform(-3, 3), random.uniform(0, 3))) for name in ring.parameters
+            name: random.choice((0.0, random.uniform(-3, 3), random.uniform(0, 3)))
+            for name in ring.parameters
         }
         if all(evaluate(b.value, values) > (1e-9 if b.is_strict else -1e-9) for b in bounds):
             return True

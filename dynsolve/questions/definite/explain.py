@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import prod
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
@@ -16,7 +18,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.step import NOTED, Detail, Step
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Symbol, equation
+from dynsolve.notation.tree import ZERO, Function, Letter, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
 from dynsolve.robot.questions import Candidate
@@ -145,8 +147,12 @@ def _all_of(forms: Forms, bounds: tuple[Bound, ...]) -> Prose:
 
 
 def inequality(forms: Forms, bound: Bound) -> Relation:
-    """a₁a₃ - a₂² > 0"""
-    return Relation((forms.of(bound.value), Number(0)), (">" if bound.is_strict else "≥",))
+    """a₁a₃ - a₂² > 0, and b = 0 for -b² ≥ 0."""
+    content, factors = bound.value.poly.factor()
+    if not bound.is_strict and content < 0 and all(int(times) % 2 == 0 for _, times in factors):
+        one = prod((Expr(bound.value.ring, factor) for factor, _ in factors), start=bound.value.ring.one)
+        return equation(forms.of(one), ZERO)
+    return Relation((forms.of(bound.value), ZERO), (">" if bound.is_strict else "≥",))
 
 
 # -- hints -----------------------------------------------------------------------------------------

@@ -47,14 +47,23 @@ CONDITIONS = {
     "a cosine": (of_three("a + b*cos(q2)"), ["a + b > 0", "a - b > 0"]),
     "its square": (of_three("a + b*cos(q2)^2"), ["a > 0", "a + b > 0"]),
     "cosine and sine": (of_three("a + b*cos(q2) + c*sin(q2)"), ["a > 0", "a**2 - b**2 - c**2 > 0"]),
-    "twice the angle": (of_three("a + b*sin(q2)*cos(q2)"), ["a > 0", "4*a**2 - b**2 > 0"]),
+    "twice the angle": (of_three("a + b*sin(q2)*cos(q2)"), ["2*a + b > 0", "2*a - b > 0"]),
     "two angles": (
         of_three("a + b*cos(q1) + c*sin(q2)"),
         ["a + b + c > 0", "a + b - c > 0", "a - b + c > 0", "a - b - c > 0"],
     ),
     "a length": (of_three("a + b*d^2"), ["a > 0", "b >= 0"]),
     "a length from elsewhere": (of_three("a + b*d + c*d^2"), ["c > 0", "4*a*c - b**2 > 0"]),
+    "a length that must not occur": (of_three("a + b*d"), ["b = 0", "a > 0"]),
     "off the diagonal": (of_three("a", "b*cos(q2)"), ["a - b**2 > 0"]),
+    "a third power of what is assumed": (
+        file("[[a + b*d + b*d^2, 0, 0], [0, b, 0], [0, 0, 1]]", "[b > 0]"),
+        ["4*a - b > 0"],
+    ),
+    "a product on the diagonal": (
+        file("[[a, b*sin(q1), 0], [b*sin(q1), c, 0], [0, 0, 1]]"),
+        ["a > 0", "a*c - b**2 > 0"],
+    ),
 }
 
 
@@ -166,6 +175,14 @@ def test_conditions_that_are_not_needed_are_found() -> None:
     more = replace(right, conditions=(*right.conditions, Bound(robot.ring.symbol("b"))), is_exact=True)
     with pytest.raises(VerificationError, match="comes out otherwise"):
         verify_definite(robot, candidate, more, 5)
+
+
+def test_an_edge_at_which_it_is_definite_is_found() -> None:
+    """b = c = 0: the conditions with c > 0 are enough, and not needed."""
+    text = of_three("a + b*d + c*d^2")
+    (candidate,) = read_problem(text).robot.questions.candidates
+    with pytest.raises(VerificationError, match="comes out otherwise"):
+        verify_definite(read_problem(text).robot, candidate, replace(found(text), is_exact=True), 5)
 
 
 def test_a_product_of_factors_that_is_known_is_left_out() -> None:
