@@ -118,20 +118,20 @@ def coriolis_matrix(coordinates: Sequence[str], c: ChristoffelSymbols) -> tree.M
     n = len(coordinates)
 
     def entry(k: int, j: int) -> Node:
-        return _collected((c(i, j, k), Symbol(name, 1)) for i, name in enumerate(coordinates))
+        return collected((c(i, j, k), Symbol(name, 1)) for i, name in enumerate(coordinates))
 
     return tree.Matrix(tuple(tuple(entry(k, j) for j in range(n)) for k in range(n)))
 
 
 def collected_coriolis_force(coordinates: Sequence[str], c: ChristoffelSymbols, k: int) -> Node:
     """Row k of C q̇; the rates of equal symbols are collected."""
-    return _collected(
+    return collected(
         (c(i, j, k), times(1 if i == j else 2, rates_of_pair(coordinates, i, j)))
         for i, j in pairs(len(coordinates))
     )
 
 
-def _collected(terms: Iterable[tuple[Node, Node]]) -> Node:
+def collected(terms: Iterable[tuple[Node, Node]]) -> Node:
     """Σ symbol · rate, the rates of each symbol in one sum: σ (q̇₁ - q̇₂) of σ and -σ."""
     shared: dict[Node, list[tuple[int, Node]]] = {}
     for symbol, rate in terms:

@@ -20,9 +20,11 @@ from msgspec import Struct
 from dynsolve.algebra.ring import Expr
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.document.sentences import say
+from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.christoffel import equal_symbols
 from dynsolve.explain.context import Context
-from dynsolve.explain.entry_formulas import collected_coriolis_force, pairs
+from dynsolve.explain.entry_formulas import collected, collected_coriolis_force, pairs
+from dynsolve.explain.forms import entry_of
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, spong, sum_of
@@ -264,26 +266,28 @@ def _shortest_row(context: Context) -> tuple[Line, ...]:
 
 
 def _rows_in_names(context: Context) -> tuple[Line, ...]:
-    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k = τ_k with h, before which the forces were derived."""
-    names, coordinates = context.names, context.robot.ring.names
+    """The rows with h, before which the forces were derived."""
+    robot, names = context.robot, context.names
     if names is None or names.single is None:
         return ()
-    D, g, symbol = names.D, names.g, names.symbol
-    friction = context.matrix("friction") if context.robot.actions.resisting else None
-
-    def row(k: int) -> Node:
-        entries = zip(D.rows[k], coordinates, strict=True)
-        inertial = [times(1, [(d, 1), (Symbol(name, 2), 1)]) for d, name in entries if d != ZERO]
-        rubbing = () if friction is None else (friction.rows[k][0],)
-        heights = [part for part in (g.rows[k][0],) if part != ZERO]
-        return total([*inertial, collected_coriolis_force(coordinates, symbol, k), *rubbing, *heights])
-
-    robot = context.robot
-    rows = (equation(driving_row(context.robot, q), row(k)) for k, q in enumerate(robot.coordinates))
     forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), ", ")
     passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
     lead: Prose = ("Row by row", *((", with ", equation(*passive, ZERO)) if passive else ()))
-    return (Line((*lead, forces, ":"), tuple(rows)),)
+    return (Line((*lead, forces, ":"), rows_in_names(robot, names, context.form)),)
+
+
+def rows_in_names(robot: Robot, names: Abbreviated, forms: Callable[[str], Node]) -> tuple[Node, ...]:
+    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k = τ_k in the names of a model; friction is of the `forms`."""
+    coordinates = robot.ring.names
+    accelerations = [Symbol(name, 2) for name in coordinates]
+    columns = [forms("friction"), names.g] if robot.actions.resisting else [names.g]
+
+    def row(k: int) -> Node:
+        inertial = collected(zip(names.D.rows[k], accelerations, strict=True))
+        forces = collected_coriolis_force(coordinates, names.symbol, k)
+        return total([inertial, forces, *(entry_of(column, (k, 0)) for column in columns)])
+
+    return tuple(equation(driving_row(robot, q), row(k)) for k, q in enumerate(robot.coordinates))
 
 
 def _beside_motors(context: Context, constrained: bool = True) -> list[Node]:

@@ -43,7 +43,7 @@ from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate
 from dynsolve.explain.given import at_the_state, holds_at_state, in_words, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
-from dynsolve.explain.terms import ID
+from dynsolve.explain.terms import ID, rows_in_names
 from dynsolve.explain.writing import (
     GAUTIER_KHALIL,
     KHALIL_DOMBRE,
@@ -222,8 +222,11 @@ def summary_blocks(
     elif model is not None:
         yield from _long_model(model, by_id, detail, sections)
     else:
-        yield from names.told([], [step.result[0] for step in forces]) if names else ()
-        yield from _rows(robot, forces) if forces else ()
+        rows = tuple(step.result[0] for step in forces)
+        if names and names.short.single and names.short.single.name in walk(*names.others) and forces:
+            rows = rows_in_names(robot, names.short, forms)
+        yield from names.told([], rows) if names else ()
+        yield from _rows(robot, forces, rows) if forces else ()
     yield from others
 
 
@@ -278,7 +281,7 @@ def _model(
         yield from matrices
     yield from _lines(model)
     if not model.lines and len(forces) == robot.n:
-        yield from _rows(robot, forces)
+        yield from _rows(robot, forces, [step.result[0] for step in forces])
 
 
 def _forces(robot: Robot, by_id: Mapping[str, Step]) -> list[Step]:
@@ -286,13 +289,13 @@ def _forces(robot: Robot, by_id: Mapping[str, Step]) -> list[Step]:
     return [by_id[name] for q in robot.coordinates if (name := f"tau{q.index}") in by_id]
 
 
-def _rows(robot: Robot, forces: Sequence[Step]) -> Iterator[Block]:
-    """The generalized forces, row by row, and which of them are 0."""
+def _rows(robot: Robot, forces: Sequence[Step], rows: Sequence[Node]) -> Iterator[Block]:
+    """The generalized forces of some steps, row by row, and which of them are 0."""
     lead: Prose = ("Row by row" if len(forces) > 1 else "The equation of motion",)
     passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
     lead += (", with ", equation(*passive, ZERO)) if passive else ()
     yield Text((*lead, Reference(tuple(step.id for step in forces), ", "), ":"))
-    yield Equations(tuple(step.result[0] for step in forces))
+    yield Equations(tuple(rows))
 
 
 class _Names(Struct):

@@ -265,6 +265,19 @@ def test_the_summary_tells_where_names_stand(problem: str) -> None:
         assert (letter in text.parts) == (not names.isdisjoint(walk(entry[1])))
 
 
+def test_forces_beside_a_matrix_with_h_have_it_too() -> None:
+    """Where the whole model is not asked for, and so is not there, the rows are written as C is."""
+    asked = find("planar-2r").read_text().replace("find: [D, C, g, tau]", "find: [C, tau]")
+    assert "find: [C, tau]" in asked
+    nodes = list(displayed(document(asked, Detail.RESULTS).blocks))
+    assert {to_unicode(last(node)).count("h") for node in nodes if to_unicode(node)[0] == "τ"} == {1}
+
+
+def test_equal_inertias_have_their_accelerations_in_one_sum() -> None:
+    nodes = displayed(document("scara-rrpr", Detail.RESULTS).blocks)
+    assert "τ₄ = -I₄ (θ̈₁ + θ̈₂ - θ̈₄)" in {to_unicode(node) for node in nodes}
+
+
 def has_matrix(node: Node) -> bool:
     return any(isinstance(part, Matrix) for part in walk(node))
 
