@@ -15,6 +15,7 @@ Arrows run one way, from the first of these files to the last:
     lowest_terms        what expressions share: fractions in lowest terms
     fraction            fractions over a ring
     ring_values         the value of a formula in a ring, its value in floating point, and making a ring
+    trig_identities     which identities of sine and cosine lead from one formula to an equal one
     matrix              matrices, determinants and minors; values put for coordinates
     sampling            the values at which formulas are compared; from one ring into another
     parameter_span      combinations of unknown parameters over the fractions in known ones

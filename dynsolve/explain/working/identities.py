@@ -1,27 +1,21 @@
 """Which identities of sine and cosine lead from one line to the next.
 
-Found, not guessed: a sine or cosine of an angle that is new in the second line is the sum or the
-difference of two angles of the first; and where the two lines still differ as polynomials in
-sines and cosines, s² + c² = 1 of the angles that the difference holds has been used.  A line that
-does not equal the one before it has no identities at all: `identities` gives None.
+Found, not guessed, by `algebra.trig_identities`.  A line that does not equal the one before it has no
+identities at all: `identities` gives None.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from functools import lru_cache, partial
-from itertools import chain as chained
-from itertools import islice
-from math import prod
+from collections.abc import Iterable, Sequence
 
-from flint import fmpq_mpoly
 from msgspec import Struct
 
-from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
+from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.trig_identities import Addition, new_additions, used_between
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
@@ -34,7 +28,6 @@ from dynsolve.notation.build import factors_of, negated
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Function,
-    Negative,
     Node,
     Number,
     Parenthesized,
@@ -47,7 +40,6 @@ from dynsolve.notation.tree import (
     Transpose,
     equation,
     mapped,
-    walk_once,
 )
 from dynsolve.notation.unicode import to_unicode
 
@@ -56,17 +48,21 @@ class Identity(Struct, frozen=True):
     """An identity in this robot's angles: c₁ c₁₂ + s₁ s₁₂ = c₂; s² + c² = 1 has no `name`."""
 
     name: str
-    relation: Relation
+    relation: Relation | None
+
+
+_MANY = Identity("identities of sine and cosine", None)
+"""What is said where one after the other is used, and so none is found."""
 
 
 def said(used: Sequence[Identity]) -> Prose:
     """s₁² + c₁² = 1 and the cosine of a difference, c₁ c₁₂ + s₁ s₁₂ = c₂"""
     named: dict[str, list[Node]] = {}
     for each in used:
-        named.setdefault(each.name, []).append(each.relation)
+        named.setdefault(each.name, []).extend([each.relation] if each.relation else [])
     found: list[Node | Prose] = [*named.pop("", [])]
     for name, relations in named.items():
-        text = "{name}, {relation}" if len(relations) == 1 else "{name} ({relation})"
+        text = ("{name}", "{name}, {relation}", "{name} ({relation})")[min(len(relations), 2)]
         found.append(say(text, name=name, relation=listed(relations)))
     return listed(found)
 
@@ -81,6 +77,7 @@ def by(operation: str | Prose, used: Iterable[Identity], cancelled: Prose = ()) 
 def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | None:
     """The identities that are used on the way from one tree to an equal one; None if they are not equal.
 
+    >>> from dynsolve.algebra.angles import Angle
     >>> from dynsolve.algebra.ring_values import build_ring
     >>> from dynsolve.notation.unicode import to_unicode
     >>> from dynsolve.notation.tree import Symbol
@@ -94,68 +91,17 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
     >>> identities(ring, squares, Number(2)) is None
     True
     """
-    try:
-        additions = tuple(_additions(ring, before, after))
-        sums = {each.relation.parts[-1]: each.relation.parts[0] for each in additions}
-        without_sums = mapped(after, lambda node: sums.get(node, node))
-        difference = _unreduced(ring, before) - _unreduced(ring, without_sums)
-    except AlgebraError:
-        return None
-    if ring.reduce(difference):
-        return None
-    basic = _of_basic_angles(ring, difference)
-    squared = _as_they_stand(ring, before, without_sums) or basic if basic else []
-    return (*(pythagoras(angle_node(angle, ring.names)) for angle in squared), *additions)
-
-
-def _of_basic_angles(ring: Ring, difference: fmpq_mpoly) -> list[Angle]:
-    """The basic angles whose s² + c² = 1 makes a difference 0."""
-    degrees = difference.degrees()
-    needed = [pair for pair in ring.pairs if degrees[pair.sine] > 1 or degrees[pair.cosine] > 1]
-    for pair in tuple(needed):
-        others = [one for one in needed if one is not pair]
-        if not _modulo(ring, difference, others):
-            needed = others
-    return [pair.angle for pair in needed]
-
-
-def _modulo(ring: Ring, poly: fmpq_mpoly, pairs: Iterable[Pair]) -> fmpq_mpoly:
-    """What is left of a polynomial where s² + c² = 1 for some angles."""
-    for pair in pairs:
-        s, c = (ring.generator(index).poly for index in (pair.sine, pair.cosine))
-        poly = divmod(poly, s * s + c * c - 1)[1]
-    return poly
-
-
-def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
-    """The angles whose s² + c² = 1 alone leads from one line to the other: θ₃, and not θ₂ and θ₂ + θ₃.
-
-    One of the ring is put for each angle; none where these are too few, or nothing is exchanged.
-    """
-    angles = list(
-        dict.fromkeys(angle for tree in (before, after) for angle in angles_in(tree) if angle.terms)
-    )
-    if len(angles) > len(ring.pairs) or {pair.angle for pair in ring.pairs}.issuperset(angles):
-        return []
-    stand_in = dict(zip(angles, ring.pairs, strict=False))
-
-    def exchanged(node: Node) -> Node:
-        match node:
-            case Function("sin" | "cos" as name, argument) if pair := stand_in.get(angle_from_tree(argument)):
-                return Function(name, angle_node(pair.angle, ring.names))
-        return node
-
-    difference = _unreduced(ring, mapped(before, exchanged)) - _unreduced(ring, mapped(after, exchanged))
-    if ring.reduce(difference):
-        return []
-    squared = _of_basic_angles(ring, difference)
-    return [angle for angle, pair in stand_in.items() if pair.angle in squared]
+    used = used_between(ring, before, after)
+    if used is None or not used.is_found:
+        return None if used is None else (_MANY,)
+    squared = (pythagoras(angle_node(angle, ring.names)) for angle in used.squared)
+    return (*squared, *(_addition(ring, each) for each in used.additions))
 
 
 def new_angles(ring: Ring, before: Iterable[Node], after: Iterable[Node]) -> list[Relation]:
     """What sines and cosines stand for of angles that are met first `after`: c² - s² = cos(2θ)."""
-    found = _additions(ring, Row(tuple(before)), Row(tuple(after)))
-    return list(dict.fromkeys(each.relation for each in found))
+    found = new_additions(Row(tuple(before)), Row(tuple(after)))
+    return list(dict.fromkeys(_relation(ring, each) for each in found))
 
 
 def pythagoras(angle: Node) -> Identity:
@@ -163,27 +109,6 @@ def pythagoras(angle: Node) -> Identity:
     found = formula("sin² {angle} + cos² {angle} = 1", angle=angle)
     assert isinstance(found, Relation)
     return Identity("", found)
-
-
-def angles_in(*nodes: Node) -> dict[Angle, set[str]]:
-    """The angles whose sines and cosines occur, and which of both."""
-    found: dict[Angle, set[str]] = {}
-    for part in dict.fromkeys(part for part in walk_once(*nodes) if isinstance(part, Function)):
-        if part.name in ("sin", "cos"):
-            found.setdefault(angle_from_tree(part.argument), set()).add(part.name)
-    return found
-
-
-def _additions(ring: Ring, before: Node, after: Node) -> Iterator[Identity]:
-    """The addition theorems by which new angles come about: each is A + B or A - B of old ones."""
-    old = list(angles_in(before))
-    for angle, names in angles_in(after).items():
-        if angle in old or -angle in old:
-            continue
-        twice = ((a, a, 1) for a in old if a + a == angle)
-        added = ((a, b, sign) for sign in (-1, 1) for a in old for b in old if a + b * sign == angle)
-        for a, b, sign in islice(chained(twice, added), 1):
-            yield from (_addition(ring, name, angle, a, b, sign) for name in sorted(names))
 
 
 _NAMES = {"sin": "sine", "cos": "cosine"}
@@ -197,16 +122,22 @@ _ADDED = {
 """The addition theorems: of the sine and the cosine of A + B and A - B."""
 
 
-def _addition(ring: Ring, name: str, angle: Angle, a: Angle, b: Angle, sign: int) -> Identity:
+def _addition(ring: Ring, each: Addition) -> Identity:
+    """The cosine of a difference, c₁ c₁₂ + s₁ s₁₂ = c₂, and the like."""
+    words = "a sum" if each.sign > 0 else "a difference"
+    whole = "twice an angle" if each.first == each.second else words
+    return Identity(f"the {_NAMES[each.name]} of {whole}", _relation(ring, each))
+
+
+def _relation(ring: Ring, each: Addition) -> Relation:
     """cos A cos B ∓ sin A sin B = cos(A ± B), sin A cos B ± cos A sin B = sin(A ± B), of these angles."""
+    name, a, b = each.name, each.first, each.second
     if name == "cos" and len(b.terms) < len(a.terms):
         a, b = b, a  # c₁ c₁₂ + s₁ s₁₂, as it stands in a line
-    words = "twice an angle" if a == b else "a sum" if sign > 0 else "a difference"
-    text = _TWICE[name] if a == b else _ADDED[name, sign]
-    whole, A, B = (angle_node(each, ring.names) for each in (angle, a, b))
-    return Identity(
-        f"the {_NAMES[name]} of {words}", equation(formula(text, A=A, B=B), Function(name, whole))
-    )
+    text = _TWICE[name] if a == b else _ADDED[name, each.sign]
+    whole, A, B = (angle_node(angle, ring.names) for angle in (each.whole, a, b))
+    sides = (formula(text, A=A, B=B), Function(name, whole))
+    return equation(*(reversed(sides) if each.opened else sides))
 
 
 # -- the identities by which the entries of a product of matrices become what is printed, and what cancels
@@ -271,50 +202,6 @@ def product_line(
     shown: list[Node] = [Product((Transpose(R_form), x_form))] if is_small(R_form, x_form) else []
     members = (factored(context, node) for node in (*shown, context.show(R.T @ x)))
     return Line(words, (equation(*names, *members),), uses, label)
-
-
-# -- the value of a tree as a polynomial before any relation is used: s² + c² is not yet 1 ---------
-# Two trees of the same exact value have the same unreduced value where only products were
-# multiplied out and terms collected on the way from one to the other.  Where the unreduced values
-# differ, an identity of sine and cosine was used; `identities` finds which.
-
-
-def _unreduced(ring: Ring, node: Node) -> fmpq_mpoly:
-    """The polynomial of a tree, products multiplied out and nothing else done.
-
-    Raises AlgebraError for a tree without a value in the ring.
-    """
-    of = partial(_unreduced, ring)
-    match node:
-        case Sum(terms):
-            return sum(map(of, terms), start=ring.zero.poly)
-        case Product(factors):
-            return prod(map(of, factors), start=ring.one.poly)
-        case Negative(argument):
-            return -of(argument)
-        case Parenthesized(argument):
-            return of(argument)
-        case Power(base, Number(p, 1)):
-            return of(base) ** p
-        case Quotient(numerator, denominator):
-            return of(numerator) * ring.inverse(value_of(ring, denominator)).poly
-        case Function("sin" | "cos" as name, argument):
-            return _cosine_and_sine(ring, angle_from_tree(argument))[name == "sin"]
-    return value_of(ring, node).poly
-
-
-@lru_cache(maxsize=256)  # the same few angles stand in every line of a robot's steps
-def _cosine_and_sine(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """(cos, sin) of an angle by the addition theorems alone: cos 2θ = c² - s²."""
-    if angle.degrees:
-        return ring.cos(angle).poly, ring.sin(angle).poly
-    c, s = ring.one.poly, ring.zero.poly
-    for pair, times in zip(ring.pairs, ring.multiples(angle), strict=True):
-        c1, s1 = ring.generator(pair.cosine).poly, ring.generator(pair.sine).poly
-        for _ in range(abs(times)):
-            turn = s1 if times > 0 else -s1
-            c, s = c * c1 - s * turn, s * c1 + c * turn
-    return c, s
 
 
 # -- the engine of lines ----------------------------------------------------------------------------

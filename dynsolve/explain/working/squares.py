@@ -25,6 +25,7 @@ from dynsolve.algebra.generators import Generator, Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.trig_identities import angles_in
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
@@ -39,7 +40,6 @@ from dynsolve.explain.working.identities import (
     Tactic,
     Way,
     Words,
-    angles_in,
     are_alike,
     chain,
     collected,
@@ -362,7 +362,7 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
     alone, together = _separate(ring, components)
     if not together:
         return []
-    if not {pair.angle for pair in ring.pairs}.issuperset(angles_in(*map(context.show, together))):
+    if not are_in_basic_angles(context, together):
         return None
     poly = sum((x.poly * x.poly for x in together), start=ring.zero.poly)
     found = groups(context.forms, poly)
@@ -394,6 +394,12 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
         ),
     )
     return [(by, multiplied), (identity, reduced)]
+
+
+def are_in_basic_angles(context: Context, components: Iterable[Expr]) -> bool:
+    """Whether some values are written in the angles of the ring alone."""
+    basic = {pair.angle for pair in context.robot.ring.pairs}
+    return basic.issuperset(angles_in(*map(context.show, components)))
 
 
 def _and_collected(words: Prose) -> Prose:
