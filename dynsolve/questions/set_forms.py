@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from contextlib import suppress
 from fractions import Fraction
 from math import isqrt, lcm, prod
@@ -108,9 +108,12 @@ class SetForms(Inequalities):
         is_long = any(abs(c * whole) > _MOST_WHOLE for c in coefficients)
         return 1 if is_long and is_numeric(self.robot) else whole
 
-    def vanishing(self, value: Expr) -> Node:
-        """What is 0 where an expression is, without the factors that never are."""
-        factors = (factor for factor, _ in trig_factors(value) if not is_positive(factor))
+    def vanishing(self, value: Expr, signed: Set[int] = frozenset()) -> Node:
+        """What is 0 where an expression is, without the factors that never are; 1 where there is no other.
+
+        `signed` are generators of parameters that may be 0 or negative.
+        """
+        factors = (f for f, _ in trig_factors(value) if not is_positive(f) or not signed.isdisjoint(f.used))
         return self._whole(prod(factors, start=value.ring.one))
 
     def product(self, value: Expr) -> Node:

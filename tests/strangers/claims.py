@@ -680,12 +680,17 @@ def _many_solutions(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<{}|The rest> has no solution, the rank being #; many come nearest to one, in the sense of least "
-    "squares, those with {}: this is the one ...",
+    "<{}|The rest> has <no solution[ in general]|a solution only where {&}>, the rank being #; many come "
+    "nearest to one, in the sense of least squares, those with {}: this is the one ...",
 )
 def _many_come_nearest(m: Mechanism, s: Sentence) -> bool:
     J = s.jacobian(m, m.point())
-    return rank(J) == int(s.words[1]) < min(J.shape)
+    return rank(J) == int(s.words[-1]) < min(J.shape)
+
+
+@says("All this holds where the rank of {} is #.")
+def _holds_where_rank(m: Mechanism, s: Sentence) -> bool:
+    return rank(s.jacobian(m, m.point())) == int(s.words[0])
 
 
 @says("The norm adds squares of lengths to squares of angles, so that it depends on the unit of length.")
@@ -900,7 +905,7 @@ def _entries(m: Mechanism, s: Sentence) -> bool:
     return rank(np.block(table)) >= count
 
 
-@says("{} is #×#, and its rank is # almost everywhere.")
+@says("{} is #×#, and its rank is at most #.")
 def _rank(m: Mechanism, s: Sentence) -> bool:
     for p in m.points(5):
         J = m.value(s.formulas[0], p)

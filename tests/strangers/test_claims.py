@@ -59,7 +59,7 @@ MOMENTUM = (
     "As long as {tau}, the Euler-Lagrange equation says that the momentum {p} (the angular momentum of the "
     "arm about {z}) is conserved."
 )
-RANK = "{J} is 2×2, and its rank is {i} almost everywhere."
+RANK = "{J} is 2×2, and its rank is at most {i}."
 HANGS = "At {e}: {stable}, but for {q}, along which nothing changes."
 
 KEPT = "What is asked must have {c}: no joint moves this."

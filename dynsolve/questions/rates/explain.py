@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.factors import is_never_zero
 from dynsolve.algebra.linear_systems import dependent_where, is_solvable, rank_parts
-from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
+from dynsolve.algebra.matrix import AtState, Matrix, determinant, minors, work
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
@@ -15,12 +16,12 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import of_task
 from dynsolve.explain.step import TOLD, Detail, Part, Step
-from dynsolve.explain.writing import column_of, is_small, side_by_side, spong
+from dynsolve.explain.writing import column_of, is_small, listed, side_by_side, spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ONE, ZERO, Node, Parenthesized, Power, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
-from dynsolve.questions.rates.derive import MOST_PRODUCTS, squared, wanted_by_accelerations
+from dynsolve.questions.rates.derive import MOST_PRODUCTS, lost_motions, squared, wanted_by_accelerations
 from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import Robot
 
@@ -105,11 +106,13 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
     elif is_solvable(J, right):
         how = say(" has many solutions{rank}: this is the one {least}. ", rank=deficient, least=least)
     elif rank == columns:
-        how = say(" has no solution: these come nearest to one, in the sense of least squares. ")
+        text = " has {none}: these come nearest to one, in the sense of least squares. "
+        how = say(text, none=_none(context, J, right))
     else:
         how = say(
-            " has no solution{rank}; many come nearest to one, in the sense of least squares, those with "
+            " has {none}{rank}; many come nearest to one, in the sense of least squares, those with "
             "{normal}: this is the one {least}. ",
+            none=_none(context, J, right),
             rank=deficient,
             normal=formula("𝐉_rᵀ 𝐉_r {x} = 𝐉_rᵀ {b}", x=x, b=in_product),
             least=least,
@@ -144,6 +147,7 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
             working.append(equation(formula("𝐉_rᵀ {b}", b=in_product), sides[1]))
     if rank < columns and weights is None and len({q.type for q in context.robot.coordinates}) > 1:
         how += _MIXED
+    how += _where_rank(J, rank)
     return Step(
         id=name,
         title=title,
@@ -156,6 +160,35 @@ def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, w
         notes=notes,
         detail=Detail.BRIEF,
     )
+
+
+def _none(context: Context, J: Matrix, right: Matrix) -> Prose:
+    """That J x = b has no solution, or where alone it has one: where Fᵀ b = 0 for all F with Jᵀ F = 0."""
+    lost, asked = lost_motions(J), context.robot.questions
+    if isinstance(lost, Skipped):
+        return ("no solution in general",)
+    values = [entry for one in (asked.velocity, asked.acceleration) if one for entry in one.entries]
+    given = {index for value in values for index in value.used}
+    given -= {index for entry in J.entries for index in entry.used}
+    forms = SetForms(context.robot, context.values)
+    found = [forms.vanishing(one, given) for one in (lost.T @ right).entries if not one.is_zero]
+    these = list(dict.fromkeys(found))
+    if ONE in these:
+        return ("no solution",)
+    if not is_small(*these):
+        return ("no solution in general",)
+    return say("a solution only where {these}", these=listed([equation(one, ZERO) for one in these]))
+
+
+def _where_rank(J: Matrix, rank: int) -> Prose:
+    """Where all is so that its rank decides, unless that is seen to be the same in every configuration."""
+    is_short = work(squared(J)) <= MOST_PRODUCTS
+    is_full = rank == min(J.shape)
+    if rank == 0 or (is_short and is_full and is_never_zero(determinant(squared(J)))):
+        return ()
+    if is_short and any(map(is_never_zero, minors(J, rank))):
+        return ()
+    return say("All this holds where the rank of $𝐉_r$ is {rank}. ", rank=rank)
 
 
 def square_of(letter: Node, matrix: Matrix) -> Node:
@@ -219,7 +252,7 @@ def _space(context: Context, name: str) -> Step:
         what = "Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost."
     return replace(
         found,
-        why=say("{what} {state}", what=say(what), state=_state_once(context, name)),
+        why=(*say(what), " ", *_where_rank(J, rank), *_state_once(context, name)),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
         notes=((f"The rank is {rank}, and the dimension of this space {count}.", *dependent),),

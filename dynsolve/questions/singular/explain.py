@@ -73,7 +73,7 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
     )
     working: tuple[Node, ...] = ()
     way, is_told = SILENT, False
-    text = "${J}$ is {rows}×{columns}, and its rank is {rank} almost everywhere. "
+    text = "${J}$ is {rows}×{columns}, and its rank is at most {rank}. "
     if found.core is not None:
         text += (
             "Its rows may be turned among each other, as by other axes, and multiples of rows and columns "

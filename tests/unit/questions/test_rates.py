@@ -122,6 +122,33 @@ def test_of_many_that_come_nearest_it_is_said_which_and_how() -> None:
     assert "The state is q₁ = 0, q₂ = 90°, q₃ = 0." in shown and "At q₁ = 0, q₂ = 90°, q₃ = 0:" in shown
 
 
+@pytest.mark.parametrize(
+    ("state", "velocity", "words"),
+    [
+        ("", "[v, w]", "one solution. All this holds where the rank of 𝐉_r is 2."),
+        (
+            "state: {q1: 0, q2: gamma}\n",
+            "[v, 0]",
+            "has one solution. All this holds where the rank of 𝐉_r is 2.",
+        ),
+        ("state: {q1: 0, q2: 90deg}\n", "[v, w]", "has one solution. The state is"),
+        ("state: {q1: 0, q2: 0}\n", "[v, w]", "has a solution only where v = 0, the rank being 1; many"),
+        ("state: {q1: 0, q2: 0}\n", "[l, w]", "has no solution, the rank being 1; many"),
+        (
+            "state: {q1: 0, q2: 0}\n",
+            "[v - u, w]",
+            "has a solution only where v - u = 0, the rank",
+        ),
+    ],
+)
+def test_it_is_said_for_which_configurations_and_velocities(state: str, velocity: str, words: str) -> None:
+    arm = "gravity: none\ndh: [{theta: q1*, a: l}, {theta: q2*, a: l}]\ntask: [tip.x, tip.y]\n"
+    text = f"{arm}{state}velocity: {velocity}\nfind: [qd, nullspace, lost]\n"
+    shown = " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
+    assert words in shown
+    assert ("no motion is lost. All this holds" in shown) == ("All this" in words)
+
+
 def test_equations_that_repeat_each_other_may_have_one_solution() -> None:
     arm = "dh: [{theta: q1*, a: 1}]\ntask: [tip.x, tip.y]\nstate: {q1: 0}\nvelocity: [0, v]\nfind: [qd]\n"
     (step,) = (step for step in dynsolve.solve(arm).steps if step.id == "qd")
