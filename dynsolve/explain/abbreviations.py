@@ -254,10 +254,6 @@ class Abbreviated(Struct, frozen=True):
         """The names of sums and symbols."""
         return frozenset(one.name for one in self.sums)
 
-    def put_symbols(self, node: Node) -> Node:
-        """A tree with the names of symbols in the places of what they mean; not with h, which is a glance."""
-        return symbols_put(self.of_symbols, node)
-
     @property
     def lists(self) -> tuple[str, ...]:
         """The lists that there are of them."""
@@ -265,7 +261,7 @@ class Abbreviated(Struct, frozen=True):
 
 
 def symbols_put(symbols: Iterable[Definition], node: Node) -> Node:
-    """A tree with the names of symbols in the places of what they mean; not with h."""
+    """A tree with the names of symbols in the places of what they mean; not with h, which is a glance."""
     for one in symbols:
         node = node if one.name == Symbol(SINGLE) else Exchange.of(one).put(node)
     return node

@@ -246,20 +246,12 @@ def _used(
 
 
 def ending_of_symbols(context: Context, results: Sequence[Node], way: Way) -> Ending:
-    """The end of the step of the Christoffel symbols, the slopes that they are made of by their names too."""
+    """The end of the step of the Christoffel symbols."""
     names = context.names
     if names is None or not names.at_symbols:
         return Ending(way.lines, way.concluding, tuple(results))
-    put_sums, put_symbols = names.inertias.put, names.put_symbols
-
-    def also_named(node: Node) -> Node:
-        if not isinstance(node, Relation):
-            return put_sums(node)
-        named = put_symbols(node.parts[-1])
-        return put_sums(node if named == node.parts[-1] else equation(*node.parts, named))
-
     used = _used(context, names, "christoffel", results, bool(way.lines and way.concluding))
-    ended = Ending(_in_lines(way.lines, also_named), way.concluding, tuple(results), tuple(used))
+    ended = Ending(_in_lines(way.lines, names.inertias.put), way.concluding, tuple(results), tuple(used))
     if "christoffel" not in context.introduced:
         return ended
     return _introducing(context, names, "christoffel", ended, ended)

@@ -196,7 +196,9 @@ def slopes(context: Context) -> Way:
     for i, j, q in varying(context):
         value = ring.diff(D[i, j], q.index - 1)
         slope = _derivative(context, forms[i][j], by_symbol(Symbol(q.name)), value, context.show(value))
-        shown.append(equation(*dict.fromkeys((_slope(i, j, q), slope.tree, slope.expanded, slope.form))))
+        named = _slope_in_names(context, i, j, q.index - 1)
+        ways = (_slope(i, j, q), slope.tree, slope.expanded, slope.form, *named)
+        shown.append(equation(*dict.fromkeys(ways)))
         found.append(slope)
     if not any(each.by_product_rule or each.used for each in found):
         return SILENT
@@ -213,6 +215,17 @@ def slopes(context: Context) -> Way:
 def _slope(i: int, j: int, q: Coordinate) -> Node:
     """∂d_ij/∂q"""
     return letters.partial_derivative(letters.entry("d", i + 1, j + 1), Symbol(q.name))
+
+
+def _slope_in_names(context: Context, i: int, j: int, k: int) -> tuple[Node, ...]:
+    """∂d_ij/∂q_k = c_kji + c_kij, of indices from 0, where each of these is a name that is known, not h."""
+    if context.names is None or context.names.single is not None:
+        return ()
+    own = {*context.names.of_symbols} - {*context.introduced.get("christoffel", ())}
+    both = [node for node in (context.symbol(k, j, i), context.symbol(k, i, j)) if node != ZERO]
+    if not {part for part in walk(*both) if isinstance(part, Symbol)} <= {one.name for one in own}:
+        return ()
+    return (times(2, [(both[0], 1)]) if both[1:] == both[:1] else total(both),)
 
 
 def varying(context: Context) -> Iterator[tuple[int, int, Coordinate]]:

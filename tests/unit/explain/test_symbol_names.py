@@ -265,6 +265,28 @@ def test_the_summary_tells_where_names_stand(problem: str) -> None:
         assert (letter in text.parts) == (not names.isdisjoint(walk(entry[1])))
 
 
+IN_NUMBERS = """
+gravity: [0, 0, -9.81]
+dh: [{theta: q1*, d: 0.3, alpha: 90deg}, {theta: q2*, a: 0.5, d: 0.2}, {theta: q3*, a: 0.4}]
+masses:
+  - {mass: 2, name: 2, link: 2, center: tip}
+  - {mass: 1.5, name: 3, link: 3, center: tip}
+"""
+
+
+@pytest.mark.parametrize("problem", ["puma560-first3", IN_NUMBERS])
+def test_slopes_end_in_the_names_of_symbols(problem: str) -> None:
+    """∂d_kj/∂q_i is c_ijk + c_ikj; no part of it has a name by accident, as 0.48 c₂₃ = 4σ₄."""
+    names, values = named(problem).symbols, known(problem)
+    lines = [node for line in steps(problem)["christoffel"].lines for node in line.formulas]
+    slopes = [node for node in lines if isinstance(node, Relation) and node.parts[0] not in names]
+    assert slopes
+    for slope in slopes:
+        *_, before, last = slope.parts
+        assert {part for part in walk(last) if isinstance(part, Symbol)} <= names, to_unicode(slope)
+        assert evaluate(last, values) == pytest.approx(evaluate(before, values))
+
+
 def test_forces_beside_a_matrix_with_h_have_it_too() -> None:
     """Where the whole model is not asked for, and so is not there, the rows are written as C is."""
     asked = find("planar-2r").read_text().replace("find: [D, C, g, tau]", "find: [C, tau]")
