@@ -32,36 +32,44 @@ Swings = dict[Multiples, tuple[Expr, Expr]]
 """{n: (A, B)} of Σ A cos(n·q) + B sin(n·q)."""
 
 
-def conditions(values: Iterable[Expr], signs: ParameterSigns) -> tuple[Bound, ...] | None:
+def conditions(values: Sequence[Expr], signs: ParameterSigns) -> tuple[Bound, ...] | None:
     """What the parameters must satisfy for these to be 0 somewhere; None where they never are.
 
     Each is looked at apart, but for what fixes an angle at quarter turns; nothing is said where the choice
-    of these leaves several conditions of which one is enough.
+    of these leaves several conditions of which one is enough.  The square of a length is not negative.
     """
     known = [swings for value in values if (swings := _swings(value)) is not None]
-    left = [swings for swings in known if not _quarters(swings)]
-    choices = [[(n, *at) for n in swings if any(n) for at in _quarters(swings)] for swings in known]
-    choices = [one for one in choices if one]
-    found = []
-    for fixed in product(*choices) if 2 ** len(choices) <= MOST_BRANCHES else [()]:
-        held = [n for n, _, _ in fixed]
-        bounds = [_reach(_at(swings, fixed), held, signs) for swings in left]
-        if None not in bounds:
-            found.append(tuple(dict.fromkeys(bound for one in bounds for bound in one or ())))
-    return _weakest(found, signs) if found else None
+    found = [bounds for _, bounds in _choices(known, signs)]
+    squares = (square for value in values if (square := square_of(value)) is not None)
+    lengths = _bounds([-(factor * rest) for _, factor, rest in squares], signs)
+    return (*_weakest(found, signs), *lengths) if found and lengths is not None else None
 
 
-def is_seen(values: Iterable[Expr], signs: ParameterSigns) -> bool:
+def square_of(zero: Expr) -> tuple[int, Expr, Expr] | None:
+    """(generator d, m, n) of m d² + n with a length d, and m and n of parameters alone; None of any other."""
+    ring, degrees = zero.ring, zero.poly.degrees()
+    for name, kind in ring.coordinates:
+        index = ring.symbol_indices[name, 0]
+        if kind == "prismatic" and degrees[index] == 2:
+            d = ring.generator(index)
+            factor = ring.diff(ring.diff(zero, ring.names.index(name)), ring.names.index(name)) / 2
+            rest = zero - factor * d * d
+            if not any(map(ring.depends_on_coordinates, (factor, rest))):
+                return index, factor, rest
+    return None
+
+
+def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     """Whether `conditions` are enough for these to be 0 together.
 
     Those in which the same coordinates stand are looked at together.  They are 0 where no angle stands in two
     of their swings, where they are so at quarter turns without lengths, whatever the parameters, or where one
-    stands alone and is positive somewhere and negative elsewhere.
+    stands alone and is positive somewhere and negative elsewhere, or the square of a length less a number.
     """
     return all(
         _swing_apart(group, signs)
         or any(all(map(_is_zero, at)) for at in _at_quarters(group))
-        or (len(group) == 1 and _changes_sign(group[0], signs))
+        or (len(group) == 1 and (square_of(group[0]) is not None or _changes_sign(group[0], signs)))
         for group in _apart(values)
     )
 
@@ -91,13 +99,38 @@ def _coordinates(value: Expr) -> list[str]:
 
 
 def _swing_apart(values: Sequence[Expr], signs: ParameterSigns) -> bool:
-    """Whether no angle stands in two of the swings, of each of which the size is known."""
-    known = [_swings(value) for value in values]
-    angles = [[float(i) for i in n] for swings in known if swings is not None for n in swings if any(n)]
-    if None in known or (angles and rank(angles, 0.1) < len(angles)):
+    """Whether no angle stands in two of the swings, of each of which the size is known.
+
+    Quarter turns that some of the values fix are put into the others.
+    """
+    found = [_swings(value) for value in values]
+    known = [swings for swings in found if swings is not None]
+    enough = conditions(values, signs) or ()
+    return len(known) == len(values) and any(
+        _are_apart(left, signs) and {*bounds}.issubset(enough) for left, bounds in _choices(known, signs)
+    )
+
+
+def _are_apart(known: Sequence[Swings], signs: ParameterSigns) -> bool:
+    angles = [[float(i) for i in n] for swings in known for n in swings if any(n)]
+    if angles and rank(angles, 0.1) < len(angles):
         return False
-    moving = [[both for n, both in swings.items() if any(n)] for swings in known if swings is not None]
+    moving = [[both for n, both in swings.items() if any(n)] for swings in known]
     return all(len(parts) == 1 or all(_size(both, signs) is not None for both in parts) for parts in moving)
+
+
+def _choices(
+    known: Sequence[Swings], signs: ParameterSigns
+) -> Iterator[tuple[list[Swings], tuple[Bound, ...]]]:
+    """At each choice of the quarter turns that some fix, the others, and what they need to be 0 somewhere."""
+    left = [swings for swings in known if not _quarters(swings)]
+    turns = [[(n, *at) for n in swings if any(n) for at in _quarters(swings)] for swings in known]
+    turns = [one for one in turns if one]
+    for fixed in product(*turns) if 2 ** len(turns) <= MOST_BRANCHES else [()]:
+        there = [_at(swings, fixed) for swings in left]
+        bounds = [_reach(swings, [n for n, _, _ in fixed], signs) for swings in there]
+        if None not in bounds:
+            yield there, tuple(dict.fromkeys(bound for one in bounds for bound in one or ()))
 
 
 def _is_zero(value: Expr) -> bool:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.factors import is_positive, trig_factors, trig_quotient
+from dynsolve.algebra.compact.terms import whole_content
+from dynsolve.algebra.factors import is_positive, ratio, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.explain.forms import is_numeric, leading_names, parallel_coordinates
-from dynsolve.notation.tree import Relation
+from dynsolve.explain.forms import ProductForms, is_numeric, leading_names, parallel_coordinates
+from dynsolve.notation.build import cost
+from dynsolve.notation.tree import ZERO, Node, Relation
 from dynsolve.robot.model import Robot
 
 _TURNED = {">": "<", "≥": "≤", "<": ">", "≤": "≥"}
@@ -37,17 +40,38 @@ class Inequalities:
             for shared, exponent in trig_factors(value):
                 if is_positive(shared):
                     value = trig_quotient(value, shared**exponent) or value
+        left, right = self._apart(value)
+        squares = [ProductForms(self.compactor(ring)).form(one * one) for one in _squared(value)]
+        if squares and sum(map(cost, squares)) < cost(left) + cost(right):
+            left, right = squares
+        elif left == ZERO:
+            left, right, sign = right, left, _TURNED.get(sign, sign)
+        return Relation((left, right), (sign,))
+
+    def _apart(self, value: Expr) -> list[Node]:
+        """What is positive of a value, and what is negative, as formulas."""
         sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
         for exponents, factor in value.poly.to_dict().items():
             sides[factor < 0][exponents] = abs(factor)
-        form = self.compactor(ring).form
-        left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
-        if not sides[0]:
-            left, right, sign = right, left, _TURNED.get(sign, sign)
-        return Relation((left, right), (sign,))
+        ring, form = value.ring, self.compactor(value.ring).form
+        return [form(Expr(ring, ring.ctx.from_dict(side))) for side in sides]
 
     def compactor(self, ring: Ring) -> Compactor:
         """The compactor of a ring of the search: the values of the task lead its sums, then masses."""
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
+
+
+def _squared(value: Expr) -> list[Expr]:
+    """a and b where a value is a² - b² times a number, the product of a + b and a - b."""
+    factors = trig_factors(value)
+    if len(factors) != 2 or any(exponent != 1 for _, exponent in factors):
+        return []
+    (one, _), (other, _) = factors
+    sign = ratio(value, one * other)
+    if sign not in (value.ring.one, -value.ring.one):
+        return []
+    found = [one + other, one - other]
+    shared = whole_content([fraction(number) for part in found for number in part.poly.coeffs()])
+    return [part / shared for part in (found if sign == value.ring.one else found[::-1])]

@@ -534,14 +534,17 @@ def _rank_where_held(m: Mechanism, s: Sentence) -> bool:
 
 @says(
     "<At {&}|In equilibrium[ at {&}]|In case #[ at {&}]|In every configuration>: <stable|not stable>"
-    "[, but for {&}, along which nothing changes]."
+    "[, but for {&}, <along which nothing changes|with any value of which it is an equilibrium>]."
 )
 def _stable(m: Mechanism, s: Sentence) -> bool:
     still = names_of(tuple(node for node in s.formulas if isinstance(node, tree.Symbol)))
     told = tuple(node for node in s.formulas if not isinstance(node, tree.Symbol))
-    found = _stable_there(m, s, told, s.words[-1], ())
+    *_, kind, beside = s.words
+    found = _stable_there(m, s, told, kind, ())
     if not found:
         raise Unknown
+    if beside.startswith("with any value"):
+        return all(found)
     return not any(m.changes(m.at_rest, (q,)) for q in still) and all(found)
 
 
@@ -838,6 +841,28 @@ def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
     return bool(found) and all(found)
 
 
+@says(
+    "<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>[, where {}]: "
+    "<not stable> where <{}|{} or {}>.",
+)
+def _falls_where(m: Mechanism, s: Sentence) -> bool:
+    at, several = s.words[0].count("{}"), s.words[-1].count("{}")
+    *inside, _ = s.formulas[at : len(s.formulas) - several + 1]
+    found = [
+        _stable_there(m, s, s.formulas[:at], "not stable", (*inside, one)) for one in s.formulas[-several:]
+    ]
+    return any(found) and all(map(all, found))
+
+
+@says(
+    "Where {&}, {}, too; but with {} the coordinates do not tell there how the bodies move: "
+    "it need not be an equilibrium."
+)
+def _no_coordinates(m: Mechanism, s: Sentence) -> bool:
+    where = m.where(tree.Row(s.formulas[:-2]))
+    return near(m.at_rest(where), 0) and near(np.linalg.det(m.result("D", where)), 0)
+
+
 @says("<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>, where {}: <not stable>.")
 def _falls_inside(m: Mechanism, s: Sentence) -> bool:
     at = s.words[0].count("{}")
@@ -852,6 +877,8 @@ def _stable_there(
     points = (point for seed in range(60) for point in _equilibria(m, s, told, seed))
     meeting = (point for point in points if all(m.holds(one, point) for one in conditions))
     still = names_of(tuple(node for node in s.formulas if isinstance(node, Symbol)))
+    if {*still} & {*tree.names_in(*conditions)}:  # it moves to where they do not hold
+        return [False]
     return [m.is_stable(point, kind, still) for point in islice(meeting, 3)]
 
 

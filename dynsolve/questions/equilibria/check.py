@@ -147,14 +147,17 @@ def verify_equilibria(
     cases: Sequence[Case],
     holds: Callable[[Mapping[str, float]], bool] = lambda at: True,
     constraints: Node | None = None,
+    unknown: Sequence[Sequence[Node]] = (),
 ) -> None:
     """Compare the cases with the forces, which are those of `balanced_forces`; `holds` is that of `holding`.
 
-    `constraints` is A_c where an energy decides on the stability of what constraints hold.  Raises
+    `constraints` is A_c where an energy decides on the stability of what constraints hold; of the sets that
+    are `unknown` nothing is told.  Raises
     VerificationError where an equilibrium is none, one is missing, or its stability is another.
     """
     forces = compile_trees(list(zeros))
     programs = [compile_trees(list(case.zeros)) for case in cases]
+    untold = [compile_trees(list(one)) for one in unknown]
     left_out = [[compile_trees(list(one)) for one in case.excluded] for case in cases]
     for start in starts(robot):
         for program, without, case in zip(programs, left_out, cases, strict=True):
@@ -170,7 +173,7 @@ def verify_equilibria(
                 raise VerificationError("an equilibrium is left out; this is a fault of dynsolve")
         found = zero_near(robot, forces, start)
         is_one = found is not None and holds(found)
-        if found is not None and is_one and not _lies_in_any(robot, programs, found):
+        if found is not None and is_one and not _lies_in_any(robot, [*programs, *untold], found):
             raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
     whole = compile_trees([balanced, *([constraints] if constraints else [])])
     for program, case in zip(programs, cases, strict=True):
@@ -226,7 +229,7 @@ def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
         is_told = bool(point.nonzero) or point.stability is Stability.STABLE
         return True if is_told else {Stability.UNSTABLE: False}.get(point.stability)
     least = min(evaluate(bound.value, at) for bound in point.conditions)
-    return None if least == 0 else least > 0
+    return None if least == 0 or (least > 0 and point.is_open) else least > 0
 
 
 def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Point) -> None:
@@ -331,7 +334,8 @@ def verify(held: Held) -> None:
         balanced = forms(balanced_forces(robot))
         zeros, holds = in_balance(forms, balanced), holding(forms, balanced)
         A = forms("Ac") if robot.questions.constraints else None
-        verify_equilibria(robot, balanced, zeros, [Case(*case) for case in told], holds, A)
+        unknown = [[*map(shown.condition, case)] for case in values["equilibria"].singular]
+        verify_equilibria(robot, balanced, zeros, [Case(*case) for case in told], holds, A, unknown)
         programs = [compile_trees(list(case)) for case in shown.equilibria]
         for k, sets in enumerate(shown.excluded):
             others = [*programs[:k], *programs[k + 1 :]]

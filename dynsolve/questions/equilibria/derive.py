@@ -22,7 +22,7 @@ def rules(robot: Robot) -> Iterator[Rule]:
     elif robot.questions.constraints:
         yield Rule("equilibria", ("g", "Ac", "hc"), partial(constrained_equilibria, robot))
     else:
-        yield Rule("equilibria", ("g",), partial(equilibria, robot))
+        yield Rule("equilibria", ("g", "D"), partial(equilibria, robot))
     if robot.questions.model.linearize:
         acting = (*outside_names(robot), *robot.actions.resistance)
         yield Rule("linear_A", ("D", "g", *acting), partial(linearization.state_matrix, robot))

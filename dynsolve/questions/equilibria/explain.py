@@ -146,7 +146,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     notes: list[Prose] = []
     if not cases:
         never = "No configuration makes all of them 0{where}." if found.is_whole else _NEVER_HELD
-        of_free = [] if is_never else [say(never, where=where)]
+        of_free = [] if is_never or found.singular else [say(never, where=where)]
         notes.append(say("There is no equilibrium{where}.", where=where))
     elif not cases[0]:
         of_free = [say("Nothing is left to be 0{where}.", where=where)]
@@ -156,6 +156,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         notes += shown.existence("equilibria", found.exist, found.is_seen)
         notes += _unseen(found)
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
+    notes += _singular(shown, found)
     notes += [note for one in found.special for note in _special(shown, one)]
     if found.may_be_others:
         notes.append(("For special values of the parameters there may be others.",))
@@ -212,6 +213,14 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
             yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}{but}{general}.", where=as_row(zero))
     if found.may_be_dependent:
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
+
+
+def _singular(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
+    """Where D has no inverse, so that no force has to be 0 for the bodies to stay."""
+    for case in found.singular:
+        zero = listed([equation(shown.condition(one), Number(0)) for one in case])
+        text = "Where {zero}, $𝐠 = 𝟎$, too; but with $det 𝐃 = 0$ the coordinates do not tell there how the "
+        yield say(f"{text}bodies move: it need not be an equilibrium.", zero=zero)
 
 
 def _unseen(found: Equilibria) -> Iterator[Prose]:
@@ -443,28 +452,35 @@ def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Pros
 def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Prose) -> Prose:
     """At q₁ = -90°, q₂ = 0: stable."""
     said = _VERDICTS[point.stability]
+    needed = [*map(shown.inequality, point.conditions), *(shown.comparison(f, "≠") for f in point.nonzero)]
     if point.is_open:
         said = ("not told here",)
-    needed = [*map(shown.inequality, point.conditions), *(shown.comparison(f, "≠") for f in point.nonzero)]
-    if needed:
+    elif needed:
         said = say("stable where {all}", all=listed(needed))
     if point.falls:
-        fails: Prose = ("one of these inequalities is reversed",)
-        if len(point.conditions) == 1:
-            fails = (shown.comparison(point.conditions[0].value, "<"),)
-        said = say("{stable}, not stable where {fails}", stable=said, fails=fails)
-    steady = dict(context.robot.questions.model.steady)
-    names = [context.robot.coordinates[k].name for k in point.neutral]
+        fails = [shown.comparison(bound.value, "<") for bound in point.conditions]
+        one: Prose = ("one of these inequalities is reversed",) if len(fails) > 1 else (fails[0],)
+        said = say("{stable}, not stable where {one}", stable=said, one=one)
+        if point.is_open:
+            said = say("not stable where {fails}", fails=listed(fails, "or"))
+    robot = context.robot
+    steady = dict(robot.questions.model.steady)
+    names = [robot.coordinates[k].name for k in point.neutral]
     free = listed([Symbol(name) for name in names if name not in steady])
+    forces = forces_of_motion(context) if steady else context.values["g"]
+    slopes = (robot.ring.diff(force, k) for force in forces.entries for k in point.neutral)
+    changes = any(not slope.is_zero for slope in slopes)
     if point.inside:
         inside = side_by_side([*map(shown.inequality, point.inside)])
         place = say("{place}, where {inside}", place=place, inside=inside)
-    is_held = point.is_told and point.stability is not Stability.UNSTABLE
-    along = say(", but for {free}, along which nothing changes", free=free) if free and is_held else ""
+    is_held = point.is_told and not point.is_open and point.stability is not Stability.UNSTABLE
+    along = say(", but for {free}, {why}", free=free, why=_AT_ANY[changes]) if free and is_held else ""
     if point.drifts:
         along = (", but for motions along the equilibria, in which nothing changes",)
     return say("{place}: {said}{along}.", place=place, said=said, along=along)
 
+
+_AT_ANY = ("along which nothing changes", "with any value of which it is an equilibrium")
 
 _VERDICTS: dict[Stability, Prose] = {
     Stability.STABLE: ("stable",),

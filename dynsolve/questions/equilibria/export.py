@@ -42,7 +42,7 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
             return {"stability": Stability.UNDECIDED.value, "unstable_if": written(point.inside)}
         bounds = (*point.inside, *point.conditions)
         needed = [*written(bounds), *(_nonzero(shown, printer, factor) for factor in point.nonzero)]
-        conditions = {"stable_if": needed} if needed else {}
+        conditions = {"stable_if": needed} if needed and not point.is_open else {}
         if point.falls:
             conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])
         return {"stability": point.stability.value, **conditions}

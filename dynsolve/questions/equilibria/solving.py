@@ -28,7 +28,8 @@ from msgspec import Struct
 
 from dynsolve.algebra.factors import trig_factors
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.linear_systems import part
+from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
@@ -40,7 +41,7 @@ from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, lies_in
 from dynsolve.derivation.singular.zeros import Condition, never_together
 from dynsolve.questions.equilibria.multipliers import Multipliers, Settled, remainder
-from dynsolve.questions.equilibria.stability import MOST_SHOWN_TERMS, Curvature, Point
+from dynsolve.questions.equilibria.stability import MOST_PRODUCTS, MOST_SHOWN_TERMS, Curvature, Point
 from dynsolve.questions.parameters.derive import generators
 from dynsolve.robot.model import Robot
 
@@ -80,7 +81,8 @@ class Equilibria(Struct, frozen=True):
     `special` is; where there `may_be_others`, that are not told, for general parameters.  With constraints
     each is without the sets that are `excluded`, and further sets on which there are no multipliers are left
     out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.  `never` has conditions
-    that are no case, and what is not 0 where they hold.  Of what `is_seen` the inequalities are all.
+    that are no case, and what is not 0 where they hold.  Of what `is_seen` the inequalities are all.  Of the
+    `singular` it is not known whether they are equilibria.
     """
 
     rows: tuple[Expr, ...]
@@ -94,6 +96,7 @@ class Equilibria(Struct, frozen=True):
     may_be_dependent: bool = False
     never: tuple[tuple[Alternative, Expr], ...] = ()
     is_seen: tuple[bool, ...] = ()
+    singular: tuple[Alternative, ...] = ()
 
 
 def held_elsewhere(found: Equilibria, number: int, without: Alternative) -> list[int]:
@@ -133,16 +136,22 @@ def multipliers(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Multiplie
 def constrained_equilibria(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Equilibria | Skipped:
     """The configurations in which multipliers hold the forces, and h is 0."""
     held = multipliers(robot, forces, A, h)
-    return equilibria(robot, forces, held) if held.allowed.is_whole else Skipped(NOT_SHOWN)
+    return equilibria(robot, forces, held=held) if held.allowed.is_whole else Skipped(NOT_SHOWN)
 
 
 def equilibria(
-    robot: Robot, forces: Matrix, held: Multipliers | None = None, may_be_held: bool = False
+    robot: Robot,
+    forces: Matrix,
+    inertia: Matrix | None = None,
+    *,
+    held: Multipliers | None = None,
+    may_be_held: bool = False,
 ) -> Equilibria | Skipped:
     """The configurations where the forces (n×1) are 0 in every row that no motor holds.
 
     The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
-    `Curvature`.  Where constraints act, they are `held` by these multipliers.
+    `Curvature`.  Where constraints act, they are `held` by these multipliers.  Coordinates of a model are no
+    coordinates where D, its `inertia`, has no inverse: a mass that falls through r = 0 has g = 0 there, too.
     """
     wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held.zeros(held.rank)]
     if sum(map(len, wanted)) > MOST_TERMS:
@@ -179,6 +188,9 @@ def equilibria(
         for one in alternatives
         if (exist := conditions([condition.expr for condition in one], signs)) is not None
     }
+    mass = inertia and not robot.has_table and inertia.map(there)
+    singular = [one for one in found if mass and _is_singular(mass, one)]
+    found = {one: exist for one, exist in found.items() if one not in singular}
     for condition in (condition for one in found for condition in one):
         if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free
             special.add(condition.linear[0])
@@ -194,7 +206,10 @@ def equilibria(
             special.add(condition.multiplier(second.entries))
         nonzero = (*special.factors, *of_rank.factors)
         curvature = Curvature(second, signs.beside(nonzero=nonzero), may_be_held, constrained)
-        points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
+        points = tuple(
+            tuple(point for point in curvature.points(one, exist) if not _is_told_of_more(point, one, found))
+            for one, exist in found.items()
+        )
     short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
     cases = [_special_case(factor, [*map(there, wanted)], constrained, signs) for factor in short]
     if settled and constrained:
@@ -210,8 +225,36 @@ def equilibria(
         tuple(excluded.get(one, ()) for one in found),
         settled is None or settled.is_whole,
         settled is None,
-        (*special.never, *(_never(one, signs) for one in alternatives if one not in found)),
+        (*special.never, *(_never(one, signs) for one in alternatives if one not in (*found, *singular))),
         tuple(_is_seen(one, signs) for one in found),
+        tuple(singular),
+    )
+
+
+def _is_singular(inertia: Matrix, case: Alternative) -> bool:
+    """Whether D has no inverse in a case, as coordinates move no body there and are not all free.
+
+    Where they are free forces are 0 in whatever direction the bodies move: a pendulum that hangs.
+    """
+    known = [condition.expr for condition in case]
+    heavy = [k for k in range(len(inertia.rows)) if not inertia[k, k].is_zero]
+    idle = [k for k in heavy if lies_in(known, [inertia[k, k]])]
+    if any(not inertia.ring.diff(one, k).is_zero for one in known for k in idle):
+        return True
+    rest = tuple(k for k in heavy if k not in idle)
+    moving = part(inertia, rest, rest)
+    if not rest or work(moving) > MOST_PRODUCTS:
+        return False
+    size = determinant(moving)
+    return not size.is_zero and lies_in(known, [size])
+
+
+def _is_told_of_more(point: Point, own: Alternative, cases: Iterable[Alternative]) -> bool:
+    """Whether a point of a case lies in one with fewer conditions, of which the same is told."""
+    known = point.put([condition.expr for condition in own])
+    return any(
+        len(case) < len(own) and lies_in(known, point.put([condition.expr for condition in case]))
+        for case in cases
     )
 
 

@@ -31,7 +31,7 @@ from dynsolve.algebra.linear_systems import part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
-from dynsolve.derivation.existence import DEGREES, conditions
+from dynsolve.derivation.existence import DEGREES, conditions, square_of
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.questions.equilibria.multipliers import Along, Multipliers
@@ -86,7 +86,7 @@ class Point(Struct, frozen=True):
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
     sides are equal nothing is said, nor where one of `nonzero` is 0.  Coordinates stand in conditions
-    where their values are not known; `is_open` says that these are too long to be told.  All this is so
+    where their values are not known; `is_open` says that it is not told where it is stable.  All this is so
     where the case is there and none of its bounds, `inside`, is an equality.  `along` is what constraints
     leave of the second derivatives.
     """
@@ -106,6 +106,10 @@ class Point(Struct, frozen=True):
     def is_told(self) -> bool:
         """Whether something is known."""
         return bool(self.conditions or self.nonzero) or self.stability is not Stability.UNDECIDED
+
+    def put(self, exprs: Sequence[Expr]) -> list[Expr]:
+        """What expressions are at its quarter turns."""
+        return list(_put(Matrix.column(exprs[0].ring, exprs), self.values).entries) if exprs else []
 
 
 class Curvature(Struct, frozen=True):
@@ -138,7 +142,7 @@ class Curvature(Struct, frozen=True):
         for point in self._points(alternative, exists):
             nonzero = tuple(factor for factor in point.nonzero if self._may_vanish(factor, alternative))
             left = tuple(bound for bound in point.conditions if not self._always_holds(bound, alternative))
-            if (point.nonzero or point.conditions) and not (nonzero or left):
+            if (point.nonzero or point.conditions) and not (nonzero or left or point.is_open):
                 point = replace(point, stability=Stability.STABLE, falls=False)
             yield replace(point, nonzero=nonzero, conditions=left)
 
@@ -146,7 +150,7 @@ class Curvature(Struct, frozen=True):
         """Whether an inequality holds wherever the case does, as far as the squares of lengths show."""
         value = bound.value
         for condition in alternative:
-            if (square := _square_of(condition.expr)) is not None:
+            if (square := square_of(condition.expr)) is not None:
                 value = _at_square(value, *square)
         return value != bound.value and self.signs.is_positive(value)
 
@@ -227,6 +231,7 @@ class Curvature(Struct, frozen=True):
             return Point(values, Stability.UNDECIDED, neutral, is_open=bool(rest))
         if not self.may_be_held and _falls(minor, rest, signs):
             return Point(values, Stability.UNSTABLE, neutral)
+        rest = tuple(sorted(rest, key=lambda k: not signs.is_positive(signs.open_part(minor((k,))))))
         leading = [minor(rest[:k]) for k in range(1, len(rest) + 1)]
         nonzero = tuple(dict.fromkeys(factor for one in leading for factor in signs.even_factors(one)))
         signs = signs.beside(nonzero=nonzero)
@@ -248,6 +253,10 @@ class Curvature(Struct, frozen=True):
         falls = bool(conditions) and not self.may_be_held
         inside = self.signs.beside(*conditions)
         apart = tuple(factor for factor in nonzero if any(inside.open_factors(factor)))
+        ring = second.ring
+        if any(not ring.diff(sign, k).is_zero for sign in (*left, *nonzero) for k in neutral):
+            told = conditions if falls else ()  # along what is neutral it comes to where they do not hold
+            return Point(values, Stability.UNDECIDED, neutral, told, (), falls, is_open=True)
         return Point(values, Stability.UNDECIDED, neutral, conditions, apart, falls)
 
 
@@ -256,8 +265,11 @@ Minor = Callable[[tuple[int, ...]], Expr]
 
 
 def _falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
-    """Whether the energy surely falls in some direction: a principal minor is negative."""
-    return any(signs.is_positive(-minor(chosen)) for chosen in _principal(rest))
+    """Whether the energy surely falls in some direction: one of two principal minors is negative."""
+    minors = [signs.open_part(minor(chosen)) for chosen in _principal(rest)]
+    if any(signs.is_positive(-one) for one in minors):
+        return True
+    return any(signs.is_positive(-(one + other)) for one, other in combinations(minors, 2))
 
 
 def _never_falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
@@ -272,14 +284,23 @@ def _principal(rest: Sequence[int]) -> Iterator[tuple[int, ...]]:
 
 
 def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
-    """Whether k - m g l cos q > 0 for all q: what is linear in each sine and cosine is least at ±1."""
-    ring, degrees = value.ring, value.poly.degrees()
-    turning = [i for pair in ring.pairs for i in (pair.sine, pair.cosine) if degrees[i] > 0]
-    if not turning or len(turning) > MOST_TURNING or any(degrees[index] > 1 for index in turning):
+    """Whether k - m g l cos q > 0 for all q: what is linear in x, or in x², of each sine and cosine x.
+
+    It is least where x is 1 or -1, or where x² is 1 or 0.
+    """
+    ring, monomials = value.ring, value.poly.monoms()
+    turning = [i for pair in ring.pairs for i in (pair.sine, pair.cosine) if any(m[i] for m in monomials)]
+    powers = [{int(m[i]) for m in monomials} for i in turning]
+    if (
+        not turning
+        or len(turning) > MOST_TURNING
+        or not all(each <= {0, 1} or each <= {0, 2} for each in powers)
+    ):
         return False
+    ends = [(1, -1) if 1 in each else (1, 0) for each in powers]
     return all(
-        signs.is_positive(with_numbers(value, dict(zip(turning, ends, strict=True))))
-        for ends in product((1, -1), repeat=len(turning))
+        signs.is_positive(with_numbers(value, dict(zip(turning, numbers, strict=True))))
+        for numbers in product(*ends)
     )
 
 
@@ -306,20 +327,6 @@ def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
             flat = Condition(zero).reduced_together(matrix.entries)
             matrix = Matrix.of(matrix.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
     return matrix
-
-
-def _square_of(zero: Expr) -> tuple[int, Expr, Expr] | None:
-    """(generator d, m, n) of m d² + n with a length d, and m and n of parameters alone; None of any other."""
-    ring, degrees = zero.ring, zero.poly.degrees()
-    for name, kind in ring.coordinates:
-        index = ring.symbol_indices[name, 0]
-        if kind == "prismatic" and degrees[index] == 2:
-            d = ring.generator(index)
-            factor = ring.diff(ring.diff(zero, ring.names.index(name)), ring.names.index(name)) / 2
-            rest = zero - factor * d * d
-            if not any(map(ring.depends_on_coordinates, (factor, rest))):
-                return index, factor, rest
-    return None
 
 
 def _at_square(value: Expr, index: int, factor: Expr, rest: Expr) -> Expr:

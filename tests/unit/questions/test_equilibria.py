@@ -974,3 +974,82 @@ springs: [{energy: "-cos(a)/3 + cos(a)^2/2"}]
 find: [equilibria]
 """
     assert "3cos(a) - 1 = 0" in " ".join(map(to_unicode, told_of(ring).result))
+
+
+MASS = """
+gravity: {gravity}
+model: {{coordinates: {{{coordinates}}}, bodies: [{{mass: m, at: {at}}}]}}
+springs: [{{energy: "{energy}"}}]
+find: [equilibria]
+"""
+POLAR = "[r*sin(a), -r*cos(a), 0]"
+SPHERICAL = "[l*sin(t)*cos(p), l*sin(t)*sin(p), -l*cos(t)]"
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "at", "energy", "count", "is_doubtful"),
+    [
+        ("r: prismatic, a: revolute", POLAR, "F*r*sin(a)", 0, True),  # a mass in a constant force
+        ("r: prismatic, a: revolute", POLAR, "k*r^2/2", 1, True),
+        ("p: revolute, t: revolute", SPHERICAL, "F*l*sin(t)*cos(p)", 1, True),
+        ("p: revolute, t: revolute", SPHERICAL, "k*l^2*sin(t)^2", 2, False),  # it hangs, whatever p is
+    ],
+)
+def test_where_coordinates_do_not_tell_how_bodies_move_nothing_need_be_in_equilibrium(
+    coordinates: str, at: str, energy: str, count: int, is_doubtful: bool
+) -> None:
+    gravity = "[0, 0, -g]" if at == SPHERICAL else "[0, -g, 0]"
+    text = MASS.format(gravity=gravity, coordinates=coordinates, at=at, energy=energy)
+    assert len(dynsolve.solve(text).to_json()["results"]["equilibria"]) == count
+    assert ("need not be an equilibrium" in str(told_of(text).outcome)) == is_doubtful
+
+
+FLAT = "x: prismatic, y: prismatic"
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "energy", "told"),
+    [
+        # along the equilibria it comes to where the energy falls
+        (FLAT, "k*x^2*y/2", [[{"stability": "undecided", "unstable_if": ["y < 0"]}]]),
+        (FLAT, "k*x^2*(1 + y^2)/2", [[{"stability": "stable"}]]),
+        # at a = 0 the same is told by the case cos a = 1, whatever b is
+        (
+            "a: revolute, b: revolute",
+            "k*(1 - cos(a))*(2 - cos(b))",
+            [
+                [
+                    {"b": "0", "a": "pi", "stability": "unstable"},
+                    {"b": "pi", "a": "pi", "stability": "unstable"},
+                ],
+                [{"a": "0", "stability": "stable"}],
+            ],
+        ),
+    ],
+)
+def test_what_is_stable_beside_coordinates_that_may_have_any_value(
+    coordinates: str, energy: str, told: object
+) -> None:
+    text = SPRUNG.format(gravity="none", coordinates=coordinates, energy=energy)
+    found = dynsolve.solve(text).to_json()["results"]["equilibria_stability"]
+    assert found == told
+
+
+def test_conditions_that_exclude_each_other_are_those_of_what_is_never_stable() -> None:
+    """V'' has -m g (l + e) and m g e, up to sign, as principal minors, where e is anything."""
+    arm = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m, link: 2, center: [x, y, 0]}]
+find: [equilibria]
+"""
+    (up, down) = dynsolve.solve(arm).to_json()["results"]["equilibria_stability"][0]
+    assert up == {"q1": "pi/2", "stability": "unstable"}
+    assert down["stability"] == "undecided" and len(down["stable_if"]) == 2
+
+
+def test_the_square_of_a_length_is_there_where_it_is_not_negative() -> None:
+    text = SPRUNG.format(gravity="none", coordinates="x: prismatic", energy="k*(x^2 - a^2 + b^2)^2")
+    results = dynsolve.solve(text).to_json()["results"]
+    assert ["a > b"] in results["equilibria_exist"] or ["a >= b"] in results["equilibria_exist"]
+    assert "not told here" not in str(told_of(text).outcome)
