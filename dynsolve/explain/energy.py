@@ -148,7 +148,8 @@ def _jacobians(context: Context, body: Body) -> Step:
         id=f"Jv{b}",
         title=f"Jacobian{'s' * bool(turning)} of the mass centre of {name_of(body)}",
         why=say(
-            "The column of each joint, taken at the mass centre{late}.{zero}",
+            "The column of each {moving}, taken at the mass centre{late}.{zero}",
+            moving="joint" if robot.moves_each_joint_alone else "coordinate",
             late=say(agreeing("; {q} does|do not move it", len(late)), q=listed(late)) if late else "",
             zero=parallel(context, body.link, letters.rc(body), center) if context.is_short else "",
         ),

@@ -7,10 +7,12 @@ cosines, then the letters of the textbook (`explain.textbook_letters`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
 
 from msgspec import Struct
 from msgspec.structs import replace
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.document import Block, Inline, Prose, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated
@@ -36,18 +38,22 @@ COUNTING = ("i", "j", "k", "n", "t")
 
 def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
     """The coordinates, and the parameters by what they are; without `frames` by no frame."""
-    of_joint = "joint " if robot.has_table else ""
     own = (motor for motor in robot.actions.rotors if robot.is_of_motor(robot.coordinates[motor.turns]))
     geared = any(motor.ratio != robot.ring.one for motor in own)
     of_motor = "angle|angles of a|the motor|motors" + " behind its|their gear|gears" * geared
     for is_of_motor, kind, what, unit in (
-        (False, JointType.REVOLUTE, f"{of_joint}angle|angles", "rad"),
-        (False, JointType.PRISMATIC, f"{of_joint}displacement|displacements", "m"),
+        (False, JointType.REVOLUTE, "angle|angles", "rad"),
+        (False, JointType.PRISMATIC, "displacement|displacements", "m"),
         (True, JointType.REVOLUTE, of_motor, "rad"),
     ):
-        names = [q.name for q in robot.coordinates if q.type is kind and robot.is_of_motor(q) is is_of_motor]
-        if names:
-            yield _named(names, agreeing(f"{what}: generalized coordinate|coordinates", len(names)), unit)
+        of_kind = [q for q in robot.coordinates if q.type is kind and robot.is_of_motor(q) is is_of_motor]
+        if all(any(joint.rates == ((q.index - 1, Fraction(1)),) for joint in robot.joints) for q in of_kind):
+            what = f"joint {what}"
+        elif not is_of_motor and all(Angle.of(q.name) in _of_links(robot) for q in of_kind):
+            what = f"{what} of a|the link|links against 𝐱₀"
+        if of_kind:
+            meaning = agreeing(f"{what}: generalized coordinate|coordinates", len(of_kind))
+            yield _named([q.name for q in of_kind], meaning, unit)
     if robot.given is None and robot.questions.candidates:
         yield _named([one.name for one in robot.questions.candidates], "matrices that are to be judged", "")
     known, has_bodies = meanings(robot), bool(robot.bodies)
@@ -72,6 +78,17 @@ def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
                 if is_in_figure:
                     meaning = agreeing("length|lengths in the figure", len(names))
                 yield _named(names, meaning, unit)
+
+
+def _of_links(robot: Robot) -> list[Angle]:
+    """The angles of the links against x_0: of those whose axes are parallel to z_0."""
+    standard = robot.convention is Convention.STANDARD
+    paths = [robot.path(joint.index) for joint in robot.joints]
+    return [
+        sum((joint.theta for joint in path), start=Angle.zero())
+        for path in paths
+        if all(joint.alpha == Angle.zero() for joint in (path[:-1] if standard else path))
+    ]
 
 
 def _named(names: Sequence[str], meaning: str, unit: str) -> Line:

@@ -197,8 +197,12 @@ def _rotor(m: Mechanism, s: Sentence) -> bool:
     return not any(m.changes(lambda p, i=i: m.result(f"H{i}", p), names_of(s.formulas)) for i in rows)
 
 
-@says("The column of each joint, taken at the mass centre; {&} <does|do> not move it.[ ...]")
+@says("The column of each <joint|coordinate>, taken at the mass centre; {&} <does|do> not move it.[ ...]")
 def _columns_are_zero(m: Mechanism, s: Sentence) -> bool:
+    rows = range(1, len(m.solution.robot.joints) + 1)
+    moved = [q for i in rows for q in m.coordinates if m.changes(lambda p, i=i: m.result(f"A{i}", p), (q,))]
+    if s.words[0] == "joint" and moved != list(m.coordinates):
+        return False
     still = tuple(node for node in s.formulas if isinstance(node, tree.Symbol))
     return not m.changes(lambda p: m.pose(s.body, p), names_of(still)) and all(
         m.changes(lambda p: m.pose(s.body, p), (q,)) or not np.any(m.result(f"Jv{s.body}", m.point())[:, k])

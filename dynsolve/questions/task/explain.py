@@ -320,7 +320,8 @@ def _jacobians(context: Context, point: NamedPoint) -> Step:
                 products.append(formula("{RT} {J}", RT=context.show(R.T), J=world))
             turned += [equation(J, world), equation(result, *products)]
     why = say(
-        "The column of each joint, taken at {P}{late}{turned}",
+        "The column of each {moving}, taken at {P}{late}{turned}",
+        moving="joint" if robot.moves_each_joint_alone else "coordinate",
         P=P,
         late=say(agreeing("; {q} does|do not move its link.", len(late)), q=listed(late)) if late else ".",
         turned=f" What is seen from the world is then written along the axes of frame {axes}."

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from dynsolve.document import Block, Fold, Formula, Heading, Note, Table, Text
 from dynsolve.explain.context import style_of
-from dynsolve.explain.notation_list import COUNTING, notation
+from dynsolve.explain.notation_list import COUNTING, notation, problem_names
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.step import Detail
 from dynsolve.notation.formulas import FormulaPrinter
@@ -193,6 +193,22 @@ def lines(problem: str, detail: Detail = Detail.FULL) -> dict[str, tuple[str, st
         if isinstance(block, Table) and block.header[0] == "Symbol"
     )
     return {cell(row[0]): (cell(row[1]), cell(row[2])) for row in table.rows}
+
+
+# the table, and what its coordinates are
+COORDINATES = [
+    ("{theta: t1*, a: l}, {theta: t2* - t1*, a: l}", "angles of the links against 𝐱₀"),
+    ("{theta: t1*, a: l}, {theta: t2* - t1*, alpha: 90deg}", "angles of the links against 𝐱₀"),
+    ("{theta: t1*, a: l, alpha: 90deg}, {theta: t2* - t1*, a: l}", "angles"),
+    ("{theta: t1* + 90deg, a: l}, {theta: t2* - t1*, a: l}", "angles"),
+    ("{theta: t1*, a: l}, {theta: t2*, a: l}, {theta: -t2*, a: l}", "joint angles"),
+]
+
+
+@pytest.mark.parametrize(("rows", "called"), COORDINATES)
+def test_angles_are_those_of_joints_where_a_joint_turns_by_each(rows: str, called: str) -> None:
+    robot = solved(f"gravity: none\ndh: [{rows}]\nmasses: [{{mass: m, link: 2}}]").robot
+    assert next(problem_names(robot)).words == f"{called}: generalized coordinates"
 
 
 JACOBIANS = "Jacobian of the last frame, its linear part, its angular part, its column i"

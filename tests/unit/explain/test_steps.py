@@ -150,6 +150,7 @@ def test_a_coordinate_that_moves_several_joints() -> None:
     assert formula is not None
     assert to_unicode(formula) == "J₂ = [[z₁ × (o₃ - o₁) + ½ (z₂ × (o₃ - o₂))], [z₁ + ½ z₂]]"
     assert "There is no gravity." in everything_said(COUPLED)
+    assert "The column of each coordinate" in everything_said("planar-2r-remote")
 
 
 MOVED = """
