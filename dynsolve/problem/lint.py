@@ -13,7 +13,11 @@ import re
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from flint import fmpq_mat
+
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import rational
 from dynsolve.errors import Finding
 from dynsolve.notation.characters import split
 from dynsolve.problem.bodies import ParsedTensor
@@ -25,7 +29,7 @@ from dynsolve.problem.variation import FORMULA, TEXT, faulty_alternatives, scala
 from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.geometry import Links, elementary
-from dynsolve.robot.model import Body, Robot
+from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
 from dynsolve.robot.shapes import AXES, KINDS
 from dynsolve.robot.units import INERTIA, LENGTH, MASS, describe
 
@@ -282,22 +286,56 @@ def unstarred(reading: Reading) -> Iterator[Remark]:
 
 
 def moves_no_mass(reading: Reading) -> Iterator[Remark]:
-    """A coordinate that moves no body: a massless last link."""
+    """A coordinate that moves no body, a massless last link; some that move bodies by their sum alone."""
     robot = reading.problem.robot
     if reading.parsed.model is not None:
         yield from _moves_nothing(reading)
-    if not robot.bodies or not robot.has_table:
+    if not robot.bodies or not robot.has_table or robot.actions.rotors:
         return
-    last = max((body.link for body in robot.bodies if body.inertia or not body.mass.is_zero), default=0)
-    for coordinate in robot.coordinates:
-        rows = [
-            joint.index for joint in robot.joints if any(k == coordinate.index - 1 for k, _ in joint.rates)
-        ]
-        if rows and min(rows) > last:
-            message = f"nothing that has mass moves with {coordinate.name}: D is singular"
-            help = "give a link after this joint a body, or leave the joint out"
-            cell = reading.parsed.table.rows[min(rows) - 1].cells[robot.joints[min(rows) - 1].variable or "d"]
-            yield _span(reading, cell), message, help
+    moved = _motions(robot)
+    idle = [q for q in robot.coordinates if not any(rates[q.index - 1] for rates in moved)]
+    shared = [q for q in robot.coordinates if q not in idle and _rank(moved, q.index - 1) == _rank(moved)]
+    for several in [*([q] for q in idle), *([shared] if shared else [])]:
+        names = " and ".join(q.name for q in several)
+        message = f"nothing that has mass moves with {names}: D is singular"
+        help = "give a link after this joint a body, or leave the joint out"
+        if several is shared:
+            message = f"what has mass moves with {names} only together: D is singular"
+            help = "give a link between these joints a body, or leave a joint out"
+        joint, _ = robot.joints_of(several[0])[0]
+        cell = reading.parsed.table.rows[joint.index - 1].cells[joint.variable or "d"]
+        yield _span(reading, cell), message, help
+
+
+def _motions(robot: Robot) -> list[list[Fraction]]:
+    """What moves bodies, by the rates of the coordinates: joints, or several about one axis as one."""
+    heavy = {body.link for body in robot.bodies if body.inertia or body.density or not body.mass.is_zero}
+    carrying = {joint.index for link in heavy for joint in robot.path(link)}
+    found: dict[int, list[Fraction]] = {}
+    for joint in (joint for joint in robot.joints if joint.index in carrying):
+        rates = [Fraction(0)] * robot.n
+        if joint.parent not in heavy and _is_like_the_one_before(robot, joint):
+            rates = found.pop(joint.parent)
+        for k, rate in joint.rates:
+            rates[k] += rate
+        found[joint.index] = rates
+    return list(found.values())
+
+
+def _is_like_the_one_before(robot: Robot, joint: Joint) -> bool:
+    """Whether a joint turns about the same axis as the one before it, or slides along a parallel one."""
+    if not joint.parent or len(robot.links_after(joint.parent)) > 1:
+        return False
+    before = robot.joints[joint.parent - 1]
+    between = joint if robot.convention is Convention.MODIFIED else before
+    is_parallel = before.type is joint.type is not None and between.alpha == Angle.zero()
+    return is_parallel and (between.a.is_zero or joint.type is JointType.PRISMATIC)
+
+
+def _rank(motions: Sequence[Sequence[Fraction]], without: int = -1) -> int:
+    """In how many independent ways bodies move; `without` a coordinate."""
+    rows = [[rational(0 if k == without else rate) for k, rate in enumerate(rates)] for rates in motions]
+    return int(fmpq_mat(rows).rank()) if rows else 0
 
 
 def _moves_nothing(reading: Reading) -> Iterator[Remark]:

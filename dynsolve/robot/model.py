@@ -407,7 +407,7 @@ class Robot(Struct, frozen=True):
     def moves_each_joint_alone(self) -> bool:
         """Whether each coordinate is the variable of one joint, in their order."""
         moving = [joint for joint in self.joints if joint.type]
-        return all(joint.rates == ((i, Fraction(1)),) for i, joint in enumerate(moving))
+        return [joint.rates for joint in moving] == [((i, Fraction(1)),) for i in range(self.n)]
 
     def joints_of(self, q: Coordinate) -> tuple[tuple[Joint, Fraction], ...]:
         """The joints that a coordinate moves, each with the rate of its variable."""

@@ -417,6 +417,14 @@ def _definite(m: Mechanism, s: Sentence) -> bool:
     return all(np.min(np.linalg.eigvalsh(m.result("D", p))) > 0 for p in m.points(5))
 
 
+@says(
+    "In every pose [row # of {} is 0, so |rows # and # of {} are equal, so ]{}: some rates that are not 0 "
+    "have no kinetic energy, and the forces do not determine all accelerations."
+)
+def _singular(m: Mechanism, s: Sentence) -> bool:
+    return all(rank(D) < len(D) for D in (m.result("D", p) for p in m.points()))
+
+
 @says("All other entries are zero, so {} is positive definite.")
 def _diagonal_and_definite(m: Mechanism, s: Sentence) -> bool:
     return _diagonal(m, s) and _definite(m, s)

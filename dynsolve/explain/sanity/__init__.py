@@ -2,7 +2,7 @@
 
     conserved     how the energy changes, the momentum of a coordinate that does not appear in L, and the
                   coordinates on which D cannot depend
-    definite      D is positive definite, by its diagonal and its determinants or body by body
+    definite      D is positive definite, by its diagonal and its determinants or body by body, or singular
     determinant   the determinant of two coupled coordinates, line by line; what makes D diagonal; signs
     equilibrium   that g is zero in every pose, or in none; the joints that gravity does not load
     poses         D in poses of right angles, and without the moments of inertia of the bodies
@@ -40,7 +40,7 @@ class Check(Struct, frozen=True):
 
 CHECKS = (
     Check("conserved", "the model follows from energies, or a coordinate is cyclic", conserved_step),
-    Check("definite", "D is seen to be definite for positive masses", definite_step),
+    Check("definite", "D is seen to be definite for positive masses, or always singular", definite_step),
     Check("decoupled", "a relation between parameters makes D diagonal", decoupled_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
     Check("equilibrium", "gravity is balanced everywhere, or nowhere", equilibrium_step),

@@ -1,4 +1,4 @@
-"""D is positive definite: every block of coordinates that are coupled is.
+"""D is positive definite: every block of coordinates that are coupled is; or D has no inverse in any pose.
 
 An entry of the diagonal is the sum of what the bodies add to it, none of which is negative, so
 that one body that always adds something is enough.  A block of several coordinates is definite
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import combinations
 
 from dynsolve.algebra import matrix
 from dynsolve.algebra.matrix import Matrix
@@ -60,10 +61,40 @@ LONGEST_ENTRY = 8
 
 
 def definite_step(context: Context) -> Step | None:
-    """What shows that D is positive definite; None where that is not seen."""
+    """What shows that D is positive definite, or always singular; None where neither is seen."""
     if context.robot.n < 2 or any(_is_of_no_body(context, body) for body in context.robot.bodies):
         return None
-    return _by_entries(context) or _by_bodies(context)
+    return _by_entries(context) or _by_bodies(context) or _singular(context)
+
+
+def _singular(context: Context) -> Step | None:
+    """That det D = 0 in every pose, and what that means; None where it is not so."""
+    D, rows = context.values["D"], range(context.robot.n)
+    if not matrix.determinant(D).is_zero:
+        return None
+    zero = next((i + 1 for i in rows if all(entry.is_zero for entry in D.rows[i])), 0)
+    equal = next(((i + 1, j + 1) for i, j in combinations(rows, 2) if D.rows[i] == D.rows[j]), (0, 0))
+    reason = "In every pose {det}"
+    if zero:
+        reason = "In every pose row {zero} of $𝐃$ is 0, so {det}"
+    elif any(equal):
+        reason = "In every pose rows {i} and {j} of $𝐃$ are equal, so {det}"
+    told = say(
+        reason + ": some rates that are not 0 have no kinetic energy, and the forces do not determine all "
+        "accelerations.",
+        det=equation(Row((Words("det "), letters.D)), ZERO),
+        zero=zero,
+        i=equal[0],
+        j=equal[1],
+    )
+    return Step(
+        id="definite",
+        title="Check: the inertia matrix has no inverse",
+        why=told,
+        source=spong("7.5.1"),
+        outcome=told,
+        is_task=False,
+    )
 
 
 def _step(

@@ -7,6 +7,8 @@ from random import Random
 
 import pytest
 
+from dynsolve.algebra.matrix import determinant
+from dynsolve.derivation.rules import derive
 from dynsolve.problem.lint import lint_text
 from dynsolve.problem.reader import read_problem
 
@@ -161,3 +163,32 @@ def test_angles_that_are_not_zero_as_drawn(degrees: int, offset: bool, zero: str
         f"  - {{turn: q2, about: [0, 0, 1], through: [l, 0, 0]}}\ntip: {tip}\n{zero}"
     )
     assert codes(text) == (["drawn-angles"] if offset and "drawn" not in zero else [])
+
+
+# -- coordinates without inertia, against D itself ---------------------------------------------------
+
+MASS_3 = "masses: [{mass: m, name: 3, link: 3, center: [b, 0, 0], inertia: {xx: A, yy: B, zz: C}}]"
+IDLE = [
+    ("[{theta: q1*, d: h}, {theta: q2*, a: l, alpha: 90deg}, {d: q3*}]", MASS_3, ["q1", "q2"]),
+    ("[{theta: q1*, a: l}, {theta: q2*, a: l, alpha: 90deg}, {d: q3*}]", MASS_3, []),
+    ("[{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: q3*}]", MASS_3, []),
+    ("[{theta: 90deg, alpha: 90deg}, {d: x*, alpha: -90deg}, {theta: q1* + q2*, a: u}]", MASS_3,
+     ["q1", "q2"]),
+    ("[{d: x*, a: l}, {d: y*, alpha: 90deg}, {d: z*}]", MASS_3, ["x", "y"]),
+    ("[{theta: q1*, d: h}, {theta: q2*, a: l, alpha: 90deg}, {d: q3*}]",
+     MASS_3.replace("}]", "}, {mass: n, name: 1, link: 1, center: origin, inertia: {zz: J}}]"), []),
+    ("[{theta: q1*, a: l}, {theta: q2*, alpha: 90deg}, {theta: q3*}, {theta: q4*}]", MASS_3, ["q4"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("rows", "masses", "idle"), IDLE)
+def test_coordinates_that_move_nothing_or_only_together(rows: str, masses: str, idle: list[str]) -> None:
+    text = f"gravity: none\ndh: {rows}\n{masses}\n"
+    found = [one.message for one in lint_text(text) if one.code == "moves-no-mass"]
+    whose = (
+        "nothing that has mass moves with {}"
+        if len(idle) == 1
+        else "what has mass moves with {} only together"
+    )
+    assert found == ([f"{whose.format(' and '.join(idle))}: D is singular"] if idle else [])
+    assert determinant(derive(read_problem(text).robot)["D"]).is_zero is bool(idle)

@@ -196,6 +196,35 @@ def test_of_a_matrix_that_may_be_singular_nothing_is_said() -> None:
     assert check(POINTS, "point_masses") is None
 
 
+ABOUT_ONE_AXIS = """
+dh: [{theta: q1*}, {theta: q2*, a: l, alpha: 90deg}, {d: q3*}]
+masses: [{mass: m, name: 3, link: 3}]
+"""
+THREE_IN_A_PLANE = """
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}, {theta: q3*, a: l}]
+masses: [{mass: m, name: 3, link: 3}]
+"""
+ITS_LAST = """
+dh: [{theta: q1*, a: l}, {theta: q2*}]
+masses: [{mass: m, name: 2, link: 2}]
+"""
+ALWAYS = (
+    "some rates that are not 0 have no kinetic energy, and the forces do not determine all accelerations."
+)
+
+
+@pytest.mark.parametrize(
+    ("problem", "reason"),
+    [
+        (ABOUT_ONE_AXIS, "In every pose rows 1 and 2 of D are equal, so det D = 0"),
+        (THREE_IN_A_PLANE, "In every pose det D = 0"),
+        (ITS_LAST, "In every pose row 2 of D is 0, so det D = 0"),
+    ],
+)
+def test_of_a_matrix_that_is_always_singular_it_is_said(problem: str, reason: str) -> None:
+    assert said(problem, "definite") == f"{reason}: {ALWAYS}"
+
+
 def test_longer_arms_have_checks_of_their_own() -> None:
     assert [step.id for step in sanity_steps(context("stanford-6"))] == [
         "conserved",
