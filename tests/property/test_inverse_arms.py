@@ -216,7 +216,9 @@ def random_arm(seed: int) -> Arm:
 
 def _task(random: Random, arm: Arm) -> tuple[str, ...]:
     turning = [joint.name for joint in arm.joints if joint.turns]
-    angle = " + ".join(turning) if random.random() < 0.7 else random.choice(turning or [""])
+    some = [" + ".join(turning), " + ".join(turning[:2]), random.choice(turning or [""])]
+    some += [f"{turning[0]} - 2*{turning[1]}"] if len(turning) > 1 else []
+    angle = random.choice(some)
     if turning and random.random() < 0.1:
         angle += random.choice((" + 90deg", " - 30deg"))
     more = [angle] if turning and random.random() < 0.5 else []

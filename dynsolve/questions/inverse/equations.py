@@ -6,6 +6,7 @@ components of one vector, so that they may be turned about an axis and their squ
 
     turned by ψ     c lᵢ + s lⱼ = c rᵢ + s rⱼ,   -s lᵢ + c lⱼ = -s rᵢ + c rⱼ
     squared         Σ lᵢ² = Σ rᵢ²
+    moved           lᵢ - aᵢ = bᵢ, where rᵢ = aᵢ + bᵢ and aᵢ is all that holds one unknown
     combined        a lⱼ - b lᵢ = a rⱼ - b rᵢ, where a d in rᵢ and b d in rⱼ are all that holds a length d
 
 They hold wherever the equations do.
@@ -245,7 +246,26 @@ def turned_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
             yield tuple(replaced.get(k, equation) for k, equation in enumerate(system))
 
 
-def combined_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
+def parted_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
+    """The systems with one unknown apart: on the left alone, or left in one equation alone."""
+    yield from _moved_systems(system, unknowns)
+    yield from _combined_systems(system, unknowns)
+
+
+def _moved_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
+    """The systems in which all terms with one unknown are on the left, and others on the right."""
+    for name in unknowns.names:
+        others = unknowns.without(name)
+        alone = replace(unknowns, names=(name,))
+        parts = [alone.split(equation.right) for equation in system]
+        if sum(bool(others.within(right)) for right, moved in parts if not moved.is_zero) > 1:
+            yield tuple(
+                Equation(e.left - moved, right, e.origin)
+                for e, (right, moved) in zip(system, parts, strict=True)
+            )
+
+
+def _combined_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
     """The systems in which a length drops out of all equations but one, in which it has a known factor."""
     for name in unknowns.sliding:
         factors = [unknowns.factor(equation.right, name) for equation in system]

@@ -300,6 +300,8 @@ def _form(step: Solved) -> str:
             return "The sine of {q} belongs to two angles, whose sum is π."
         case OneLine():
             return "One equation in the cosine and the sine of {q} has two solutions."
+        case Length() if len(step.equations) > 1:
+            return "Both have {q} to the first power: added, each times the factor of {q}, they give it."
         case Length():
             return "The length {q} stands in it to the first power."
     return "The length {q} stands in it as a square: two lengths."

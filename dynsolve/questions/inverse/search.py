@@ -32,7 +32,7 @@ from dynsolve.questions.inverse.equations import (
     System,
     Unknowns,
     arranged,
-    combined_systems,
+    parted_systems,
     squared_sums,
     turned_systems,
     turns,
@@ -115,7 +115,7 @@ def search(
             seen += chain.from_iterable((*systems, *added))
         best = min(_solvable(systems, added, sums, unknowns), key=_effort, default=None)
         if best is None:
-            if len(grown := _grown([*systems], unknowns, combined_systems)) == len(systems):
+            if len(grown := _grown([*systems], unknowns, parted_systems)) == len(systems):
                 break
             systems = grown
             continue
@@ -152,7 +152,7 @@ def _grown(
 
 
 def _mark(system: System) -> frozenset[str]:
-    return frozenset(str(equation.expr.poly) for equation in system)
+    return frozenset(f"{equation.left.poly} = {equation.right.poly}" for equation in system)
 
 
 def _sums(system: System) -> Iterator[Equation]:
@@ -235,7 +235,8 @@ def _angle_sums(task: Matrix, values: Sequence[str]) -> tuple[dict[str, _Sum], d
         for name, other in solved.items():
             one = one.without(name, other)
         found[k] = one
-        for last in [name for name in task.ring.names if name in one.rates][-1:]:
+        within = [name for name in task.ring.names if name in one.rates]
+        for last in sorted(within, key=lambda name: abs(one.rates[name]) == 1)[-1:]:  # not half an angle
             solved = {name: other.without(last, one) for name, other in solved.items()} | {last: one}
     return solved, found
 

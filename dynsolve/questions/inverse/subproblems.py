@@ -5,7 +5,7 @@ in numbers, in the order in which `questions.inverse.explain` writes them.
 
     TwoLines      A c + B s = X and A' c + B' s = X'        one angle
     OneLine       A c + B s = X                             two angles, two where X² < A² + B²
-    Length        M d = N                                   one length
+    Length        M d = N, and M' d = N' beside it          one length
     RootLength    A d² + B d + C = 0                        two lengths
     Remainder     q = (values - other angles) / rate        one angle
 
@@ -183,7 +183,7 @@ class OneLine(Struct, frozen=True):
 
 
 class Length(Struct, frozen=True):
-    """M d = N."""
+    """M d = N, of one equation or of two that are added."""
 
     coordinate: str
     factor: Expr
@@ -193,8 +193,8 @@ class Length(Struct, frozen=True):
 
     @property
     def rank(self) -> int:
-        """At once where nothing is divided by that may vanish."""
-        return 0 if is_never_zero(self.factor) else 6
+        """At once where nothing is divided by that may vanish; of two equations after a vector."""
+        return len(self.equations) - 1 if is_never_zero(self.factor) else 6
 
     @property
     def size(self) -> int:
@@ -270,6 +270,7 @@ Solved = TwoLines | OneLine | Length | RootLength | Remainder
 def recognized(equations: Sequence[Equation], unknowns: Unknowns) -> Iterator[Solved]:
     """Every unknown that some of these equations give, in a known form."""
     harmonics: list[tuple[Harmonic, Equation]] = []
+    lengths: list[Length] = []
     for equation in equations:
         expr = equation.expr
         if len(unknowns.within(expr)) != 1:
@@ -278,8 +279,11 @@ def recognized(equations: Sequence[Equation], unknowns: Unknowns) -> Iterator[So
         if wave is not None and wave.coordinate is not None:
             harmonics.append((wave, equation))
             yield _one_line(wave.coordinate, wave, equation)
-        yield from _lengths(equation, unknowns)
+        for length in _lengths(equation, unknowns):
+            lengths += [length] if isinstance(length, Length) else []
+            yield length
     yield from _pairs(harmonics)
+    yield from _projected(lengths)
 
 
 def _one_line(coordinate: str, wave: Harmonic, equation: Equation) -> OneLine:
@@ -299,10 +303,23 @@ def _lengths(equation: Equation, unknowns: Unknowns) -> Iterator[Solved]:
     found = quadratic(equation.expr, unknowns)
     if found is None:
         return
-    if found.square.is_zero:
-        yield Length(found.coordinate, found.linear, -found.constant, (equation,))
+    a, b, c = found.square, found.linear, found.constant
+    if a.is_zero:
+        yield Length(found.coordinate, b, -c, (equation,))
+    elif _negative_terms(a) == len(a):
+        yield RootLength(found.coordinate, -a, -b, -c, (equation,))
     else:
-        yield RootLength(found.coordinate, found.square, found.linear, found.constant, (equation,))
+        yield RootLength(found.coordinate, a, b, c, (equation,))
+
+
+def _projected(lengths: Iterable[Length]) -> Iterator[Length]:
+    """M d = N and M' d = N', where M or M' may vanish, but not both: (M² + M'²) d = M N + M' N'."""
+    may_vanish = (one for one in lengths if one.rank)
+    for one, other in combinations(may_vanish, 2):
+        factor = one.factor * one.factor + other.factor * other.factor
+        if one.coordinate == other.coordinate and is_never_zero(factor):
+            value = one.factor * one.value + other.factor * other.value
+            yield Length(one.coordinate, factor, value, (*one.equations, *other.equations))
 
 
 def _pairs(harmonics: Iterable[tuple[Harmonic, Equation]]) -> Iterator[Solved]:
