@@ -11,10 +11,11 @@ from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
+from dynsolve.derivation.existence import square_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.notation.tree import Function, Node, Number, Quotient, Symbol, equation
+from dynsolve.notation.tree import Function, Node, Number, Power, Quotient, Symbol, equation
 from dynsolve.questions.equilibria.solving import SpecialCase, assumed_signs
 from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import JointType
@@ -39,7 +40,7 @@ class EquilibriaForms(SetForms):
     def relations(self, case: Alternative, zeros: tuple[Node, ...]) -> list[Node]:
         """What is 0 in a case, as equations: an angle's tangent, or a length, where these have one value."""
         return [
-            self._tangent(one) or self._length(one) or equation(value, Number(0))
+            self._tangent(one) or self._length(one) or self._square(one) or equation(value, Number(0))
             for one, value in zip(case, zeros, strict=True)
         ]
 
@@ -61,14 +62,26 @@ class EquilibriaForms(SetForms):
                 return self._quotient(Symbol(q.name), -rest, factor)
         return None
 
+    def _square(self, condition: Condition) -> Node | None:
+        """x² = n/m where m x² = n, and m is not 0."""
+        found = square_of(condition.expr)
+        if found is None:
+            return None
+        index, factor, rest = found
+        name = condition.expr.ring.generators[index].name
+        return self._quotient(Power(Symbol(name), Number(2)), -rest, factor)
+
     def _quotient(self, letter: Node, above: Expr, below: Expr) -> Node | None:
-        """letter = above/below, cancelled; nothing where the lower part may be 0."""
+        """letter = above/below, cancelled; nothing where the lower part may be 0, and that is not told."""
         ring, form = above.ring, self.compactor(above.ring).form
         for index, inverted in ring.inverses.items():
             highest = max(int(part.poly.degrees()[index]) for part in (above, below))
             above, below = (part * Expr(ring, inverted) ** max(highest, 0) for part in (above, below))
         signs = assumed_signs(self.robot, Transfer(self.robot.ring, ring))
         sign = next((sign for sign in (1, -1) if signs.is_positive(below * sign)), 0)
+        if not sign and {below, -below} & self._nonzero:
+            numbers = [*above.poly.coeffs(), *below.poly.coeffs()]
+            sign = 1 if 2 * sum(number > 0 for number in numbers) >= len(numbers) else -1
         common = above.poly.gcd(below.poly)
         parts = [Expr(ring, part.poly / common) for part in (above, below)]
         numbers = [number for part in parts for number in part.poly.coeffs()]
@@ -83,6 +96,12 @@ class EquilibriaForms(SetForms):
             return None
         angle = Function("tan", angle_node(turn.pair.angle, condition.expr.ring.names))
         return self._quotient(angle, -turn.cosine, turn.sine)
+
+    @cached_property
+    def _nonzero(self) -> frozenset[Expr]:
+        """What is told to be other than 0."""
+        found = self.values["equilibria"]
+        return frozenset() if isinstance(found, Skipped) else frozenset(one.factor for one in found.special)
 
     def special_exceptions(self, case: SpecialCase) -> tuple[tuple[Node, ...], ...]:
         """The sets that are no equilibria for special parameters."""

@@ -151,7 +151,7 @@ class Curvature(Struct, frozen=True):
         value = bound.value
         for condition in alternative:
             if (square := square_of(condition.expr)) is not None:
-                value = _at_square(value, *square)
+                value = _at_square(Matrix.column(value.ring, [value]), *square)[0, 0]
         return value != bound.value and self.signs.is_positive(value)
 
     def _may_vanish(self, factor: Expr, alternative: Alternative) -> bool:
@@ -322,6 +322,8 @@ def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
         turn = turn_of(zero)
         if turn is not None and turn.is_one_sided:
             matrix = _at_turn(matrix, turn)
+        elif (square := square_of(zero)) is not None:
+            matrix = _at_square(matrix, *square)
         else:
             size = matrix.shape[1]
             flat = Condition(zero).reduced_together(matrix.entries)
@@ -329,18 +331,22 @@ def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
     return matrix
 
 
-def _at_square(value: Expr, index: int, factor: Expr, rest: Expr) -> Expr:
-    """A value where m d² + n = 0, times m to an even power."""
-    ring = value.ring
-    most = max((int(e[index]) // 2 for e in value.poly.monoms()), default=0)
+def _at_square(matrix: Matrix, index: int, factor: Expr, rest: Expr) -> Matrix:
+    """The matrix where m d² + n = 0, times m to an even power."""
+    ring = matrix.ring
+    most = max((int(e[index]) // 2 for entry in matrix.entries for e in entry.poly.monoms()), default=0)
     highest = most + most % 2
-    total = ring.zero
-    for exponents, number in value.poly.to_dict().items():
-        power = int(exponents[index]) // 2
-        plain = tuple(int(e) % 2 if k == index else e for k, e in enumerate(exponents))
-        own = Expr(ring, ring.ctx.from_dict({plain: number}))
-        total += own * (-rest) ** power * factor ** (highest - power)
-    return total
+
+    def put(expr: Expr) -> Expr:
+        total = ring.zero
+        for exponents, number in expr.poly.to_dict().items():
+            power = int(exponents[index]) // 2
+            plain = tuple(int(e) % 2 if k == index else e for k, e in enumerate(exponents))
+            own = Expr(ring, ring.ctx.from_dict({plain: number}))
+            total += own * (-rest) ** power * factor ** (highest - power)
+        return total
+
+    return matrix.map(put)
 
 
 def _at_turn(second: Matrix, turn: Turn) -> Matrix:

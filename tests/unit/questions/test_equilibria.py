@@ -563,11 +563,11 @@ def test_second_derivatives_along_the_constraints_are_shown_with_their_values() 
     shown = [to_unicode(node) for line in step.lines for node in line.formulas]
     assert [text.split(" = ")[-1] for text in shown if "∂" in text] == [
         "2a (m g - k h)",
-        "4a² k x²",
+        "-4a (m g - k h)",
     ]
     lowest, others = solution.to_json()["results"]["equilibria_stability"]
     assert lowest == [{"stability": "undecided", "stable_if": ["m*g > k*h"], "unstable_if": ["k*h > m*g"]}]
-    assert others == [{"stability": "undecided", "stable_if": ["x != 0"]}]
+    assert others == [{"stability": "undecided", "stable_if": ["k*h > m*g"]}]
 
 
 def test_the_check_finds_other_second_derivatives_along_the_constraints() -> None:
@@ -1053,3 +1053,19 @@ def test_the_square_of_a_length_is_there_where_it_is_not_negative() -> None:
     results = dynsolve.solve(text).to_json()["results"]
     assert ["a > b"] in results["equilibria_exist"] or ["a >= b"] in results["equilibria_exist"]
     assert "not told here" not in str(told_of(text).outcome)
+    (_, case) = [to_unicode(row) for row in told_of(text).result]
+    assert case == "x² = a² - b²"
+
+
+def test_a_length_is_solved_for_where_its_factor_is_told_to_be_other_than_0() -> None:
+    """A bead that is turned with its rod, at the end of a spring: m W² r = k (r - a)."""
+    turned = """
+gravity: none
+dh: [{theta: q*}, {alpha: 90deg}, {d: r*}]
+masses: [{mass: m, link: 3, center: origin}]
+springs: [{stiffness: k, of: r, rest: a}]
+steady: {q: W}
+find: [equilibria]
+"""
+    (row,) = told_of(turned).result
+    assert to_unicode(row) == "r = k a/(k - m W²)"
