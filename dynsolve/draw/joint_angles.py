@@ -17,7 +17,7 @@ from dynsolve.draw import paths
 from dynsolve.draw.parts import RADIUS, JointBody
 from dynsolve.draw.paths import Path
 from dynsolve.draw.poses import ARC, MANY, Notes, Pose
-from dynsolve.draw.skeleton import Leg, turned_alone
+from dynsolve.draw.skeleton import Leg, turned_alone, unsigned
 from dynsolve.draw.vectors import (
     NEAR,
     Point,
@@ -71,7 +71,7 @@ _PARTS = (0.5, 0.35, 0.65, 0.2, 0.8)
 def names_of_angles(robot: Robot) -> list[Node]:
     """What the arrow of each row shows: a coordinate, without the degrees beside it, or the whole column."""
     return [
-        Symbol(name, star=True) if (name := turned_alone(robot, joint)) else joint.written[0]
+        Symbol(name, star=True) if (name := turned_alone(robot, joint)) else unsigned(joint.written[0])
         for joint in robot.joints
     ]
 
@@ -83,7 +83,7 @@ def joint_angles(pose: Pose, names: Sequence[Node], notes: Notes) -> None:
         if pose.view.flat:
             _flat_angle(pose, part, leg, name, notes)
         elif _has_ring(pose, leg):
-            _ring(pose, part, name, notes)
+            _ring(pose, part, leg, name, notes)
         else:
             _angle_in_space(pose, part, leg, name, notes)
     if len(pose.skeleton.legs) > MANY:
@@ -153,7 +153,7 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
     view = pose.view
     center = view.point(leg.center)
     first = view.direction(leg.before)
-    angle = leg.turn if dot(leg.axis, view.toward) > 0 else -leg.turn
+    angle = leg.turn if dot(leg.turned_about, view.toward) > 0 else -leg.turn
     second = (first[1], -first[0])
     for direction in _unseen(leg, leg.center, pose):
         end = moved(center, view.direction(direction), _ARC + _BEYOND)
@@ -210,7 +210,7 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
     """θ_i around the joint's axis; what lies behind its middle is drawn before the joint."""
     view, middle = pose.view, _center(pose, part, leg)
     center = view.point(middle)
-    side = cross(leg.axis, leg.before)
+    side = cross(leg.turned_about, leg.before)
     reach = ARC + _BEYOND + (_PAST * bool(leg.offset))
     for direction in _unseen(leg, middle, pose):
         tip = view.point(along(middle, direction, view.space(reach)))
@@ -245,14 +245,14 @@ def _seen(first: Vector, second: Vector, toward: Vector, end: float) -> Iterator
         yield a, b, _depth(first, second, toward, (a + b) / 2) < -NEAR
 
 
-def _ring(pose: Pose, part: JointBody, node: Node, notes: Notes) -> None:
-    """An arrow around a joint's axis, in front of its cylinder, in the positive sense."""
+def _ring(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes) -> None:
+    """An arrow around a joint's axis, in front of its cylinder, in the sense in which its angle grows."""
     view = pose.view
     center = view.point(part.center)
     lean = dot(part.axis, view.toward)
     front = subtract(view.toward, scale(part.axis, lean))
     front = unit(front) if length(front) > 0.05 else unit(cross(part.axis, view.up))
-    side = cross(part.axis, front)
+    side = cross(leg.turned_about, front)
     p, q = scaled(view.direction(front), _RING), scaled(view.direction(side), _RING)
     half = math.radians(105)
     arc = paths.arc(center, p, q, -half, half - 0.2)

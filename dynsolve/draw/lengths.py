@@ -17,7 +17,7 @@ from dynsolve.draw import paths
 from dynsolve.draw.labels import Box, Label, Wanted, place
 from dynsolve.draw.paths import Path
 from dynsolve.draw.poses import MARK, Notes, Pose, axis_arrow, seen_end_on
-from dynsolve.draw.skeleton import RobotNumbers
+from dynsolve.draw.skeleton import RobotNumbers, opposite, unsigned
 from dynsolve.draw.vectors import (
     IDENTITY,
     NEAR,
@@ -36,8 +36,7 @@ from dynsolve.draw.vectors import (
     subtract,
     toward,
 )
-from dynsolve.notation.build import negated
-from dynsolve.notation.tree import Degrees, Negative, Node, Words
+from dynsolve.notation.tree import Degrees, Node, Words
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType, Robot
 
@@ -96,17 +95,12 @@ def row_lengths(robot: Robot, pose: Pose) -> list[Length]:
         if distance(leg.foot, leg.head) > NEAR:
             slides = joint.type is JointType.PRISMATIC
             is_back = dot(subtract(leg.head, leg.foot), leg.axis) < 0
-            slid = negated(d) if is_back else d
+            slid = opposite(d) if is_back else d
             found.append(Length(leg.foot, leg.head, slid if slides else unsigned(d), varies=slides))
         start, end = (leg.start, leg.foot) if distance(leg.start, leg.foot) > NEAR else (leg.head, leg.end)
         if distance(start, end) > NEAR:
             found.append(Length(start, end, unsigned(a)))
     return list(dict.fromkeys(found))
-
-
-def unsigned(node: Node) -> Node:
-    """A length without the sign that says only which way it is measured."""
-    return node.argument if isinstance(node, Negative) else node
 
 
 def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:

@@ -197,7 +197,7 @@ def _hidden_angle(leg: Leg, view: View) -> float:
     if leg.type is not JointType.REVOLUTE:
         return 0.0
     angle = leg.turn
-    side = cross(leg.axis, leg.before)
+    side = cross(leg.turned_about, leg.before)
     behind = sum(
         max(0.0, -dot(leg.before, view.toward) * math.cos(t) - dot(side, view.toward) * math.sin(t))
         for t in (0.0, angle / 2, angle)

@@ -43,7 +43,8 @@ from dynsolve.draw.vectors import (
     turned,
     unit,
 )
-from dynsolve.notation.tree import names_in
+from dynsolve.notation.build import negated, total
+from dynsolve.notation.tree import Negative, Node, Sum, names_in
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import Convention, Joint, JointType, Robot
 
@@ -68,6 +69,7 @@ class TableRow(Struct, frozen=True):
     """A row of the table in numbers, without its joint variable; the longest length is 1.
 
     `offset` is the part of `theta` that is a number of degrees beside one coordinate: the 90° of θ_1 + 90°.
+    `backwards` says that the angle is the negative of what is drawn: f + 20° of -f - 20°.
     """
 
     theta: float
@@ -75,6 +77,7 @@ class TableRow(Struct, frozen=True):
     a: float
     alpha: float
     offset: float = 0.0
+    backwards: bool = False
 
 
 class RobotNumbers(Struct, frozen=True):
@@ -134,6 +137,7 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
             drawn(joint.a),
             joint.alpha.radians(values),
             _offset(robot, joint),
+            not turned_alone(robot, joint) and unsigned(joint.written[0]) != joint.written[0],
         )
         for joint in robot.joints
     )
@@ -163,6 +167,17 @@ def turned_alone(robot: Robot, joint: Joint) -> str | None:
         return None
     name = robot.coordinates[joint.rates[0][0]].name
     return name if joint.theta.linear == Angle.of(name) else None
+
+
+def unsigned(node: Node) -> Node:
+    """A length or an angle without the sign that says only which way it is measured: w + b of -w - b."""
+    terms = node.terms if isinstance(node, Sum) else (node,)
+    return opposite(node) if all(isinstance(term, Negative) for term in terms) else node
+
+
+def opposite(node: Node) -> Node:
+    """The negative of it, each term of a sum by itself."""
+    return total([negated(term) for term in node.terms]) if isinstance(node, Sum) else negated(node)
 
 
 def _range(robot: Robot, values: Mapping[str, float]) -> tuple[float, float]:
@@ -234,7 +249,8 @@ class Leg(Struct, frozen=True):
 
     `axis` is the direction of the joint's axis, `before` and `after` the x axes that
     θ turns from and to, `start` the origin of the frame before it, `end` that of its own.
-    `offset` is the number of degrees in θ, in radians, beside a coordinate alone.
+    `offset` is the number of degrees in θ, in radians, beside a coordinate alone.  An angle -f - 20° is
+    `backwards`: f + 20° the other way.
     """
 
     type: JointType | None
@@ -247,11 +263,18 @@ class Leg(Struct, frozen=True):
     after: Vector
     angle: float
     offset: float = 0.0
+    backwards: bool = False
 
     @property
     def turn(self) -> float:
-        """θ without the offset, within one positive turn."""
-        return (self.angle - self.offset) % (2 * math.pi)
+        """θ without the offset, within one positive turn about `turned_about`."""
+        angle = self.angle - self.offset
+        return (-angle if self.backwards else angle) % (2 * math.pi)
+
+    @property
+    def turned_about(self) -> Vector:
+        """The axis about which the angle is drawn as positive."""
+        return scale(self.axis, -1.0) if self.backwards else self.axis
 
     @property
     def turned(self) -> Vector:
@@ -329,13 +352,13 @@ def _leg(
         level = turned(frame.axes, 2, theta)
         head = along(o, frame.z, d)
         end = along(head, level[0], row.a)
-        leg = Leg(joint.type, o, o, head, end, frame.z, frame.x, level[0], theta, row.offset)
+        leg = Leg(joint.type, o, o, head, end, frame.z, frame.x, level[0], theta, row.offset, row.backwards)
         return leg, DrawnFrame(end, turned(level, 0, row.alpha))
     tilted = turned(frame.axes, 0, row.alpha)
     foot = along(o, frame.x, row.a)
     head = along(foot, tilted[2], d)
     axes = turned(tilted, 2, theta)
-    leg = Leg(joint.type, o, foot, head, head, tilted[2], frame.x, axes[0], theta, row.offset)
+    leg = Leg(joint.type, o, foot, head, head, tilted[2], frame.x, axes[0], theta, row.offset, row.backwards)
     return leg, DrawnFrame(head, axes)
 
 

@@ -13,7 +13,7 @@ from dynsolve.draw.paths import GREY, VARIABLE, flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import Notes, Pose, reach_of_axis
 from dynsolve.draw.skeleton import numbers, orientation
-from dynsolve.draw.vectors import Point, Vector, cross, dot
+from dynsolve.draw.vectors import Point, Vector, add, cross, dot, scale
 from dynsolve.notation.printing import Style
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
@@ -96,6 +96,8 @@ def test_each_arrow_runs_from_axis_to_axis(problem: Problem) -> None:
         ("q1*", "q₁", 0.0),
         ("90deg - q1*", "90° - q₁", 0.0),
         ("q1* + beta", "q₁ + β", 0.0),
+        ("-q1*", "q₁", 0.0),
+        ("-q1* - 20deg", "q₁ + 20°", 0.0),
     ],
 )
 def test_degrees_beside_a_coordinate_are_drawn_apart(column: str, name: str, degrees: float) -> None:
@@ -109,6 +111,21 @@ def test_degrees_beside_a_coordinate_are_drawn_apart(column: str, name: str, deg
         name
     ]
     assert has_offsets(pose) is bool(degrees)
+
+
+def test_a_negative_angle_is_drawn_the_other_way() -> None:
+    """From x_0 about -z_0, and not by the rest of a turn about z_0."""
+    pose, notes = shown(read_problem("dh: [{theta: -q1* - 20deg, a: l1}]", "one.yaml"))
+    (leg,) = pose.skeleton.legs
+    assert leg.turn == pytest.approx(-leg.angle % (2 * math.pi))
+    middle = add(
+        scale(leg.before, math.cos(leg.turn / 2)), scale(cross(leg.axis, leg.before), -math.sin(leg.turn / 2))
+    )
+    arc = next(path for path in notes.paths if path.stroke == VARIABLE)
+    points = [point for part in flattened(arc.commands) for point in part]
+    angles = [bearing(pose, leg.start, point) for point in points]
+    wanted = bearing(pose, (0.0, 0.0, 0.0), pose.view.point(middle))
+    assert min(abs(math.remainder(angle - wanted, 2 * math.pi)) for angle in angles) < 0.2
 
 
 def test_a_waist_has_its_angle_about_the_origin_of_the_base() -> None:

@@ -240,3 +240,8 @@ def test_what_is_not_drawn_is_said(acts: str, said: list[str]) -> None:
 def test_branches_share_the_length_that_they_begin_with() -> None:
     rows = "dh: [{theta: q1*}, {theta: q2*, a: l1}, {from: 1, theta: q3*, a: l1}]"
     assert names(drawn_text(f"convention: modified\n{rows}\n"), "length") == ["l₁"]
+
+
+def test_a_length_on_the_other_side_has_its_terms_without_their_sign() -> None:
+    rows = "dh: [{theta: q1*, alpha: 90deg}, {d: w* + b}, {from: 1, d: -w* - b}, {from: 1, d: b - 3*w*}]"
+    assert sorted(names(drawn_text(rows), "variable")) == ["3w⋆ - b", "q₁⋆", "w⋆ + b", "w⋆ + b"]
