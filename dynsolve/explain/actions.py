@@ -295,7 +295,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         vectors = Product((context.show(body.mass), gravity_row(context).argument, center))
         return replace(
             step,
-            why=(*gravity, "Minus the mass times ", pull, "."),
+            why=(*gravity, "It is minus the mass times ", pull, "."),
             working=(equation(P, Negative(vectors)),) if is_small(center) else (),
         )
     i, size, is_up = along

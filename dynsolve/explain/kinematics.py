@@ -110,7 +110,7 @@ def _four_motions(context: Context) -> Prose:
         else "In the modified convention (Craig) row i leads from {start} to frame i by a rotation by "
         "{alpha} about {x}{of}, a translation by {a} along it, a rotation by {theta} about $𝐳_i$ and a "
         "translation by {d} along that. Craig numbers {a} and {alpha} of row i by $i - 1$.",
-        start="the frame in the column `from`" if is_tree else "frame i-1",
+        start="the frame in the column “from”" if is_tree else "frame i-1",
         of=" of the former" if is_tree else "",
         theta=theta,
         d=d,
@@ -157,8 +157,12 @@ def _table_notes(robot: Robot) -> Iterator[Prose]:
     for joint in robot.joints:
         if len(joint.rates) == 1 and joint.rates[0][1] != 1:
             ((k, rate),) = joint.rates
-            words = "The joint of row {row} moves at {rate} times the rate of {q}."
-            yield say(words, row=joint.index, rate=number(rate), q=Symbol(robot.coordinates[k].name))
+            words = "The joint of row {row} moves {way} {q}."
+            way: Prose = (
+                ("at ", number(abs(rate)), " times the rate of") if abs(rate) != 1 else ("as fast as",)
+            )
+            way = ("the other way ", *way) if rate < 0 else way
+            yield say(words, row=joint.index, way=way, q=Symbol(robot.coordinates[k].name))
 
 
 # -- the matrices of the rows ----------------------------------------------------------------------

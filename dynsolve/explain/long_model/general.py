@@ -214,7 +214,7 @@ def _potential(context: Context) -> Step:
         stage=Stage.ENERGY,
         title="Potential energy of each body",
         why=say(
-            "Minus the mass times $𝐠_0ᵀ 𝐫_ci$; $𝐠_0$ points down ({book} writes a plus, for which the "
+            "It is minus the mass times $𝐠_0ᵀ 𝐫_ci$; $𝐠_0$ points down ({book} writes a plus, for which the "
             "vector must point up).",
             book=spong("7.2.3"),
         ),

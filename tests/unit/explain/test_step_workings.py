@@ -149,6 +149,10 @@ def test_fixed_rows_scaled_joints_and_the_world() -> None:
     text = everything_said(ODD)
     assert "Rows 1 and 3 have no star: frames that are each fixed" in text
     assert "The joint of row 2 moves at ½ times the rate of q₁." in text
+    fingers = everything_said("dh: [{theta: q1*}, {from: 0, theta: -q1*, a: l}, {from: 0, theta: -2*q1*}]\n")
+    assert "The joint of row 2 moves the other way as fast as q₁." in fingers
+    assert "The joint of row 3 moves the other way at 2 times the rate of q₁." in fingers
+    assert "leads from the frame in the column “from” to frame i" in fingers and "`" not in fingers
     assert "combination of coordinates" not in text
     assert "the body belongs to the ground and does not move." in said(step(ODD, "rc1").why, ODD)
     assert "belongs to the ground" not in said(step(ODD, "rc2").why, ODD)

@@ -64,3 +64,11 @@ def test_of_a_whole_model_every_step_is_told() -> None:
     assert {step.id for step in solution.steps} - {
         step.id for step in leading(solution, solution.steps)
     } == set()
+
+
+def test_without_g_it_is_a_whole_model_where_nothing_pulls() -> None:
+    level = (ARM % "tau, D, C").replace("gravity: [0, -g, 0]", "gravity: none")
+    assert level != ARM % "tau, D, C"
+    for text, is_whole in ((level, True), (ARM % "tau, D, C", False)):
+        solution = solved(text)
+        assert ("model" in {step.id for step in leading(solution, solution.steps)}) is is_whole
