@@ -422,11 +422,17 @@ class TypesetPage(MarkupPage):
         return len(source) * _SOURCE_LETTER + _SOURCE_SPACE if source else 0.0
 
     def columns(self, display: Formula | Equations) -> Columns | None:
-        """Columns of a matrix's entries where they have to be, of equations that are many, or some short."""
+        """Columns of a matrix's entries where they have to be, of equations that are many, or some short.
+
+        What is derived from line to line, P_2 and then P_2 again, is read downwards: it has none.
+        """
         room = self.width - self.number
         if isinstance(display, Formula):
             found = self.typesetter(display).listed(display)
             return in_columns(found, room) if found and len(found) >= FEWEST else None
+        lefts = [node.parts[0] for node in display.nodes if isinstance(node, Relation)]
+        if not display.in_columns and len(set(lefts)) < len(lefts):
+            return None
         short = sum(self.ruler.width(node) + GAP <= room / MOST_COLUMNS for node in display.nodes)
         if short < FEWEST_SHORT and not (display.in_columns and len(display.nodes) >= FEWEST):
             return None

@@ -6,7 +6,7 @@ import pytest
 
 from dynsolve.document import Document, Equations
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Symbol, equation
+from dynsolve.notation.tree import Letter, Number, Symbol, equation
 from dynsolve.render.latex import render
 from dynsolve.render.typesetting import Line, in_columns
 
@@ -29,6 +29,14 @@ def test_equations_in_columns(count: int, right: str, allowed: bool, columns: bo
     source = render(Document((Equations(nodes, in_columns=allowed),)))
     _, body = source.split(r"\begin{document}")
     assert body.count(r"\equationcell") == (count if columns else 0)
+
+
+def test_what_leads_from_line_to_line_is_in_one_column() -> None:
+    """P = m g h, h = l s, P = m g l s for one body after the other."""
+    lefts = [Letter(name, Number(i)) for i in range(1, 4) for name in ("P", "eta", "P")]
+    for own, cells in ((lefts, 0), ([Letter("P", Number(i)) for i in range(9)], 9)):
+        source = render(Document((Equations(tuple(equation(left, Number(1)) for left in own)),)))
+        assert source.partition(r"\begin{document}")[2].count(r"\equationcell") == cells
 
 
 @pytest.mark.parametrize(
