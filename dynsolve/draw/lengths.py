@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import permutations, product
 
 from msgspec import Struct
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Box, Label, Wanted, place
@@ -24,6 +26,7 @@ from dynsolve.draw.vectors import (
     ORIGIN,
     Point,
     Vector,
+    View,
     along,
     cross,
     distance,
@@ -35,8 +38,9 @@ from dynsolve.draw.vectors import (
     segment_distance,
     subtract,
     toward,
+    unit,
 )
-from dynsolve.notation.tree import Degrees, Node, Words
+from dynsolve.notation.tree import Degrees, Node, Symbol, Words
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType, Robot
 
@@ -231,6 +235,9 @@ def _from_ends(a: Point, b: Point, shift: Point) -> list[tuple[Point, Point]]:
 _LEAN, _BEYOND = 62.0, 12.0
 """The radius of the arc of the angle by which the base leans, and how far its lines reach beyond it."""
 
+_ALONG = 0.9
+"""The cosine from which an axis is seen end on."""
+
 _WORLD_FRAME_HEAD = 6.0
 """The head of that arc, which shows the sense."""
 
@@ -299,7 +306,18 @@ def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None
     size = math.atan2(dot(second, side), dot(second, first))
     if abs(math.sin(2 * size)) < NEAR:
         return
-    view, at = pose.view, pose.view.point(ORIGIN)
+    size_of = Degrees(abs(node.p), node.q) if isinstance(node, Degrees) else unsigned(node)
+    _arc_between(first, side, size, size_of, pose.view, notes)
+    if numbers.moved == ORIGIN:
+        name = letters.bold("xyz"[turned], Words("w"))
+        tip = pose.view.point(along(ORIGIN, first, pose.view.space(_LEAN + _BEYOND)))
+        notes.label(name, [tip], pose.view.direction(first), paths.GREY, "axis")
+
+
+def _arc_between(first: Vector, side: Vector, size: float, node: Node, view: View, notes: Notes) -> None:
+    """An angle about the origin from a direction towards a side of it, with the lines between which it is."""
+    at = view.point(ORIGIN)
+    second = along(scale(first, math.cos(size)), side, math.sin(size))
     for direction in (first, second):
         end = view.point(along(ORIGIN, direction, view.space(_LEAN + _BEYOND)))
         notes.draw(Path(paths.line(at, end), paths.GREY, 0.9), behind=True)
@@ -309,9 +327,29 @@ def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None
     head = paths.head(tip, from_to(before, tip), _WORLD_FRAME_HEAD)
     notes.draw(Path(arc, paths.WHITE, 3.6), Path(arc, paths.BLACK, 1.1), Path(head, None, fill=paths.BLACK))
     anchors = [paths.on_ellipse(at, p, q, size * part) for part in _PARTS]
-    size_of = Degrees(abs(node.p), node.q) if isinstance(node, Degrees) else unsigned(node)
-    notes.label(size_of, anchors, from_to(at, anchors[0]), paths.BLACK, "angle")
-    if numbers.moved == ORIGIN:
-        name = letters.bold("xyz"[turned], Words("w"))
-        tip = view.point(along(ORIGIN, first, view.space(_LEAN + _BEYOND)))
-        notes.label(name, [tip], view.direction(first), paths.GREY, "axis")
+    notes.label(node, anchors, from_to(at, anchors[0]), paths.BLACK, "angle")
+
+
+def tilt(robot: Robot, gravity: Vector, view: View, notes: Notes) -> None:
+    """The angle that gravity has to the axes of frame 0, along which g sin β and g cos β pull.
+
+    The first is β off level, and that is drawn in a plane; in space z_0, where it is the second, and so β
+    off upright.
+    """
+    ring, pulls = robot.ring, list(zip(IDENTITY, robot.gravity.entries, strict=True))
+    if robot.base_turns or sum(pull.is_zero for _, pull in pulls) != 1:
+        return
+    angles = [(Symbol(name), Angle.of(name)) for name in robot.parameters]
+    known = [(node, angle) for node, angle in angles if any(angle == pair.angle for pair in ring.pairs)]
+    both = permutations([one for one in pulls if not one[1].is_zero], 2)
+    for ((first, pull), (second, other)), (node, angle) in product(both, known):
+        along_axis, across = pull * ring.cos(angle), other * ring.sin(angle)
+        if along_axis not in (across, -across):
+            continue
+        axis, start = second, scale(gravity, math.copysign(1.0, dot(second, gravity)))
+        if view.flat:
+            axis, start = first, unit(subtract(first, scale(gravity, dot(first, gravity))))
+        if axis == IDENTITY[2] or (view.flat and abs(dot(axis, view.toward)) < _ALONG):
+            side = unit(subtract(axis, scale(start, dot(axis, start))))
+            _arc_between(start, side, math.acos(dot(axis, start)), node, view, notes)
+        return

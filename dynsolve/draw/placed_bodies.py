@@ -20,6 +20,7 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.mechanism import orientation
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Label, Taken, place
+from dynsolve.draw.lengths import tilt
 from dynsolve.draw.paths import Path
 from dynsolve.draw.placed_pose import Kind, Piece, Place, PlacedPose, Turning, placed_pose
 from dynsolve.draw.poses import Notes, draw_spring, spiral, zigzag
@@ -90,6 +91,7 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
     for piece in sorted(pose.pieces, key=lambda piece: _size(piece, pose)):
         _length(piece, pose, notes)
     if pose.gravity is not None:
+        tilt(pose.robot, pose.gravity, pose.view, notes)
         gravity_arrow(pose.gravity, pose.view, seen, notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
     drawn = (*notes.behind, *seen, *notes.paths, *leads(labels))

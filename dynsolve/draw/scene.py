@@ -21,7 +21,7 @@ from dynsolve.draw import paths, poses
 from dynsolve.draw.forces import FORCES, NOT_DRAWN, drawn_forces, forces
 from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, names_of_angles, parallels
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place
-from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, world_frame
+from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, tilt, world_frame
 from dynsolve.draw.mass_centers import DrawnBody, Form
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose_search import best_pose, dressed, held_pose
@@ -187,6 +187,7 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     thicknesses(robot, pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
     if world.gravity is not None:
+        tilt(robot, world.gravity, pose.view, notes)
         gravity_arrow(world.gravity, pose.view, [*under, *body], notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))

@@ -191,8 +191,9 @@ def _all_values(robot: Robot, given: Mapping[str, float], factor: float, spread:
     known = [abs(given[name]) for name in _lengths(robot) if given.get(name)]
     usual = factor * (sum(known) / len(known) if known else 1.0)
     values = {name: usual * (1.0 + spread * place) for place, name in enumerate(robot.ring.parameters)}
-    for joint in robot.joints:
-        for atom, _ in (*joint.theta.terms, *joint.alpha.terms):
+    of_table = (angle for joint in robot.joints for angle in (joint.theta, joint.alpha))
+    for angle in (*of_table, *(pair.angle for pair in robot.ring.pairs)):  # those of gravity, too
+        for atom, _ in angle.terms:
             values.update({name: _ANGLE for name, _ in atom if len(atom) == 1})
     values.update(dict.fromkeys(names_in(*(turn for _, turn in robot.base_turns)), _ANGLE))
     values.update(given)

@@ -15,6 +15,7 @@ from dynsolve.draw.placed_pose import Kind, Piece, Place, placed_pose, ways
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, joint_springs
 from dynsolve.draw.poses import SPRINGS as SPRINGS_AT_JOINTS
+from dynsolve.draw.scene import scene
 from dynsolve.draw.skeleton import finite, numbers, orientation
 from dynsolve.draw.vectors import NEAR, cross, distance, dot, scale
 from dynsolve.errors import UsageError
@@ -245,3 +246,25 @@ def test_branches_share_the_length_that_they_begin_with() -> None:
 def test_a_length_on_the_other_side_has_its_terms_without_their_sign() -> None:
     rows = "dh: [{theta: q1*, alpha: 90deg}, {d: w* + b}, {from: 1, d: -w* - b}, {from: 1, d: b - 3*w*}]"
     assert sorted(names(drawn_text(rows), "variable")) == ["3w⋆ - b", "q₁⋆", "w⋆ + b", "w⋆ + b"]
+
+
+PLANE = "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]"
+ROLLS = (
+    "model:\n  coordinates: {s: prismatic}\n"
+    "  bodies: [{mass: m, at: [s, r, 0], turn: -s/r, inertia: {zz: J}}]"
+)
+
+
+@pytest.mark.parametrize(
+    ("pull", "rest", "angle"),
+    [
+        ("[g*sin(beta), -g*cos(beta), 0]", PLANE, ["β"]),
+        ("[g*sin(beta), -g*cos(beta), 0]", ROLLS, ["β"]),
+        ("[0, -g*sin(beta), -g*cos(beta)]", PLANE, ["β"]),
+        ("[0, -g, 0]", PLANE, []),
+        ("[ga, -gb, 0]", PLANE, []),
+    ],
+)
+def test_the_angle_of_gravity_is_drawn(pull: str, rest: str, angle: list[str]) -> None:
+    problem = read_problem(f"gravity: {pull}\n{rest}\n".encode(), "problem.yaml")
+    assert names(placed_scene(problem) if rest is ROLLS else scene(problem), "angle") == angle
