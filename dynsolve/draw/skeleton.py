@@ -21,6 +21,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.ring import Expr
@@ -53,8 +54,9 @@ from dynsolve.robot.model import Convention, Joint, JointType, Robot
 SHORTEST = 0.42
 """The shortest length that is drawn, as a part of the longest."""
 
-MOVED = 0.75
-"""How far a base is drawn from the world's origin along an axis, as a part of the longest length."""
+_MOVED, _CLEAR = (0.75, 1.5, 0.5), 0.45
+"""How far a base is drawn from the world's origin along an axis, best first, as a part of the longest length,
+and how far other origins are to be from that."""
 
 _APART = 0.0437
 """How far apart the values of letters are that are to differ."""
@@ -143,17 +145,21 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
     )
     x, y, z = ([finite(entry, values) for entry in row] for row in robot.base_rotation.rows)
     base = tuple(zip(x, y, z, strict=True))
-    moved = _moved(robot, values)
-    return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]), frozenset(given), moved)
+    found = RobotNumbers(rows, values, unit, (base[0], base[1], base[2]), frozenset(given))
+    return replace(found, moved=_moved(robot, found))
 
 
-def _moved(robot: Robot, values: Mapping[str, float]) -> Vector:
-    """From the world's origin to that of frame 0, as long along each axis where it is not 0."""
-    x, y, z = (
-        0.0 if entry.is_zero else math.copysign(MOVED, finite(entry, values))
-        for entry in robot.base_position.entries
-    )
-    return x, y, z
+def _moved(robot: Robot, numbers: RobotNumbers) -> Vector:
+    """From the world's origin to that of frame 0, as long along each axis where it is not 0.
+
+    The world's axes are to be clear of those of the other frames, as far as these are where they are at 0.
+    """
+    sizes = [finite(entry, numbers.values) for entry in robot.base_position.entries]
+    x, y, z = (math.copysign(abs(size) > 0, size) for size in sizes)
+    origins = [frame.origin for frame in skeleton(robot, numbers, [0.0] * robot.n).frames[1:]]
+    ways = [scale((x, y, z), size) for size in _MOVED]
+    clear = (way for way in ways if all(distance(scale(way, -1.0), origin) > _CLEAR for origin in origins))
+    return next(clear, ways[0])
 
 
 def _offset(robot: Robot, joint: Joint) -> float:

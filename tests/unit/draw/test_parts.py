@@ -325,3 +325,11 @@ def test_the_arrows_stand_as_far_apart_as_the_body_is_thick() -> None:
     across = pytest.approx(0.2 * LARGEST, rel=0.01)
     assert across in thick
     assert across not in bare
+
+
+@pytest.mark.parametrize(("d", "moved"), [("h", 1.5), ("0", 0.75)])
+def test_the_world_is_drawn_clear_of_other_frames(d: str, moved: float) -> None:
+    """From the ceiling the first link leads down by nearly as much as the base is drawn above the world."""
+    base = "base: {rotate: Rx(180deg), move: [0, 0, H]}"
+    text = f"{base}\ndh: [{{theta: q1*, d: {d}, alpha: 90deg}}, {{theta: q2*, a: l}}]\n"
+    assert numbers(read_problem(text.encode(), "ceiling.yaml")).moved == (0.0, 0.0, moved)
