@@ -324,6 +324,9 @@ _ARROW = 62.0
 _END_ON = 0.12
 """An arrow that is foreshortened more is drawn as one that is seen end on."""
 
+_ALONG, _OFF = 0.95, 16.0
+"""The cosine from which an arrow lies on the last link, and how far before the tip it ends then."""
+
 
 def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | None:
     """The arm of a figure as a block of a document; None where no such pose is found."""
@@ -356,9 +359,14 @@ def _arrow(arrow: ArmArrow, at: Mapping[str, float], pose: Pose, notes: poses.No
         )
         notes.label(arrow.name, [tip], (1.0, -1.0), paths.VARIABLE, "axis", 8.0)
         return
-    back, end = moved(tip, (dx, dy), _ARROW - 7.0), moved(tip, (dx, dy), _ARROW)
-    notes.draw(*paths.arrow(tip, back, end, (dx, dy), paths.VARIABLE, 2.4, halo=5.0, size=11.0))
-    notes.label(arrow.name, [end], (dx, dy), paths.VARIABLE, "axis")
+    inwards = [from_to(tip, pose.view.point(point)) for point in pose.skeleton.path[-2:-1]]
+    if any(x * dx + y * dy > _ALONG * math.hypot(x, y) * math.hypot(dx, dy) for x, y in inwards):
+        start, named = moved(tip, (dx, dy), -_ARROW - _OFF), (-dx, -dy)  # from outside, clear of the link
+    else:
+        start, named = tip, (dx, dy)
+    back, end = moved(start, (dx, dy), _ARROW - 7.0), moved(start, (dx, dy), _ARROW)
+    notes.draw(*paths.arrow(start, back, end, (dx, dy), paths.VARIABLE, 2.4, halo=5.0, size=11.0))
+    notes.label(arrow.name, [end if start == tip else start], named, paths.VARIABLE, "axis")
 
 
 RESOLUTION = 192.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
 from math import pi
 
@@ -10,9 +11,10 @@ import pytest
 import dynsolve
 from dynsolve.document.figures import ArmFigure, Figure, FigureAngle, FigureLine, LineKind
 from dynsolve.draw.figure import drawn, drawn_arm, figure_scene
+from dynsolve.draw.paths import VARIABLE
 from dynsolve.draw.pose_search import held_pose
 from dynsolve.draw.skeleton import numbers, orientation, skeleton
-from dynsolve.draw.vectors import dot, length, subtract
+from dynsolve.draw.vectors import dot, length, point_to_segment, subtract
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.tree_values import evaluate
@@ -109,6 +111,24 @@ def test_the_tip_does_not_move_along_the_arrow(text: str) -> None:
                 for change in (-1e-5, 1e-5)
             ]
             assert abs(dot(subtract(tips[1], tips[0]), (x, y, z))) < 1e-8
+
+
+@pytest.mark.parametrize("text", [ELBOW, SLIDING, PLANAR])
+def test_no_arrow_lies_on_the_last_link(text: str) -> None:
+    problem = read_problem(text, "own.yaml")
+    known = numbers(problem)
+    for figure in figures(text):
+        found = held_pose(problem.robot, known, orientation(problem.robot, known), figure.zeros)
+        picture = drawn_arm(figure, problem, Style())
+        assert found is not None and picture is not None
+        pose, _ = found
+        link = [pose.view.point(point) for point in pose.skeleton.path[-2:]]
+        number = "(-?[.0-9]+)"
+        line = f'"M{number} {number}L{number} {number}"'
+        shaft = re.search(f'{line}[^>]*stroke="{VARIABLE}" stroke-width="2.4"', picture.svg)
+        assert shaft is not None
+        x0, y0, x1, y1 = map(float, shaft.groups())
+        assert point_to_segment(((x0 + x1) / 2, (y0 + y1) / 2), link[0], link[1]) > 8.0
 
 
 def test_the_same_drawing_every_time() -> None:
