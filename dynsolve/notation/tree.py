@@ -366,8 +366,21 @@ def mapped(node: Node, function: Change) -> Node:
 
 
 def with_formulas(node: Node, formulas: Mapping[str, Node]) -> Node:
-    """The tree with formulas in place of the symbols of these names."""
-    return mapped(node, lambda part: formulas.get(part.name, part) if isinstance(part, Symbol) else part)
+    """The tree with formulas in place of the symbols of these names.
+
+    >>> with_formulas(Negative(Symbol("a")), {"a": Negative(Symbol("z"))}).name
+    'z'
+    """
+
+    def put(part: Node) -> Node:
+        match part:
+            case Symbol(name):
+                return formulas.get(name, part)
+            case Negative(Negative(value)):
+                return value
+        return part
+
+    return mapped(node, put)
 
 
 def _change_all(parts: tuple[Node, ...], change: Change) -> tuple[Node, ...]:

@@ -113,8 +113,7 @@ class SetForms(Inequalities):
 
         `signed` are generators of parameters that may be 0 or negative.
         """
-        factors = (f for f, _ in trig_factors(value) if not is_positive(f) or not signed.isdisjoint(f.used))
-        return self._whole(prod(factors, start=value.ring.one))
+        return self._whole(may_vanish(value, signed))
 
     def product(self, value: Expr) -> Node:
         """An expression as the product of its factors in sines and cosines, parameters in front."""
@@ -176,6 +175,12 @@ def without_number(node: Node) -> Node:
 
 def _bare(node: Node) -> Node:
     return node.argument if isinstance(node, Parenthesized) else node
+
+
+def may_vanish(value: Expr, signed: Set[int] = frozenset()) -> Expr:
+    """An expression without the factors that are never 0, where `signed` generators may be 0 or negative."""
+    factors = (f for f, _ in trig_factors(value) if not is_positive(f) or not signed.isdisjoint(f.used))
+    return prod(factors, start=value.ring.one)
 
 
 def vanishing(conditions: tuple[Node, ...]) -> Node:

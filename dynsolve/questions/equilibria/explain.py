@@ -29,14 +29,15 @@ from dynsolve.explain.writing import (
     spong,
 )
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.notation.tree import (
+    ONE,
     Node,
     Number,
     Symbol,
     equation,
     names_in,
 )
+from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.quantities import letters
 from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.balance import exclude_each_other, is_impossible
@@ -238,6 +239,7 @@ def _never(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
     for held, value in found.never:
         if held and not value.is_number:
             where, what = vanishing(tuple(map(shown.condition, held))), shown.vanishing(value)
+            what = shown.condition(Condition(value)) if what == ONE else what
             yield say("Where {where}, {what} is not 0.", where=where, what=what)
 
 

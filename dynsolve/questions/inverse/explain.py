@@ -54,6 +54,7 @@ from dynsolve.questions.inverse.forms import InverseForms, InverseFormulas
 from dynsolve.questions.inverse.solving import FixedPoint, Part, Solving, Turn
 from dynsolve.questions.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
 from dynsolve.questions.inverse.target import target_steps, task_of
+from dynsolve.questions.set_forms import may_vanish
 from dynsolve.robot.model import Robot
 
 SHORT = 4
@@ -244,6 +245,10 @@ def _sums_put_in(
 def _origin(origins: Sequence[Origin], put_in: Sequence[Node]) -> Prose:
     """How the equations are made; `put_in` are sums that are known."""
     first = say("{sums} is put in. ", sums=listed(put_in)) if put_in else ()
+    direct = [origin for origin in origins if isinstance(origin, Direct)]
+    if 0 < len(direct) < len(origins):
+        made = [origin for origin in origins if origin not in direct]
+        return (*_origin(direct, put_in), *_origin(made, ()))
     match origins[0]:
         case Squared():
             return (
@@ -334,7 +339,7 @@ def _existence(formulas: InverseFormulas, step: Solved) -> Node | None:
             return formula("-1 ≤ {ratio} ≤ 1", ratio=formulas.ratio(value, cosine + sine))
         case OneLine():
             return formulas.boundary(step)
-        case RootLength():
+        case RootLength() if not step.always_exists:
             return formula("{radicand} ≥ 0", radicand=formulas.radicand(step))
     return None
 
@@ -356,7 +361,9 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
     if (there := _existence(formulas, step)) is not None:
         text = "This equation has solutions where {there}; on the boundary, with =, the two are one."
         yield say(text, there=there)
-    if factors and not any(is_positive(factor * factor) for factor in factors) and _may_vanish(factors):
+    left = [may_vanish(factor) for factor in factors]
+    squares = [one.ring.dot(some, some) for one in left for some in ([one], left)]
+    if factors and not any(map(is_positive, squares)) and _may_vanish(factors):
         zeros = [equation(forms.vanishing(factor), Number(0)) for factor in factors]
         yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
 

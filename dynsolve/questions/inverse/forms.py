@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.factors import is_nonnegative
 from dynsolve.algebra.fraction import RationalExpr, cancelled
+from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.ring_plan import square_free_primes
 from dynsolve.derivation.configurations import Condition as Equality
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.derivation.graph import Skipped
@@ -28,6 +30,7 @@ from dynsolve.notation.tree import (
     Letter,
     Matrix,
     Node,
+    Number,
     Quotient,
     Relation,
     Sum,
@@ -218,15 +221,14 @@ class InverseFormulas:
         root = Function("sqrt", self.radicand(step))
         if step.linear.is_zero:
             return _both(ZERO, root)
-        below = step.square if _is_even(step.linear) else step.square * 2
+        below = step.square * Fraction(2, _root_of_content(step.discriminant))
         return _both(self.ratio(-step.linear, step.square * 2), times(1, [(root, 1), (self.form(below), -1)]))
 
     def radicand(self, step: RootLength) -> Node:
-        """What stands under the root: -C/A, B² - 4 A C, or (B/2)² - A C where that has no fractions."""
+        """What stands under the root: -C/A, or B² - 4 A C without the square of a number."""
         if step.linear.is_zero:
             return self.ratio(-step.constant, step.square)
-        discriminant = step.linear * step.linear - step.square * step.constant * 4
-        return self.form(discriminant * Fraction(1, 4) if _is_even(step.linear) else discriminant)
+        return self.form(step.discriminant / _root_of_content(step.discriminant) ** 2)
 
     def sum_of(self, step: Remainder) -> Node:
         """The sum of angles that the task gives: q₂ + q₃ = r₃."""
@@ -252,7 +254,9 @@ class InverseFormulas:
         """above / below, cancelled; the sign in front."""
         value = cancelled(RationalExpr(above, below))
         if value.divisor is None:
-            return self.form(value.numerator)
+            plain, number = self.form(value.numerator), content([value.numerator])
+            over = Quotient(self.form(value.numerator * number.denominator), Number(number.denominator))
+            return plain if number.denominator == 1 else min(plain, over, key=cost)
         whole = lcm(*(int(factor.q) for e in (value.numerator, value.divisor) for factor in e.poly.coeffs()))
         if is_nonnegative(-value.divisor):
             whole = -whole
@@ -305,9 +309,9 @@ def _in_whole_numbers(a: Expr, b: Expr) -> tuple[Expr, Expr]:
     return a * (whole / shared), b * (whole / shared)
 
 
-def _is_even(expr: Expr) -> bool:
-    """Whether all numbers in front of terms are even."""
-    return all(int(factor.q) == 1 and int(factor.p) % 2 == 0 for factor in expr.poly.coeffs())
+def _root_of_content(expr: Expr) -> int:
+    """The greatest number whose square is in all numbers in front of terms."""
+    return square_free_primes(content([expr]).numerator)[0]
 
 
 class InverseForms(SetForms):

@@ -27,7 +27,7 @@ from msgspec import Struct
 from dynsolve.algebra.factors import is_never_zero, is_positive
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.existence import fourier_parts
-from dynsolve.questions.inverse.equations import Equation, Unknowns
+from dynsolve.questions.inverse.equations import Equation, Squared, Unknowns
 
 # An expression by what its unknowns do in it: A cos ψ + B sin ψ + C, or A d² + B d + C
 
@@ -216,6 +216,18 @@ class RootLength(Struct, frozen=True):
     constant: Expr
     equations: tuple[Equation, ...]
     count = 2
+
+    @property
+    def discriminant(self) -> Expr:
+        """B² - 4 A C"""
+        return self.linear * self.linear - self.square * self.constant * 4
+
+    @property
+    def always_exists(self) -> bool:
+        """Whether d² is a sum of squares of what is known."""
+        origin, rest = self.equations[0].origin, -self.constant
+        is_pure = self.linear.is_zero and is_positive(self.square)
+        return is_pure and isinstance(origin, Squared) and origin.left in (rest, rest * self.square)
 
     @property
     def rank(self) -> int:

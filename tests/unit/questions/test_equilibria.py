@@ -771,6 +771,17 @@ find: [equilibria]
     assert first["stable_if"][-1] == "R*k > m*g"
 
 
+def test_what_no_coordinate_makes_0_is_told() -> None:
+    text = """
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: 1, at: [x, y, 0]}]}
+gravity: none
+springs: [{energy: "x^4/4 - 2*x^2 + x*y^2 + y^2"}]
+find: [equilibria]
+"""
+    shown = " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
+    assert "Where 1 + x = 0, 3 + y² is not 0." in shown
+
+
 def test_that_coulomb_friction_holds_more_is_said() -> None:
     """With f_c = 1 a mass on a spring rests wherever the spring pulls with less than that."""
     spring = """

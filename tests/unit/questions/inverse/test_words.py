@@ -54,7 +54,27 @@ def test_angles_that_are_found_in_numbers_are_rounded_in_the_table() -> None:
 
 def test_a_component_that_stands_in_two_equations_is_one() -> None:
     text = told("dh: [{theta: q1*, alpha: 90deg, a: b}, {theta: q2*, d: c, a: l}]")
-    assert "Component 3 of the task has no other unknown. Two equations" in text
+    assert "Component 3 of the task has no other unknown. Turning a vector" in text
+    assert "subproblem 3). Two equations" in text
+
+
+def test_what_always_is_and_what_never_is_are_no_conditions() -> None:
+    """√(A² + B²) is real; s s2 + b c2 and s c2 - b s2 are 0 together only where s² + b² is."""
+    shoulder = "dh: [{theta: q1*, a: l}, {theta: q2* + 90deg, alpha: 90deg}, {d: q3*}]\n"
+    text = told(shoulder + "task: [tip.x, tip.y, q1]\nreach: [u, v, w]")
+    assert "q₃ = ± √((u - l cos(w))² + (v - l sin(w))²)" in text and "has solutions where" not in text
+    text = told("dh: [{theta: q1*, alpha: 45deg}, {theta: q2*, a: b, alpha: 90deg}, {d: q3*}]")
+    assert "q₁ is free" not in text
+
+
+def test_no_square_of_a_number_stands_under_a_root() -> None:
+    text = told("dh: [{theta: q1*, a: b, alpha: 30deg}, {d: q2*, alpha: 60deg}, {d: q3*}]\nreach: [u, v, w]")
+    assert "q₃ = -q₂/2 ± √(u² + v² - b²) Note: This equation has solutions where u² + v² - b² ≥ 0" in text
+
+
+def test_a_sum_over_a_number_has_one_denominator() -> None:
+    arm = "dh: [{theta: q1*, d: 1, alpha: 90deg}, {theta: q2*, a: 2}, {theta: q3*, a: 1}]\n"
+    assert "arccos((r₁² + r₂² - 4 - r₃ (2 - r₃))/4)" in told(arm)
 
 
 def test_columns_of_a_rotation_are_at_right_angles_in_what_must_hold() -> None:
