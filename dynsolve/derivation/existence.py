@@ -28,6 +28,9 @@ MOST_TURNING = 3
 MOST_BRANCHES = 16
 """With more combinations of quarter turns nothing is said."""
 
+Pose = dict[str, Fraction]
+"""Angles in degrees."""
+
 Swings = dict[Multiples, tuple[Expr, Expr]]
 """{n: (A, B)} of Σ A cos(n·q) + B sin(n·q)."""
 
@@ -68,7 +71,7 @@ def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     """
     return all(
         _swing_apart(group, signs)
-        or any(all(map(_is_zero, at)) for at in _at_quarters(group))
+        or any(all(map(_is_zero, at)) for _, at in _at_quarters(group))
         or (len(group) == 1 and (square_of(group[0]) is not None or _changes_sign(group[0], signs)))
         for group in _apart(values)
     )
@@ -137,7 +140,17 @@ def _is_zero(value: Expr) -> bool:
     return value.is_zero
 
 
-def _at_quarters(values: Sequence[Expr]) -> Iterator[list[Expr]]:
+def rests(value: Expr) -> Iterator[Pose]:
+    """The quarter turns at which k φ - m g l sin φ is 0: a value in which an angle stands by itself, too."""
+    ring, degrees = value.ring, value.poly.degrees()
+    if (
+        any(degrees[ring.symbol_indices[name, 0]] > 0 for name in _coordinates(value))
+        and _swings(value) is None
+    ):
+        yield from (pose for pose, (at,) in _at_quarters([value]) if pose and at.is_zero)
+
+
+def _at_quarters(values: Sequence[Expr]) -> Iterator[tuple[Pose, list[Expr]]]:
     """The values at all quarter turns of their angles, where their lengths are 0."""
     ring = values[0].ring
     names = dict.fromkeys(name for value in values for name in _coordinates(value))
@@ -150,7 +163,7 @@ def _at_quarters(values: Sequence[Expr]) -> Iterator[list[Expr]]:
         images = {index: image.poly for index, image in bare.items() if image is not None}
         at = [ring.put(ring.at_pose(value, pose), images) for value in values]
         if not any(map(ring.depends_on_coordinates, at)):
-            yield at
+            yield pose, at
 
 
 def _rate(ring: Ring, name: str) -> Fraction:
@@ -168,7 +181,7 @@ def _radians(ring: Ring, degrees: Fraction | int) -> Expr | None:
 
 def _changes_sign(value: Expr, signs: ParameterSigns) -> bool:
     """Whether a value is positive somewhere and negative elsewhere: at quarter turns, or far out."""
-    seen = {sign for (at,) in _at_quarters([value]) for sign in (1, -1) if signs.is_positive(at * sign)}
+    seen = {sign for _, (at,) in _at_quarters([value]) for sign in (1, -1) if signs.is_positive(at * sign)}
     ring, degrees = value.ring, value.poly.degrees()
     for name in _coordinates(value):
         degree = int(degrees[ring.symbol_indices[name, 0]])

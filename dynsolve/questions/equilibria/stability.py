@@ -29,9 +29,9 @@ from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, work
-from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
-from dynsolve.derivation.existence import DEGREES, conditions, square_of
+from dynsolve.derivation.existence import DEGREES, Pose, conditions, rests, square_of
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.questions.equilibria.multipliers import Along, Multipliers
@@ -172,19 +172,27 @@ class Curvature(Struct, frozen=True):
             for k in range(len(ring.names))
             if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
         ]
-        for values in product(*turns):
+        at_rest = dict.fromkeys(_turned(ring, pose) for one in others for pose in rests(one.expr))
+
+        def point_at(values: Values) -> Point | None:
             left = _put(Matrix.column(ring, [other.expr for other in others]), values).entries
             if conditions(left, signs) is None:
-                continue
+                return None
             here = partial(_there, values=values, zeros=left)
             if self.held is not None:
                 along = self.held.along(self.second, here)
                 point = Point(values, Stability.UNDECIDED)
-                yield point if along is None else self._held_point(values, along, signs, here)
-                continue
+                return point if along is None else self._held_point(values, along, signs, here)
             at = here(self.second)
             drifting = self._drifting(values, at, signs, len(alternative))
-            yield drifting or self._point(values, at, signs, free, here)
+            return drifting or self._point(values, at, signs, free, here)
+
+        for values in product(*turns):
+            point = point_at(values)
+            if point is not None and (point.is_open or point.stability is Stability.UNDECIDED):
+                yield from filter(None, (point_at((*values, *more)) for more in at_rest))
+            if point is not None:
+                yield point
 
     def _held_point(self, values: Values, along: Along, signs: ParameterSigns, here: Here) -> Point:
         """The stability along what constraints leave free, where their rows are independent."""
@@ -370,6 +378,16 @@ def _at_turn(second: Matrix, turn: Turn) -> Matrix:
         return total
 
     return second.map(put)
+
+
+def _turned(ring: Ring, pose: Pose) -> Values:
+    """The angles of a pose at quarter turns."""
+    found = []
+    for pair in ring.pairs:
+        sine, cosine = (ring.at_pose(ring.generator(place), pose) for place in (pair.sine, pair.cosine))
+        if sine.is_number and cosine.is_number:
+            found.append((pair, int(sine.number), int(cosine.number)))
+    return tuple(found)
 
 
 def quarter_turns(condition: Condition) -> list[tuple[Pair, int, int]]:

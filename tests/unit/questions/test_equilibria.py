@@ -1080,3 +1080,25 @@ find: [equilibria]
 """
     (row,) = told_of(turned).result
     assert to_unicode(row) == "r = k a/(k - m W²)"
+
+
+def test_the_quarter_turns_at_which_an_angle_and_its_sine_balance_are_told() -> None:
+    """An inverted pendulum on a spring (V'' = k - m g b upright, by hand); another with a constant moment."""
+    turned = """
+gravity: [0, -g, 0]
+model: {{coordinates: {{phi: revolute}}, bodies: [{{mass: m, at: [b*sin(phi), b*cos(phi), 0]}}]}}
+springs: [{{energy: "k*phi^2/2 + {more}"}}]
+find: [equilibria]
+"""
+    (upright, other), *_ = dynsolve.solve(turned.format(more="0*phi")).to_json()["results"][
+        "equilibria_stability"
+    ]
+    assert upright == {
+        "phi": "0",
+        "stability": "undecided",
+        "stable_if": ["k > m*g*b"],
+        "unstable_if": ["m*g*b > k"],
+    }
+    assert other["stable_if"] == ["k > m*g*b*cos(phi)"]
+    (alone,), *_ = dynsolve.solve(turned.format(more="c*phi")).to_json()["results"]["equilibria_stability"]
+    assert "phi" not in alone
