@@ -71,7 +71,7 @@ class Forms:
 
     def __init__(self, robot: Robot, values: Derivation, *, decimal: bool = False) -> None:
         self.robot = robot
-        self._decimal = decimal or is_numeric(robot)
+        self._decimal = decimal or in_decimals(robot)
         self.values = values
         self._made: dict[str, Node] = {}
         self._symbols: dict[tuple[int, int, int], Node] = {}
@@ -145,7 +145,7 @@ class Forms:
             made = self._from_parts(name)
             if made is not None:
                 return made
-        if quantity is not None and is_numeric(self.robot):
+        if quantity is not None and in_decimals(self.robot):
             if quantity.family is families.DLDQD:
                 return self._momentum_in_decimals(value)
             if quantity.family in _KINETIC:
@@ -188,6 +188,9 @@ class Forms:
                 factors = [(entry, 1), *rates_of_pair(names, j, k)]
                 terms.append(times(1 if j == k else 2, factors, decimal=True))
             inner = total(terms)
+        first, *others = factors_of(inner)
+        if isinstance(first, Number) and first.q == 1:  # ½·8 q̇²
+            return times(Fraction(first.p, 2), [(factor, 1) for factor in others], decimal=True)
         return Product((letters.HALF, *factors_of(inner)))
 
     # -- long values from their parts --------------------------------------------------------------
@@ -324,8 +327,13 @@ def _linear_names(expr: Expr) -> list[str]:
 
 
 def is_numeric(robot: Robot) -> bool:
-    """Whether the masses are numbers, so that results read best in decimals."""
+    """Whether the masses are numbers."""
     return any(body.mass.is_number and not body.mass.is_zero for body in robot.bodies)
+
+
+def in_decimals(robot: Robot) -> bool:
+    """Whether numbers are printed as decimals: the masses are numbers, and some of the file are decimals."""
+    return robot.has_decimals and is_numeric(robot)
 
 
 def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:

@@ -242,7 +242,7 @@ class FormulaPrinter(Printer):
             if is_whole(node.exponent):
                 return self._applied(base.name, self.text(base.argument), exponent)
             return self._raised(self.text(base), exponent)
-        return self._to_the_power(base, exponent, is_whole(base) or type(base) in self.bare_bases)
+        return self._to_the_power(base, exponent, self.style.is_digits(base) or type(base) in self.bare_bases)
 
     def _to_the_power(self, base: Node, exponent: str, bare: bool) -> str:
         if isinstance(base, Letter) and base.sup is None:

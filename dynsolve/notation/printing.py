@@ -78,6 +78,10 @@ class Style(Struct, frozen=True):
             return rounded_text(Fraction(node.p, node.q), self.digits)
         return decimal_text(node.p, node.q)
 
+    def is_digits(self, node: Node) -> bool:
+        """Whether a node is written in digits alone: 2 or 0.15."""
+        return type(node) is Number and node.p >= 0 and (node.q == 1 or self.number(node) is not None)
+
     def rounds(self, node: Number) -> bool:
         """Whether a number is shown rounded, or was rounded before."""
         if node.rounded:

@@ -96,6 +96,7 @@ def tokens(text: str) -> list[FormulaToken]:
 
 
 _EXPONENT = re.compile("[eE]")
+_WITH_EXPONENT = re.compile(r"(?<!\w)\d+[eE][-+]?\d")
 
 
 def rational(token: FormulaToken) -> Fraction:
@@ -114,6 +115,15 @@ def rational(token: FormulaToken) -> Fraction:
     shift = (-int(power or 0) if "-" in exponent else int(power or 0)) - len(decimals)
     digits = int((whole + decimals) or "0")
     return Fraction(digits * 10**shift) if shift >= 0 else Fraction(digits, 10**-shift)
+
+
+def has_decimals(text: str) -> bool:
+    """Whether a number of a formula is a decimal: 0.5 or 1e-3, and not 1/2.
+
+    >>> [has_decimals(text) for text in ("l/2 + 1e-3", "0.5*l", "l/2 + 30deg")]
+    [True, True, False]
+    """
+    return "." in text or _WITH_EXPONENT.search(text) is not None
 
 
 _BEGINS_FACTOR = frozenset({"number", "degrees", "name", "(", "√"})

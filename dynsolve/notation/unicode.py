@@ -273,7 +273,8 @@ class UnicodePrinter(FormulaPrinter):
                 return self._applied(base.name, self.text(base.argument), exponent)
             return self.text(base) + exponent
         text = self.text(base)
-        bare = type(base) in _BARE_BASES or is_whole(base) or (type(base) is Letter and base.sup is None)
+        bare = type(base) in _BARE_BASES or self.style.is_digits(base)
+        bare = bare or (type(base) is Letter and base.sup is None)
         return (text if bare else f"({text})") + exponent
 
     def _exponent(self, node: Node) -> str:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.notation.text import has_decimals
 from dynsolve.problem.bodies import ParsedShape
 from dynsolve.problem.decoder import Record
 from dynsolve.problem.parsed import ParsedFile, evaluate
@@ -77,6 +78,7 @@ def build_robot(
         given=given,
         parameters=tuple(name for name in ring.parameters if name not in ("pi", *inputs)),
         inputs=inputs,
+        has_decimals=any(has_decimals(cell.text) for cell in parsed.cells),
     )
     if parsed.acting is not None:
         from dynsolve.problem.acting import actions

@@ -353,7 +353,8 @@ class Robot(Struct, frozen=True):
     `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `inputs` are the names
     of the generalized forces, one a coordinate, where results hold them.  `questions` are
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
-    bodies are given by their positions, or `given` stands in their place.
+    bodies are given by their positions, or `given` stands in their place.  `has_decimals` says that numbers
+    were written as 0.5, and not as 1/2.
     """
 
     ring: Ring
@@ -370,6 +371,7 @@ class Robot(Struct, frozen=True):
     actions: Actions = NOTHING_ACTS
     given: GivenModel | None = None
     base_turns: AxisTurns = ()
+    has_decimals: bool = False
 
     @property
     def has_table(self) -> bool:

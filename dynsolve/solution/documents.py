@@ -40,6 +40,7 @@ from dynsolve.document import (
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
+from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.given import at_the_state, holds_at_state, in_words, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
@@ -96,8 +97,8 @@ _WIDEST = 50
 
 
 def measured_steps(steps: Iterable[Step], robot: Robot, style: Style) -> Iterator[Step]:
-    """The steps as they are; in a report with decimals, with units."""
-    if not style.digits:
+    """The steps as they are; of a model in numbers with units."""
+    if not is_numeric(robot):
         yield from steps
         return
     known = _units(robot)
@@ -501,9 +502,13 @@ def solution_documents(
     return made(None) if short is None else attempted(lambda: made(short), lambda: made(None), names)
 
 
+_ROUNDED = (
+    " One with more than {digits} significant digits is rounded to these where it is printed, and nowhere "
+    "else; ≈ marks that."
+)
+
 _IN_NUMBERS = (
-    "Numbers are exact, in SI units (m, kg, s, N). One with more than {digits} significant digits is "
-    "rounded to these where it is printed, and nowhere else; ≈ marks that. A unit stands behind a result "
+    "Numbers are exact, in SI units (m, kg, s, N).{rounded} A unit stands behind a result "
     "that is a number other than 0, and behind some matrices of which all entries have it; any other formula "
     "has that of its left side, and so has an entry of a matrix."
 )
@@ -554,8 +559,9 @@ class _Parts(Struct, dict=True):
         yield Heading(problem.title, 1)
         if problem.source:
             yield Text((f"{problem.source.rstrip('.')}.",))
-        if digits := self.solution.style.digits:
-            yield Text(say(_IN_NUMBERS, digits=digits))
+        if is_numeric(self.solution.robot):
+            digits = self.solution.style.digits
+            yield Text(say(_IN_NUMBERS, rounded=say(_ROUNDED, digits=digits) if digits else ""))
 
     def statement(self, derivation: tuple[Block, ...]) -> Iterator[Block]:
         """The exercise, before a whole solution of it."""

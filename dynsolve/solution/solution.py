@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from dynsolve.errors import AlgebraError, UsageError
-from dynsolve.explain.forms import Forms, is_numeric
+from dynsolve.explain.forms import Forms, in_decimals, is_numeric
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
@@ -214,11 +214,18 @@ class Solution(Dynamics, frozen=True, dict=True):
 
         try:
             robot = robot_with(self.robot, given.values)
+            robot = replace(robot, has_decimals=robot.has_decimals or given.decimal)
             # the table was held to the drawing with symbols, and has other ones now
             valued = solve(replace(self.problem, robot=robot, normals=None))
         except AlgebraError as error:
             raise UsageError(f"with these values the robot has no solution: {error.message}") from error
         return replace(valued, given=Given({**self.given.entries, **given.entries}, given.warnings))
+
+    def _in_decimals(self, digits: int) -> Solution:
+        """The solution of a model in numbers with so many significant digits."""
+        robot = replace(self.robot, has_decimals=True)
+        problem, forms = replace(self.problem, robot=robot), Forms(robot, self.values)
+        return replace(self, problem=problem, forms=forms, digits=digits)
 
     def at(self, /, **state: Plain) -> State:
         """What holds at a state: every result with numbers for coordinates, velocities, accelerations.
@@ -263,8 +270,7 @@ class Solution(Dynamics, frozen=True, dict=True):
         """
         from dynsolve.solution.numbers.results import Numbers, Valued, needed
 
-        shown = replace(self, digits=digits) if is_numeric(self.robot) else self
-
+        shown = self if digits is None or not is_numeric(self.robot) else self._in_decimals(digits)
         values = tuple(values)
         all_parameters = set(needed(self.robot))
         with_values = bool(values) or (bool(all_parameters) and all_parameters <= self.problem.written.keys())
@@ -273,7 +279,7 @@ class Solution(Dynamics, frozen=True, dict=True):
         given = parameters(self.problem, values)
         at = None if state is None else read_state(self.problem, state)
         numeric = self._with(given) if given.entries else self
-        decimal = given.decimal or digits is not None or is_numeric(self.robot)
+        decimal = given.decimal or digits is not None or in_decimals(self.robot)
         valued = Valued(
             robot=numeric.robot,
             values=numeric.values,

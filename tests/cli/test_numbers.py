@@ -153,7 +153,7 @@ def test_numbers_for_every_parameter_at_a_state_leave_nothing_in_the_ring() -> N
     ran = dynsolve("solve", "planar-2r", "--set", values, "--at", "q1=0,q2=0,q1_dot=1,q2_dot=1", "--json")
     assert not ran.err
     at = json.loads(ran.out)["at"]["results"]
-    assert at["K"] == "4.625"  # ½ (d₁₁ + 2d₁₂ + d₂₂) = ½ (4.5 + 3.5 + 1.25)
+    assert at["K"] == "37/8"  # no decimal goes in: ½ (d₁₁ + 2d₁₂ + d₂₂) = ½ (4.5 + 3.5 + 1.25)
 
 
 def test_where_a_denominator_is_0_one_result_is_left_out_and_not_all(tmp_path: Path) -> None:

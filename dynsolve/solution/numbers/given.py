@@ -21,7 +21,7 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, Finding, InputError, ReadError
 from dynsolve.explain.writing import and_joined
 from dynsolve.notation.characters import normalize
-from dynsolve.notation.text import read, tokens
+from dynsolve.notation.text import has_decimals, read, tokens
 from dynsolve.notation.tree import Degrees, Negative, Node, Number, Product, number
 from dynsolve.problem import Problem
 from dynsolve.quantities.family import Family
@@ -359,10 +359,8 @@ class _Reader:
             help = "a value is a number: 0.4, 2/3, sqrt(2)/2, 30deg"
             self.findings.append(assignment.at_value(message, help, first.offset, first.length))
             return None
-        numbers = [token for token in tokens(text) if token.kind in ("number", "degrees")]
-        degrees = any(token.kind == "degrees" for token in numbers)
-        decimal = any("." in token.text or "e" in token.text.replace("deg", "").lower() for token in numbers)
-        return _Written(reading.tree, degrees or radians, radians, decimal or radians)
+        degrees = any(token.kind == "degrees" for token in tokens(text))
+        return _Written(reading.tree, degrees or radians, radians, has_decimals(text) or radians)
 
     def angle(self, assignment: Assignment, written: _Written, unit: str) -> Node | None:
         """An angle; a bare number counts only where its unit is written."""

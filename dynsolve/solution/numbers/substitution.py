@@ -177,6 +177,7 @@ def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) ->
         questions=_with_values(robot.questions, put),
         actions=_with_values(robot.actions, put),
         given=_with_values(robot.given, put),
+        has_decimals=robot.has_decimals,
     )
 
 

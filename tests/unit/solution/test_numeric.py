@@ -355,3 +355,34 @@ def test_the_steps_of_the_json_mark_what_is_rounded() -> None:
     (tensor,) = (step for step in solved("numeric-2r").to_json()["steps"] if step["id"] == "I_body1")
     assert tensor["text"].endswith("𝐈₁ ≈ [[0, 0, 0], [0, 0.0520833, 0], [0, 0, 0.0520833]]")
     assert r"\mathbf{I}_{1} \approx" in tensor["latex"]
+
+
+# -- Without a decimal in its file a model in numbers stays exact ------------------------------------
+
+FRACTIONS = """
+gravity: [0, -10, 0]
+dh: [{theta: q1*, a: 1/2}]
+masses: [{mass: 8, link: 1, center: tip, inertia: {zz: 1/6}}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("written", "digits", "D", "rounded"),
+    [
+        ("1/6", None, "𝐃 = [13/6] kg m²", False),
+        ("1/6", 3, "𝐃 ≈ [2.17] kg m²", True),
+        ("0.5", None, "𝐃 = [2.5] kg m²", True),
+        ("5e-1", None, "𝐃 = [2.5] kg m²", True),
+    ],
+)
+def test_numbers_are_decimals_where_one_is(written: str, digits: int | None, D: str, rounded: bool) -> None:
+    solution = dynsolve.solve(FRACTIONS.replace("1/6", written))
+    text = report(solution.beside(digits=digits), Format.TEXT).decode()
+    assert D in text
+    assert ("significant digits" in text) == rounded
+    assert solution.to_json()["results"]["D"] == [["13/6" if written == "1/6" else "2.5"]]
+
+
+def test_half_of_a_whole_number_is_multiplied() -> None:
+    solution = dynsolve.solve(FRACTIONS.replace("1/2", "1.0"))
+    assert to_unicode(solution.forms("Kv1"), solution.style) == "4q̇₁²"

@@ -178,11 +178,10 @@ def test_body_by_body_where_the_determinants_are_long() -> None:
 def test_a_moment_of_inertia_in_numbers_is_summed_up() -> None:
     """Masses 2.5, 1.2 and 0.75 at 0.25, 0.5 + 0.15 and 0.5 + 0.4 of the axis."""
     assert rows("numeric-2r", "inertia_poses")[0][-1] == (
-        "d₁₁ = 2.5 (0.25)² + 0.0520833 + 1.2 (0.65)² + 0.02 + 0.75 (0.9)² = 1.34283 kg m²"
+        "d₁₁ = 2.5·0.25² + 0.0520833 + 1.2·0.65² + 0.02 + 0.75·0.9² = 1.34283 kg m²"
     )
     assert rows("numeric-2r", "inertia_poses")[1][-1] == (  # bent: the distances by Pythagoras
-        "d₁₁ = 2.5 (0.25)² + 0.0520833 + 1.2 ((0.15)² + (0.5)²) + 0.02 + 0.75 ((0.4)² + (0.5)²)"
-        " = 0.862833 kg m²"
+        "d₁₁ = 2.5·0.25² + 0.0520833 + 1.2 (0.15² + 0.5²) + 0.02 + 0.75 (0.4² + 0.5²) = 0.862833 kg m²"
     )
     assert check("numeric-2r", "point_masses") is None
 
