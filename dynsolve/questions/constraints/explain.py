@@ -97,7 +97,7 @@ def _functions(context: Context) -> Step:
             each=say("Each entry of {h}", h=letters.H_C) if many else letters.H_C,
             points=", with the coordinates of the points from the forward kinematics" if has_points else "",
         ),
-        formula=equation(letters.H_C, column(*entries) if many else entries[0]),
+        formula=equation(letters.H_C, column(*entries) if many else entries[0]) if has_points else None,
         source=mls("6.1.1"),
         result=(equation(letters.H_C, scalar(context.form("hc"))),),
         detail=Detail.BRIEF,

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
+from itertools import combinations as choices
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.terms import Exponents
@@ -44,6 +45,9 @@ MOST_COEFFICIENTS = 4000
 """With more different coefficients no parameters are looked for."""
 
 TOO_MANY = "the forces have too many different coefficients"
+MOST_NAMES = 20
+"""Of more parameters it is not tried which have to be known."""
+
 NOT_LINEAR = "the forces are not linear in the given parameters"
 
 
@@ -218,13 +222,28 @@ def regressor(
     """
     if isinstance(parameters, Skipped):
         return parameters
-    kinds = generators(robot.ring, known_names(robot))
-    vectors = [kinds.vector(entry) for entry in parameters.entries]
-    known = [vector for vector in vectors if vector is not None]
-    columns = _columns(robot.ring, _split(robot, forces), known) if len(known) == len(vectors) else None
-    return (
-        Skipped(NOT_LINEAR) if columns is None else tidy(robot.ring, [map(cancelled, row) for row in columns])
-    )
+    known = known_names(robot)
+    columns = _regressor(robot.ring, known, forces, parameters)
+    if columns is not None:
+        return tidy(robot.ring, [map(cancelled, row) for row in columns])
+    names = sorted(set(robot.ring.parameters) - known) if len(robot.ring.parameters) <= MOST_NAMES else []
+    for size in (1, 2):
+        for more in choices(names, size):
+            if _regressor(robot.ring, known.union(more), forces, parameters) is not None:
+                are = f"{' and '.join(more)} {'were' if size > 1 else 'was'}"
+                return Skipped(f"{NOT_LINEAR}; they would be if {are} `known`")
+    return Skipped(NOT_LINEAR)
+
+
+def _regressor(
+    ring: Ring, known: frozenset[str], forces: Matrix, parameters: Matrix
+) -> list[list[RationalExpr]] | None:
+    """Y where some parameters are known; None where the forces are no combinations of the others."""
+    kinds = generators(ring, known)
+    vectors = [vector for entry in parameters.entries if (vector := kinds.vector(entry)) is not None]
+    if len(vectors) < len(parameters.entries):
+        return None
+    return _columns(ring, [kinds.split(entry) for entry in forces.entries], vectors)
 
 
 def _columns(ring: Ring, split: Split, vectors: Sequence[Vector]) -> list[list[RationalExpr]] | None:

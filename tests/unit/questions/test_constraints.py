@@ -252,3 +252,9 @@ def test_what_a_denominator_divides_stands_apart() -> None:
     (step,) = (step for step in dynsolve.solve(WHEEL).steps if step.id == "lambda")
     told = unicodedata.normalize("NFC", to_unicode(step.result[0]))
     assert "m R cos(ψ) ψ̇ φ̇ + m R τ₄ sin(ψ)/(m R² + J)" in told
+
+
+def test_what_is_kept_is_told_in_one_spelling() -> None:
+    text = "model: {coordinates: {x: prismatic, y: prismatic}, D: [[m, 0], [0, m]]}\nconstraints: [y + c*x]\n"
+    shown = report(dynsolve.solve(text + "find: [Ac]\n"), Format.TEXT).decode()
+    assert "𝐡 = c x + y" in shown and "y + c x =" not in shown.partition("stays 0")[2]
