@@ -18,6 +18,7 @@ from dynsolve.document import Inline, Prose
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, WORKED, Detail, Part, Step
+from dynsolve.explain.working.identities import product_named
 from dynsolve.explain.writing import (
     counted_sum,
     is_small,
@@ -293,10 +294,14 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
     if along is None:
         center = context.form(f"rc{body.name}")
         vectors = Product((context.show(body.mass), gravity_row(context).argument, center))
+        row = context.robot.gravity.T.scale(-body.mass)
+        place, energy = (context.values[f"{name}{body.name}"] for name in ("rc", "P"))
+        is_shown = is_small(center)
         return replace(
             step,
             why=(*gravity, "It is minus the mass times ", pull, "."),
-            working=(equation(P, Negative(vectors)),) if is_small(center) else (),
+            working=(equation(P, Negative(vectors)),) if is_shown else (),
+            concluding=product_named(context, row, place, Matrix.of(energy.ring, [[energy]])) * is_shown,
         )
     i, size, is_up = along
     h, g = letters.height(letters.index_of(body.name)), _acceleration(context, size)

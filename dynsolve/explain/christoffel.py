@@ -16,6 +16,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import ending_of_symbols, label_of
 from dynsolve.explain.step import NOTED, TOLD, Detail, Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate, slopes, varying
+from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.writing import counted_sum, is_small, listed, spong
 from dynsolve.notation.build import split_sign, times, total
 from dynsolve.notation.template import formula
@@ -50,6 +51,10 @@ def christoffel_step(context: Context) -> Step:
     """c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k), those that are not zero."""
     nonzero, zero = _sorted_symbols(context)
     way = slopes(context)
+    used = list(dict.fromkeys(one for indices in nonzero for one in _put_in(context, *indices)[1]))
+    if used:
+        put_in = "Put into the formula, with" if way.lines else "With"
+        way = replace(way, concluding=say("{put_in} {used}:", put_in=put_in, used=said(used)))
     swapped = "The first two indices may be swapped: $c_ijk = c_jik$. " if context.robot.n > 1 else ""
     why = say(
         f"They are made of the derivatives of $𝐃$ with respect to the coordinates. {swapped}"
@@ -114,7 +119,20 @@ def _symbol(context: Context, i: int, j: int, k: int) -> Node:
     slopes = in_slopes(context, i, j, k)
     if weights == [2]:  # two equal slopes, which their half is one of
         names.append(Product((letters.HALF, Parenthesized(Sum((slopes, slopes))))))
-    return equation(*names, slopes, value)
+    put_in, used = _put_in(context, i, j, k)
+    return equation(*names, slopes, *[put_in] * bool(used), value)
+
+
+def _put_in(context: Context, i: int, j: int, k: int) -> tuple[Node, Sequence[Identity]]:
+    """c_ijk with the derivatives of D put in, and the identities that lead on to its value; of short arms."""
+    if not context.is_short:
+        return ZERO, ()
+    ring, D = context.robot.ring, context.values["D"]
+    weights = _weights(context, i, j, k).items()
+    put_in = _halved(
+        [(weight, context.show(ring.diff(D[place], by))) for (place, by), weight in weights if weight]
+    )
+    return put_in, identities(ring, put_in, context.forms.christoffel(i, j, k)) or ()
 
 
 def with_slopes(context: Context, slopes: Iterable[Slope]) -> tuple[str, ...]:

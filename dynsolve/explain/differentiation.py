@@ -312,7 +312,8 @@ def _terms_of_rates(node: Node) -> Iterator[Node]:
 def sums_of_rates(node: Node) -> set[Node]:
     """The sums q̇₁ + q̇₂ that stand in a tree."""
     sums = (part for part in walk(node) if isinstance(part, Sum))
-    return {each for each in sums if all(part.dots for part in walk(each) if isinstance(part, Symbol))}
+    symbols = {each: [part for part in walk(each) if isinstance(part, Symbol)] for each in sums}
+    return {each for each, found in symbols.items() if found and all(part.dots for part in found)}
 
 
 def brackets(node: Node) -> set[Node]:

@@ -115,7 +115,7 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         **asdict(end),
         notes=notes,
         detail=Detail.BRIEF,
-        normal=STATED,
+        normal=STATED | Part.LINES | Part.CONCLUDING if way.used else STATED,
     )
 
 

@@ -33,7 +33,7 @@ from dynsolve.explain.writing import (
     sum_of,
     turns,
 )
-from dynsolve.notation.build import cost, total
+from dynsolve.notation.build import cost, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Cross,
@@ -498,8 +498,8 @@ def column_shown(
     if not turning:
         return ()
     alone = moved[0][1] if len(moved) == 1 else None
-    if alone and _axis_and_lever(context, alone, point)[1].is_zero:
-        return (equation(_difference_in(in_letters), ZERO),)
+    if alone and (nothing := _zero_column(context, alone, point, in_letters)) is not None:
+        return nothing
     parts: list[tuple[Fraction, Node]] = []
     small: list[Node] = []
     for rate, joint in moved:
@@ -522,6 +522,24 @@ def column_shown(
     if of_body:
         return tuple(equation(*(factored(context, part) for part in each.parts)) for each in shown)
     return tuple(shown)
+
+
+def _zero_column(
+    context: Context, joint: Joint, point: algebra.Matrix, in_letters: Node
+) -> tuple[Node, ...] | None:
+    """Why a column z × (p - o) is zero: p - o is, or is a multiple of z; None where it is neither."""
+    z, lever = _axis_and_lever(context, joint, point)
+    if lever.is_zero:
+        difference = _difference_in(in_letters)
+        end, start = difference.terms
+        return () if start == Negative(end) else (equation(difference, ZERO),)
+    pairs = zip(lever.entries, z.entries, strict=True)
+    factor = next(filter(None, (a.quotient(b) for a, b in pairs if not b.is_zero)), None)
+    if factor is None or z.scale(factor) != lever:
+        return None
+    own = letters.z(joint_frame(context.robot, joint))
+    multiple = times(1, [(context.show(factor), 1), (own, 1)])
+    return (equation(in_letters, Cross(own, Parenthesized(multiple)), ZERO),)
 
 
 def _difference_in(in_letters: Node) -> Sum:

@@ -27,6 +27,7 @@ from dynsolve.explain.working.identities import (
     Identity,
     Way,
     are_alike,
+    are_in_basic_angles,
     identities,
     products_cancel,
     proved,
@@ -105,7 +106,7 @@ def _along(context: Context, body: Body, velocity: Matrix) -> Way | None:
     """The lines by the components of the velocity along some axes."""
     robot, ring = context.robot, context.robot.ring
     components = [x for x in velocity.entries if not x.is_zero]
-    if any(map(squares.has_roots, components)) or not squares.are_in_basic_angles(context, components):
+    if any(map(squares.has_roots, components)) or not are_in_basic_angles(context, components):
         return None
     length = squares.shared(robot, components).length
     ((_, coefficient),) = length.poly.to_dict().items()

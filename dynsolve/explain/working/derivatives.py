@@ -361,7 +361,8 @@ def summed(
         operation = "The squares of sums multiplied out, and collected"
     if len(opened) == 1:
         operation = say("The square {square} multiplied out, and collected", square=next(iter(opened)))
-    return chain(context, result, name, [((), before)], by(operation, used or ()))
+    way = chain(context, result, name, [((), before)], by(operation, used or ()))
+    return replace(way, used=used or ())
 
 
 def numbers_in(node: Node) -> set[Node]:

@@ -15,7 +15,7 @@ from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
-from dynsolve.algebra.trig_identities import Addition, new_additions, used_between
+from dynsolve.algebra.trig_identities import Addition, angles_in, new_additions, used_between
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
@@ -51,7 +51,7 @@ class Identity(Struct, frozen=True):
     relation: Relation | None
 
 
-_MANY = Identity("identities of sine and cosine", None)
+IN_TURN = Identity("identities of sine and cosine", None)
 """What is said where one after the other is used, and so none is found."""
 
 
@@ -75,25 +75,10 @@ def by(operation: str | Prose, used: Iterable[Identity], cancelled: Prose = ()) 
 
 
 def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | None:
-    """The identities that are used on the way from one tree to an equal one; None if they are not equal.
-
-    >>> from dynsolve.algebra.angles import Angle
-    >>> from dynsolve.algebra.ring_values import build_ring
-    >>> from dynsolve.notation.unicode import to_unicode
-    >>> from dynsolve.notation.tree import Symbol
-    >>> q1, q2 = Symbol("q1"), Symbol("q2")
-    >>> both = Angle.of("q1") + Angle.of("q2")
-    >>> ring = build_ring([("q1", "revolute"), ("q2", "revolute")], [], [Angle.of("q1"), both])
-    >>> s, c = Function("sin", q1), Function("cos", q1)
-    >>> squares = Sum((Power(s, Number(2)), Power(c, Number(2))))
-    >>> [to_unicode(found.relation) for found in identities(ring, squares, Number(1))]
-    ['sin²(q₁) + cos²(q₁) = 1']
-    >>> identities(ring, squares, Number(2)) is None
-    True
-    """
+    """The identities that are used on the way from one tree to an equal one; None if they are not equal."""
     used = used_between(ring, before, after)
     if used is None or not used.is_found:
-        return None if used is None else (_MANY,)
+        return None if used is None else (IN_TURN,)
     squared = (pythagoras(angle_node(angle, ring.names)) for angle in used.squared)
     return (*squared, *(_addition(ring, each) for each in used.additions))
 
@@ -159,6 +144,8 @@ def used_in_product(context: Context, left: Matrix, right: Matrix, result: Matri
 def cancelled_in_product(context: Context, left: Matrix, right: Matrix) -> Prose:
     """That the terms with s₁ c₁ cancel, where a product of matrices loses all of them without an identity."""
     ring = context.robot.ring
+    if not are_in_basic_angles(context, (*left.entries, *right.entries)):
+        return ()
     left_over: set[tuple[int, ...]] = set()
     gone: set[tuple[int, ...]] = set()
     for row in left.rows:
@@ -172,6 +159,12 @@ def cancelled_in_product(context: Context, left: Matrix, right: Matrix) -> Prose
         if was and not remains:
             return products_cancel(ring, pair)
     return ()
+
+
+def are_in_basic_angles(context: Context, values: Iterable[Expr]) -> bool:
+    """Whether some values are written in the angles of the ring alone."""
+    basic = {pair.angle for pair in context.robot.ring.pairs}
+    return basic.issuperset(angles_in(*map(context.show, values)))
 
 
 def products_cancel(ring: Ring, pair: Pair) -> Prose:

@@ -25,27 +25,27 @@ from dynsolve.algebra.generators import Generator, Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.algebra.trig_identities import angles_in
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import brackets
+from dynsolve.explain.differentiation import brackets, has_rates, is_trigonometric
 from dynsolve.explain.forms import Forms, in_decimals
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
     COLLECTED,
+    IN_TURN,
     SILENT,
     SORTED,
     Tactic,
     Way,
     Words,
     are_alike,
+    are_in_basic_angles,
     chain,
     collected,
     identities,
     product_line,
-    pythagoras,
     said,
 )
 from dynsolve.explain.writing import block_of, listed, sum_of
@@ -62,6 +62,7 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Product,
+    Quotient,
     Sum,
     Symbol,
     Transpose,
@@ -143,8 +144,8 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     if not context.is_short:
         return Way(concluding=_collected_at_once(context, body)) if squares_shown else SILENT
     factor, rest = _with_factor(context, body)
-    if squares_shown and (identity := _as_shown(context, body)):
-        return _chain(context, body, [], say("By {identity}:", identity=identity), factor)
+    if squares_shown and (at_once := _as_shown(context, body)):
+        return _chain(context, body, [], at_once, factor)
     if squares_shown and (way := _from_components(context, body, rest, factor)):
         return way
     each = list(along_axes(context, body))
@@ -164,21 +165,29 @@ def _length_along(context: Context, velocity: Matrix, along: Matrix) -> int:
     return sum(map(cost, shown))
 
 
-def _as_shown(context: Context, body: Body) -> Node | None:
-    """sin² + cos² = 1 of the angle that stands in squares of products, where that is no basic one: φ - β."""
-    ring, before = context.robot.ring, squared(context, body)
-    used = identities(ring, before, context.form(f"Kv{body.name}")) or ()
-    if len(used) != 1 or used[0].name or _squares_of_sums(before):
-        return None
-    basic = [pythagoras(angle_node(pair.angle, ring.names)) for pair in ring.pairs]
-    return None if used[0] in basic else used[0].relation
+def _as_shown(context: Context, body: Body) -> Prose:
+    """How squares become K_v in one line as they are shown; nothing where that takes more.
+
+    Those of products by one identity, or where numbers add up, ¼ + ¾; those of sums multiplied out, where
+    the angles in them are none of the ring, along whose axes they are longer.
+    """
+    before, value = squared(context, body), context.values[f"v{body.name}"].entries
+    bases = [each.base for each in walk(before) if isinstance(each, Power)]
+    sums = (part for base in bases for part in walk(base) if isinstance(part, Sum))
+    if _squares_of_sums(before) or any(map(is_trigonometric, sums)):
+        return () if are_in_basic_angles(context, value) else _collected_at_once(context, body)
+    after = context.form(f"Kv{body.name}")
+    used = identities(context.robot.ring, before, after)
+    if used is None or len(used) > 1 or not (used or any(map(has_roots, value))):
+        return ()
+    return say("By {used}:", used=said(used)) if used else say(collected(before, after))
 
 
 def _collected_at_once(context: Context, body: Body) -> Prose:
     """How the squares of v become K_v in one step; nothing where they are the same."""
     before, after = squared(context, body), context.form(f"Kv{body.name}")
     used = identities(context.robot.ring, before, after)
-    if used is None or are_alike(before, after):
+    if used is None or IN_TURN in used or are_alike(before, after):
         return ()
     by_name = sorted(used, key=lambda identity: bool(identity.name))
     return say(
@@ -226,8 +235,10 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
 
 
 def _squares_of_sums(node: Node) -> list[Node]:
-    """(a + b)² and the like in a tree."""
-    return [part for part in walk(node) if isinstance(part, Power) and isinstance(part.base, Sum)]
+    """(a + b)², ((a + b)/2)² and the like in a tree."""
+    powers = [part for part in walk(node) if isinstance(part, Power)]
+    bases = [each.base.numerator if isinstance(each.base, Quotient) else each.base for each in powers]
+    return [power for power, base in zip(powers, bases, strict=True) if isinstance(base, Sum)]
 
 
 def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[Node, Node, Expr]]:
@@ -270,7 +281,7 @@ def _from_components(
     if any(has_roots(x) for x in components):
         return None
     if any(len(x) > 1 for x in components):
-        multiplied = _multiplied(context, components)
+        multiplied = _multiplied(context, components, form)
         if multiplied is None:
             return None
         tactics += multiplied
@@ -352,8 +363,8 @@ def without_signs(node: Node) -> Node:
     return inner
 
 
-def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | None:
-    """The squares multiplied out, and the brackets worked out.
+def _multiplied(context: Context, components: Sequence[Expr], form: Node) -> list[Tactic] | None:
+    """The squares multiplied out, and the brackets worked out; at once where sums of lengths stay in these.
 
     None where a bracket holds rates too, or there are many, and where the squares are in other angles than
     those of the ring, in which they are multiplied out here: s₃² c₁² is none of what (a s₃)² has.
@@ -385,21 +396,15 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[Tactic] | 
         which=which,
         cancelled=say("; {these}", these=with_these) if cancelled else "",
     )
-    identity = Words(
-        say("By {used}:", used=said(used)),
-        say(
-            "Multiplied out{cancelled}, with {used}:",
-            cancelled=say(" ({these})", these=with_these) if cancelled else "",
-            used=said(used),
-        ),
+    at_once = say(
+        "Multiplied out{cancelled}, with {used}:",
+        cancelled=say(" ({these})", these=with_these) if cancelled else "",
+        used=said(used),
     )
-    return [(by, multiplied), (identity, reduced)]
-
-
-def are_in_basic_angles(context: Context, components: Iterable[Expr]) -> bool:
-    """Whether some values are written in the angles of the ring alone."""
-    basic = {pair.angle for pair in context.robot.ring.pairs}
-    return basic.issuperset(angles_in(*map(context.show, components)))
+    kept = brackets(_sum_of_squares(context, together)) & brackets(form)
+    if any(not (has_rates(each) or is_trigonometric(each)) for each in kept):
+        return [(Words(at_once, at_once), reduced)]
+    return [(by, multiplied), (Words(say("By {used}:", used=said(used)), at_once), reduced)]
 
 
 def _and_collected(words: Prose) -> Prose:

@@ -1,0 +1,123 @@
+"""What is said of a line is why it follows, and no line is a detour."""
+
+from __future__ import annotations
+
+import dynsolve
+from dynsolve.explain.step import Detail
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
+from tests.unit.explain.working.test_lines import lines
+
+FINGERS = """
+dh: [{theta: w*}, {from: 1, theta: f*, a: l}, {from: 1, theta: -f*, a: l}]
+masses: [{mass: m, link: 2, center: tip}, {mass: m, link: 3, center: tip}]
+gravity: [0, -g, 0]
+"""
+
+PARALLEL_LINK = """
+gravity: none
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: -q1*, a: l3}]
+masses: [{mass: m, link: 3, center: tip}]
+"""
+
+ON_A_SLOPE = """
+gravity: [g*sin(beta), -g*cos(beta), 0]
+dh: [{theta: q1*, a: l1}]
+masses: [{mass: m, link: 1, center: tip}]
+"""
+
+LEANING = """
+gravity: none
+dh: [{theta: q1*, d: h, alpha: 60deg}, {d: x*}]
+masses: [{mass: m, link: 1, center: [0, 0, e]}]
+"""
+
+LEANING_BASE = """
+gravity: none
+base: Rx(30deg)
+dh: [{d: x*, alpha: 90deg}, {theta: t*}]
+masses: [{mass: m, link: 1, center: origin}]
+"""
+
+LONGER_LINK = """
+gravity: none
+dh: [{theta: u1*, a: l1}, {theta: u2* - u1*, a: l2}, {theta: u1* - u2*}]
+masses: [{mass: m, link: 3, center: {near: [e, 0, 0]}}]
+"""
+
+ROLL_AND_SWING = """
+gravity: none
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: -90deg}, {theta: q3*, a: l}]
+masses: [{mass: m, link: 3, center: midpoint, shape: {rod: {length: l, axis: x}}}]
+"""
+
+WRIST = """
+gravity: none
+dh: [{theta: q1*, alpha: -90deg}, {theta: q2*, alpha: 90deg}, {theta: q3*, d: e}]
+masses: [{mass: m, link: 3, center: tip}]
+"""
+
+MODIFIED = """
+convention: modified
+dh: [{d: x*}, {theta: t*, alpha: 45deg}]
+masses: [{mass: m, link: 2, center: [c, 0, 0]}]
+"""
+
+
+def normal(problem: str) -> str:
+    """A worked example without its breaks of lines."""
+    page = report(dynsolve.solve(problem), Format.TEXT, detail=Detail.NORMAL).decode()
+    return " ".join(page.split())
+
+
+def test_a_potential_energy_says_by_what_it_is_collected() -> None:
+    opened = (
+        "Collected, with the sine of a sum, sin(w + f) = sin(w) cos(f) + cos(w) sin(f) and the sine of a "
+        "difference, sin(f - w) = sin(f) cos(w) - cos(f) sin(w):"
+    )
+    assert lines(FINGERS, "P")[1:] == ["𝒫 = m g l sin(w + f) - m g l sin(f - w)", opened]
+    assert opened in normal(FINGERS)
+
+
+def test_a_row_times_a_column_says_by_what_it_is_added() -> None:
+    added = "With the sine of a difference, s₁ cos(β) - c₁ sin(β) = sin(q₁ - β):"
+    assert lines(ON_A_SLOPE, "P1") == [added]
+    assert added in normal(ON_A_SLOPE)
+
+
+def test_squares_in_angles_that_are_none_of_the_ring_are_multiplied_out_as_they_stand() -> None:
+    assert lines(PARALLEL_LINK, "Kv1") == [
+        "Multiplied out, with s₁² + c₁² = 1, s₂² + c₂² = 1, s₁₂² + c₁₂² = 1 and the cosine of a difference "
+        "(c₂ c₁ + s₂ s₁ = cos(q₂ - q₁), c₁ c₁₂ + s₁ s₁₂ = c₂ and c₂ c₁₂ + s₂ s₁₂ = c₁), and collected:"
+    ]
+    for body in "12":
+        (products,) = (text for text in lines(FINGERS, f"D_direct{body}") if "Multiplied" in text)
+        assert "cancel" not in products  # of the ring's angle, in which it is not written
+
+
+def test_a_root_among_the_components_asks_for_no_other_axes() -> None:
+    assert lines(LEANING, "Kv1") == ["By s₁² + c₁² = 1:"]
+    assert lines(LEANING_BASE, "Kv1") == ["Collected:"]
+
+
+def test_a_sum_of_lengths_that_stays_is_not_opened() -> None:
+    assert lines(LONGER_LINK, "Kv1") == [
+        "Multiplied out, with s₁² + c₁² = 1, s₂² + c₂² = 1 and the cosine of a difference, "
+        "c₂ c₁ + s₂ s₁ = cos(u₂ - u₁), and collected:"
+    ]
+
+
+def test_slopes_are_put_in_where_an_identity_adds_them() -> None:
+    page = normal(ROLL_AND_SWING)
+    assert "c₂₃₁ = c₃₂₁ = ½ (∂d₁₃/∂q₂ + ∂d₁₂/∂q₃) = ½ (" in page
+    assert "Put into the formula, with s₃² + c₃² = 1 and the cosine of twice an angle," in page
+    assert "c₁₂₁ = c₂₁₁ = ½ ∂d₁₁/∂q₂ = ½ (" not in page
+
+
+def test_a_lever_along_the_axis_is_seen_to_give_nothing() -> None:
+    assert "𝐳₂ × (𝐨₃ - 𝐨₂) = 𝐳₂ × (e 𝐳₂) = 𝟎" in normal(WRIST)
+
+
+def test_a_point_less_itself_is_not_told() -> None:
+    page = normal(MODIFIED)
+    assert "𝐨₂ - 𝐨₂)" in page and "𝐨₂ - 𝐨₂ = 𝟎" not in page
