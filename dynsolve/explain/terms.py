@@ -310,19 +310,23 @@ def driving_row(robot: Robot, q: Coordinate) -> Node:
     return sum_of([letters.force(q), *outside, *held])
 
 
-def moving_side(context: Context, in_full: bool = False) -> Sum:
-    """D q̈ + C q̇ + g, and friction; without C q̇ where that is 0, if not `in_full`."""
-    turned = " + 𝐂 𝐪̇" if in_full or not context.values["Cqd"].is_zero else ""
-    side = formula(f"𝐃 𝐪̈{turned}{' + 𝛕_f' * bool(context.robot.actions.resisting)} + 𝐠")
-    assert isinstance(side, Sum)
-    return side
+def moving_side(context: Context, in_full: bool = False) -> Node:
+    """D q̈ + C q̇ + g, and friction; without C q̇ and g where these are 0, if not `in_full`."""
+    return sum_of([formula("𝐃 𝐪̈"), *_beside_inertia(context, in_full)])
+
+
+def _beside_inertia(context: Context, in_full: bool = False) -> list[Node]:
+    terms = [formula("𝐂 𝐪̇")] if in_full or not context.values["Cqd"].is_zero else []
+    rubs = [formula("𝛕_f")] if context.robot.actions.resisting else []
+    still = [letters.G] if in_full or not context.values["g"].is_zero else []
+    return [*terms, *rubs, *still]
 
 
 def acting_side(context: Context) -> Node:
     """τ + Q - C q̇ - friction - g: everything that acts but constraints, beside D q̈."""
-    _, *rest = moving_side(context).terms
     driving = driving_side(context, constrained=False)
-    return sum_of([*(driving.terms if isinstance(driving, Sum) else (driving,)), *map(Negative, rest)])
+    acting = driving.terms if isinstance(driving, Sum) else (driving,)
+    return sum_of([*acting, *map(Negative, _beside_inertia(context))])
 
 
 def equations_of_motion(context: Context) -> Relation:

@@ -136,9 +136,9 @@ def _multipliers(context: Context) -> Step:
         "for $𝛌$.",
         accelerations=formula("𝐪̈ = 𝐃⁻¹ ({acting} + 𝐀_cᵀ 𝛌)", acting=acting),
         kept=_KEPT,
-        put_in=formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ 𝛌 + 𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇ = 𝟎", acting=acting),
+        put_in=formula("𝐀_c 𝐃⁻¹ 𝐀_cᵀ 𝛌 + 𝐀_c 𝐃⁻¹ {acting} + 𝐀̇_c 𝐪̇ = 𝟎", acting=acting),
     )
-    explicit = formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ ({acting}) + 𝐀̇_c 𝐪̇)", acting=acting)
+    explicit = formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ {acting} + 𝐀̇_c 𝐪̇)", acting=acting)
     together = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] [𝐪̈; 𝛌] = [{acting}; -𝐀̇_c 𝐪̇]", acting=acting)
     concluding = f"Put in{and_cancelled(context.values['lambda'])}:"
     if not is_regular:
@@ -229,7 +229,7 @@ def _reduced(context: Context) -> Iterator[Step]:
             more=_freer(context, Z) if rows else "",
         ),
         formula=formula(
-            "𝐙ᵀ ({moving}) = 𝐙ᵀ {right}",
+            "𝐙ᵀ {moving} = 𝐙ᵀ {right}",
             moving=moving_side(context),
             right=Parenthesized(right) if isinstance(right, Sum) else right,
         ),

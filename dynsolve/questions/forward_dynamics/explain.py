@@ -46,7 +46,7 @@ def steps(context: Context) -> Iterator[Step]:
             equations=equations_of_motion(context),
             motors=motors_prose(context),
         ),
-        formula=formula("𝐪̈ = 𝐃⁻¹ ({acting})", acting=acting_side(context)),
+        formula=formula("𝐪̈ = 𝐃⁻¹ {acting}", acting=acting_side(context)),
         source=LYNCH_PARK.section("8.5"),
         lines=lines,
         concluding=(f"Multiplied out{'' if is_diagonal(context.values['D']) else and_cancelled(value)}:",)
