@@ -252,9 +252,11 @@ def _without_minus(node: Node) -> Node:
         return node
     factors = node.argument.factors
     for k, factor in enumerate(factors):
-        if isinstance(factor, tree.Sum) and any(isinstance(term, Negative) for term in factor.terms):
-            terms = sorted(map(negated, factor.terms), key=lambda term: isinstance(term, Negative))
-            return Product((*factors[:k], tree.Sum(tuple(terms)), *factors[k + 1 :]))
+        if isinstance(factor, tree.Sum):
+            opposite = [_without_minus(negated(term)) for term in factor.terms]
+            terms = sorted(opposite, key=lambda term: isinstance(term, Negative))
+            if not isinstance(terms[0], Negative):
+                return Product((*factors[:k], tree.Sum(tuple(terms)), *factors[k + 1 :]))
     return node
 
 

@@ -6,7 +6,12 @@ import re
 from unicodedata import normalize
 
 import dynsolve
+from dynsolve.explain.forms import _without_minus
 from dynsolve.explain.step import Detail
+from dynsolve.notation import tree
+from dynsolve.notation.text import read
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.quantities import letters
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 
@@ -127,6 +132,14 @@ def test_a_line_that_an_identity_leads_to_is_collected_at_once() -> None:
 def test_an_energy_has_no_minus_before_the_square_of_a_rate() -> None:
     energies = re.findall(r"K_(?:v|ω)1 = ½[^\n]*(?:\n {8,}[^\n]*)*", page(SKEW))
     assert energies and not any(re.search(r"\n *- \([^\n]*\) q̇₁²", each) for each in energies)
+
+
+def test_an_energy_begins_with_no_minus() -> None:
+    """Each term of its sum can take the minus, one in the sum of its own factor."""
+    inner = read("((a - b)*s - 2*c)*x^2 + (d - f)*y^2").tree
+    energy = tree.Negative(tree.Product((letters.HALF, inner)))
+    assert to_unicode(_without_minus(energy)) == "½ (((b - a) s + 2c) x² + (f - d) y²)"
+    assert to_unicode(_without_minus(tree.Negative(read("(a + b)*x^2").tree))) == "-(a + b) x²"
 
 
 def test_an_angular_velocity_that_takes_one_product_takes_one() -> None:
