@@ -32,7 +32,8 @@ def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
         forces = {f"tau{q.index}" for q in solution.robot.coordinates}
         told = walk(*(node for step in steps if step.id in forces for node in step.result))
         asked |= forces if _entries_of_D(solution).isdisjoint(told) else forces | _MODEL
-        if asked >= _MODEL - {"g"} and solution.values["g"].is_zero:  # they are the whole model
+        weighs = "g" not in solution.values.rules or not solution.values["g"].is_zero
+        if asked >= _MODEL - {"g"} and not weighs:  # they are the whole model
             asked |= _MODEL
     named = {name: step for step in steps for name in (step.id, *step.also)}
     if asked.isdisjoint(named):
