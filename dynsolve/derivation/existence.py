@@ -140,14 +140,16 @@ def _is_zero(value: Expr) -> bool:
     return value.is_zero
 
 
-def rests(value: Expr) -> Iterator[Pose]:
-    """The quarter turns at which k φ - m g l sin φ is 0: a value in which an angle stands by itself, too."""
-    ring, degrees = value.ring, value.poly.degrees()
-    if (
-        any(degrees[ring.symbol_indices[name, 0]] > 0 for name in _coordinates(value))
-        and _swings(value) is None
-    ):
-        yield from (pose for pose, (at,) in _at_quarters([value]) if pose and at.is_zero)
+def rests(values: Sequence[Expr]) -> Iterator[Pose]:
+    """The quarter turns at which k φ - m g l sin φ is 0: values in which an angle stands by itself, too.
+
+    None where a length stands in them.
+    """
+    if not values or all(_swings(value) is not None for value in values):
+        return
+    kinds = dict(values[0].ring.coordinates)
+    if all(kinds[name] == "revolute" for value in values for name in _coordinates(value)):
+        yield from (pose for pose, at in _at_quarters(values) if pose and all(map(_is_zero, at)))
 
 
 def _at_quarters(values: Sequence[Expr]) -> Iterator[tuple[Pose, list[Expr]]]:

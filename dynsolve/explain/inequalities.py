@@ -73,5 +73,7 @@ def _squared(value: Expr) -> list[Expr]:
     if sign not in (value.ring.one, -value.ring.one):
         return []
     found = [one + other, one - other]
+    if sum(map(len, found)) > max(len(one), len(other)):  # nothing in common
+        return []
     shared = whole_content([fraction(number) for part in found for number in part.poly.coeffs()])
     return [part / shared for part in (found if sign == value.ring.one else found[::-1])]

@@ -868,7 +868,7 @@ def _falls_where(m: Mechanism, s: Sentence) -> bool:
 
 @says(
     "Where {&}, {}, too; but with {} the coordinates do not tell there how the bodies move: "
-    "it need not be an equilibrium."
+    "it need not be an equilibrium[, and so it is of special parameters]."
 )
 def _no_coordinates(m: Mechanism, s: Sentence) -> bool:
     where = m.where(tree.Row(s.formulas[:-2]))

@@ -119,7 +119,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         yield not_derived("equilibria", "Where nothing moves", found.why)
         return
     shown = EquilibriaForms(robot, context.values)
-    cases = shown.equilibria
+    cases, steady = shown.equilibria, bool(robot.questions.model.steady)
     told = [shown.relations(*both) for both in zip(found.alternatives, cases, strict=True)]
     result: tuple[Node, ...] = tuple(as_row(listed(one)) for one in told if one)
     said = {equation(value, Number(0)) for one in cases for value in one}
@@ -148,7 +148,10 @@ def _equilibria(context: Context) -> Iterator[Step]:
     if not cases:
         never = "No configuration makes all of them 0{where}." if found.is_whole else _NEVER_HELD
         of_free = [] if is_never or found.singular else [say(never, where=where)]
-        notes.append(say("There is no equilibrium{where}.", where=where))
+        none = "There is no equilibrium{where}."
+        if found.singular:
+            none = "There is no equilibrium with $det 𝐃 ≠ 0${where}."
+        notes.append(say(none, where=where))
     elif not cases[0]:
         of_free = [say("Nothing is left to be 0{where}.", where=where)]
         notes.append(say("Every configuration is an equilibrium{where}.", where=where))
@@ -157,12 +160,11 @@ def _equilibria(context: Context) -> Iterator[Step]:
         notes += shown.existence("equilibria", found.exist, found.is_seen)
         notes += _unseen(found)
         notes += [say("These are the equilibria{where}.", where=where)] if special else []
-    notes += _singular(shown, found)
+    notes += _singular(shown, found, FORCES if steady else letters.G)
     notes += [note for one in found.special for note in _special(shown, one)]
     if found.may_be_others:
         notes.append(("For special values of the parameters there may be others.",))
     notes += _without_multipliers(shown, found)
-    steady = bool(robot.questions.model.steady)
     if _has_coulomb(robot) and not steady:
         notes.append((_COULOMB,))
     forces: Node = FORCES if steady else letters.G
@@ -216,12 +218,14 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
 
 
-def _singular(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
+def _singular(shown: EquilibriaForms, found: Equilibria, forces: Node) -> Iterator[Prose]:
     """Where D has no inverse, so that no force has to be 0 for the bodies to stay."""
     for case in found.singular:
         zero = listed([equation(shown.condition(one), Number(0)) for one in case])
-        text = "Where {zero}, $𝐠 = 𝟎$, too; but with $det 𝐃 = 0$ the coordinates do not tell there how the "
-        yield say(f"{text}bodies move: it need not be an equilibrium.", zero=zero)
+        text = "Where {zero}, {balance}, too; but with $det 𝐃 = 0$ the coordinates do not tell there how the "
+        more = ", and so it is of special parameters" * bool(found.special)
+        text += f"bodies move: it need not be an equilibrium{more}."
+        yield say(text, zero=zero, balance=equation(forces, _ZERO))
 
 
 def _unseen(found: Equilibria) -> Iterator[Prose]:

@@ -179,7 +179,7 @@ def steady_equilibria(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Eq
     braked = _braked(robot)
     if braked:
         return Skipped(f"friction acts on {braked} in this motion, and no motor holds it")
-    return equilibria(robot, forces, may_be_held=may_be_held(robot, D))
+    return equilibria(robot, forces, D, may_be_held=may_be_held(robot, D))
 
 
 def may_be_held(robot: Robot, D: Matrix) -> bool:

@@ -189,7 +189,7 @@ def equilibria(
         if (exist := conditions([condition.expr for condition in one], signs)) is not None
     }
     mass = inertia and not robot.has_table and inertia.map(there)
-    singular = [one for one in found if mass and _is_singular(mass, one)]
+    singular = [one for one in found if mass and _is_singular(mass, one, wanted_rows(robot))]
     found = {one: exist for one, exist in found.items() if one not in singular}
     for condition in (condition for one in found for condition in one):
         if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free
@@ -231,13 +231,13 @@ def equilibria(
     )
 
 
-def _is_singular(inertia: Matrix, case: Alternative) -> bool:
-    """Whether D has no inverse in a case, as coordinates move no body there and are not all free.
+def _is_singular(inertia: Matrix, case: Alternative, free: Sequence[int]) -> bool:
+    """Whether D has no inverse in a case, as `free` coordinates move no body there, and it holds some of them.
 
-    Where they are free forces are 0 in whatever direction the bodies move: a pendulum that hangs.
+    Where none does, forces are 0 in whatever direction the bodies move: a pendulum that hangs.
     """
     known = [condition.expr for condition in case]
-    heavy = [k for k in range(len(inertia.rows)) if not inertia[k, k].is_zero]
+    heavy = [k for k in free if not inertia[k, k].is_zero]
     idle = [k for k in heavy if lies_in(known, [inertia[k, k]])]
     if any(not inertia.ring.diff(one, k).is_zero for one in known for k in idle):
         return True

@@ -141,18 +141,23 @@ class Curvature(Struct, frozen=True):
         """Points without what always holds in the case; stable where nothing else is asked."""
         for point in self._points(alternative, exists):
             nonzero = tuple(factor for factor in point.nonzero if self._may_vanish(factor, alternative))
-            left = tuple(bound for bound in point.conditions if not self._always_holds(bound, alternative))
-            if (point.nonzero or point.conditions) and not (nonzero or left or point.is_open):
+            left = tuple(b for b in point.conditions if not self._always_holds(b.value, alternative))
+            if point.falls and any(self._always_holds(-bound.value, alternative) for bound in left):
+                point = replace(point, stability=Stability.UNSTABLE, falls=False, is_open=False)
+                nonzero = left = ()
+            elif (point.nonzero or point.conditions) and not (nonzero or left or point.is_open):
                 point = replace(point, stability=Stability.STABLE, falls=False)
             yield replace(point, nonzero=nonzero, conditions=left)
 
-    def _always_holds(self, bound: Bound, alternative: Alternative) -> bool:
-        """Whether an inequality holds wherever the case does, as far as the squares of lengths show."""
-        value = bound.value
+    def _always_holds(self, value: Expr, alternative: Alternative) -> bool:
+        """Whether a value is positive wherever the case is, as far as squares show."""
+        there = value
         for condition in alternative:
             if (square := square_of(condition.expr)) is not None:
-                value = _at_square(Matrix.column(value.ring, [value]), *square)[0, 0]
-        return value != bound.value and self.signs.is_positive(value)
+                there = _at_square(Matrix.column(there.ring, [there]), *square)[0, 0]
+        if there != value and self.signs.is_positive(there):
+            return True
+        return _is_of_squares(value) and not self._may_vanish(value, alternative)
 
     def _may_vanish(self, factor: Expr, alternative: Alternative) -> bool:
         values = [condition.expr for condition in alternative]
@@ -172,7 +177,7 @@ class Curvature(Struct, frozen=True):
             for k in range(len(ring.names))
             if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
         ]
-        at_rest = dict.fromkeys(_turned(ring, pose) for one in others for pose in rests(one.expr))
+        at_rest = [_turned(ring, pose) for pose in rests([one.expr for one in others])]
 
         def point_at(values: Values) -> Point | None:
             left = _put(Matrix.column(ring, [other.expr for other in others]), values).entries
@@ -309,6 +314,15 @@ def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
     return all(
         signs.is_positive(with_numbers(value, dict(zip(turning, numbers, strict=True))))
         for numbers in product(*ends)
+    )
+
+
+def _is_of_squares(value: Expr) -> bool:
+    """Whether a value is a sum of squares, with positive parameters as factors."""
+    ring = value.ring
+    signed = [g.index for g in ring.generators if g.kind != "symbol" or g.name not in ring.parameters]
+    return all(factor > 0 for factor in value.poly.coeffs()) and not any(
+        exponents[k] % 2 for exponents in value.poly.monoms() for k in signed
     )
 
 

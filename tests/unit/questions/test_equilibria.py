@@ -1102,3 +1102,33 @@ find: [equilibria]
     assert other["stable_if"] == ["k > m*g*b*cos(phi)"]
     (alone,), *_ = dynsolve.solve(turned.format(more="c*phi")).to_json()["results"]["equilibria_stability"]
     assert "phi" not in alone
+
+
+def test_a_mass_that_turns_steadily_does_not_rest_at_the_pole_of_its_coordinates() -> None:
+    """In the middle the spring pulls with nothing, and the weight is not carried."""
+    whirled = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {r: prismatic, t: revolute, p: revolute}
+  bodies: [{mass: m, at: [r*sin(t)*cos(p), r*sin(t)*sin(p), -r*cos(t)]}]
+springs: [{energy: "k*r^2/2"}]
+steady: {p: W}
+find: [equilibria]
+"""
+    results = dynsolve.solve(whirled).to_json()["results"]
+    assert results["equilibria"] == [["sin(t) = 0", "m*g*cos(t) - k*r = 0"]]
+    assert [point["t"] for point in results["equilibria_stability"][0]] == ["0", "pi"]
+    assert "need not be an equilibrium" in str(told_of(whirled).outcome)
+
+
+def test_what_squares_decide_is_no_condition() -> None:
+    """On a slope at the angle b two links hang or stand across it; folded they are never stable."""
+    slope = """
+gravity: [g*sin(b), -g*cos(b), 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+find: [equilibria]
+"""
+    along, folded = dynsolve.solve(slope).to_json()["results"]["equilibria_stability"][0]
+    assert len(along["stable_if"]) == 1 and along["q2"] == "0"
+    assert folded == {"q2": "pi", "stability": "unstable"}
