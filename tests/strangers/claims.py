@@ -790,7 +790,8 @@ def _axes_meet(m: Mechanism, s: Sentence) -> bool:
 )
 def _rows_are_0(m: Mechanism, s: Sentence) -> bool:
     """At the equilibria that are told of behind it."""
-    still = [m.coordinates.index(q) for q in names_of(s.formulas)]
+    names = names_of(tuple(node for node in s.formulas if isinstance(node, Symbol)))
+    still = [m.coordinates.index(q) for q in names]
     points = [point for _, point in m.equilibria(()) if point is not None]
     return bool(points) and all(
         near(m.stiffness(point)[still, :], 0) and near(m.stiffness(point)[:, still], 0) for point in points

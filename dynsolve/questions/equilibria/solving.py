@@ -232,7 +232,7 @@ def equilibria(
 
 
 def _is_singular(inertia: Matrix, case: Alternative, free: Sequence[int]) -> bool:
-    """Whether D has no inverse in a case, as `free` coordinates move no body there, and it holds some of them.
+    """Whether D has no inverse in a case, as `free` coordinates move no body there, and fixes some of them.
 
     Where none does, forces are 0 in whatever direction the bodies move: a pendulum that hangs.
     """
