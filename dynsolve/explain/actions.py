@@ -299,7 +299,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         is_shown = is_small(center)
         return replace(
             step,
-            why=(*gravity, "It is minus the mass times ", pull, "."),
+            why=(*gravity, "The potential energy is minus the mass times ", pull, "."),
             working=(equation(P, Negative(vectors)),) if is_shown else (),
             concluding=product_named(context, row, place, Matrix.of(energy.ring, [[energy]])) * is_shown,
         )

@@ -89,6 +89,7 @@ def test_parameters_of_what_is_asked_are_told_by_what_they_are() -> None:
     ):
         assert f"• {line}\n" in text
     assert "parameter of the problem" not in text and "parameters of the problem" not in text
+    assert "The potential energy is minus the mass times 𝐠₀ᵀ 𝐫_c1." in " ".join(text.split())
 
 
 def test_many_zeros_are_told_in_words() -> None:
