@@ -348,7 +348,7 @@ def _mass(forms: Forms, body: Body) -> Prose:
     if body.density is not None and body.density.shape is not None:
         slices = KINDS[body.density.shape.kind].slices
         assert slices is not None
-        place = say(", $x$ from its near end,") if body.density.varies else ()
+        place = say(" at the distance $x$ from its near end") if body.density.varies else ()
         return (f" of mass per {slices.per} ", body.density.formula, *place)
     return (" without mass",) if body.mass.is_zero else (" of mass ", measured(forms.of(body.mass), "kg"))
 

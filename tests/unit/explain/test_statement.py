@@ -164,6 +164,21 @@ def test_the_statement_says_how_large_a_shape_is(shape: str, told: str) -> None:
     assert "oment of inertia" not in given, "the shape tells it"
 
 
+DENSITIES = [
+    ("{cylinder: {radius: r, length: l, axis: x, density: k*x}}",
+     "solid cylinder of mass per volume k x at the distance x from its near end, radius r and length l along"),
+    ("{box: {x: l, y: b, z: b, axis: x, density: k*x}}",
+     "solid of mass per volume k x at the distance x from its near end and sides l, b and b along"),
+    ("{rod: {length: l, density: k}}", "slender rod of mass per length k and length l along 𝐱₁, its near end"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("shape", "told"), DENSITIES)
+def test_the_statement_says_how_dense_a_body_is(shape: str, told: str) -> None:
+    (given, _) = stated(solved(f"dh: [{{theta: q1*, a: l}}]\nmasses: [{{link: 1, shape: {shape}}}]"))
+    assert told in given
+
+
 ACTING = [
     ("gravity: [0, 0, 0]", "There is no gravity and no friction."),
     ("gravity: [g, 0, 0]", "Gravity g acts along 𝐱₀; there is no friction."),
