@@ -366,7 +366,7 @@ def _mass(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     yield from _sizes(body, density.shape)
     part = "" if isinstance(density.formula, Symbol) else "parameter of the "
     for name in names_in_trees(density.formula):
-        yield Role.MASS, name, Meaning(f"{part}density of body {{body}}", body=body.name)
+        yield Role.MASS, name, Meaning("density of body {body}", body=body.name, share=part)
 
 
 def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[AnyRole, str, Meaning]]:

@@ -76,9 +76,13 @@ class Dimensions:
                 continue
             index, power = unknown[0]
             rest = self._product((i, e) for i, e in enumerate(exponents) if e and i != index)
-            if rest is not None and self.ring.generators[index].kind == "symbol":
-                a, b, c = ((x - y) / int(power) for x, y in zip(role, rest, strict=True))
+            if rest is None:
+                continue
+            a, b, c = ((x - y) / int(power) for x, y in zip(role, rest, strict=True))
+            if self.ring.generators[index].kind == "symbol":
                 self._of[index] = (a, b, c)
+            elif index in self.ring.inverses:  # of a symbol, or of a sum with one
+                self._learn(Expr(self.ring, self.ring.inverses[index]), (-a, -b, -c))
 
     def _sound(self, expr: Expr, role: Dimension) -> bool:
         """Whether every term of a role has its dimension; a bare number for a length does not."""

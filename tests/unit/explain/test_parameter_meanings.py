@@ -98,6 +98,11 @@ BODIES = [
     ("{mass: M + m, link: 1}", "M m", "part of the mass of body 1"),
     ("{link: 1, shape: {rod: {length: b, density: rho0 + k*x}}}", "rho0 k",
      "parameter of the density of body 1"),
+    ("{link: 1, shape: {rod: {length: b, density: rho*(1 + x/b)}}}, "
+     "{link: 1, shape: {rod: {length: b, density: rho}}}", "rho", "density of body 2"),
+    ("{link: 1, shape: {rod: {length: b, density: 2*rho}}}, "
+     "{link: 1, shape: {rod: {length: b, density: rho*x/b}}}", "rho",
+     "parameter of the density of bodies 1 and 2"),
 ]  # fmt: skip
 
 
@@ -186,7 +191,7 @@ masses: [{mass: m1, link: 1, center: origin, inertia: {zz: I1}}, {mass: m2, link
 springs: [{stiffness: 2*k1, of: q1}, {stiffness: k2/3, of: q2, rest: 2*delta}, {stiffness: 2*k, of: q1},
           {stiffness: 3*k, of: q1}]
 dampers: [{damping: b/2, of: q1}]
-motors: [{turns: q1, inertia: J, ratio: 1/R}]
+motors: [{turns: q1, inertia: J, ratio: 1/R}, {turns: q2, inertia: J2, ratio: 1/r}]
 """
 
 
@@ -206,4 +211,5 @@ EXPRESSIONS_TOLD = {
     "delta": "half the rest position of a spring (m)",
     "b": "twice the coefficient of a damper (N m s/rad)",
     "R": "inverse of the ratio of a gear ()",
+    "r": "inverse of the ratio of a gear (m)",
 }

@@ -166,10 +166,10 @@ def test_the_statement_says_how_large_a_shape_is(shape: str, told: str) -> None:
 
 DENSITIES = [
     ("{cylinder: {radius: r, length: l, axis: x, density: k*x}}",
-     "solid cylinder of mass per volume k x at the distance x from its near end, radius r and length l along"),
+     "solid cylinder of mass per volume k x at the distance x from its near end, radius r and length l"),
     ("{box: {x: l, y: b, z: b, axis: x, density: k*x}}",
      "solid of mass per volume k x at the distance x from its near end and sides l, b and b along"),
-    ("{rod: {length: l, density: k}}", "slender rod of mass per length k and length l along 𝐱₁, its near end"),
+    ("{rod: {length: l, density: k}}", "slender rod of mass per length k and length l along 𝐱₁"),
 ]  # fmt: skip
 
 
