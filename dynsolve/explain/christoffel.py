@@ -183,7 +183,7 @@ def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
 def _cancelling(context: Context, zero: Sequence[tuple[int, int, int]]) -> Prose:
     """The symbols in which derivatives that are not zero cancel."""
     weights = {ijk: found for ijk in zero if (found := _weights(context, *ijk))}
-    if not weights or len(zero) > MOST_ZEROS:
+    if not 0 < len(weights) <= MOST_ZEROS:
         return ()
     by_symmetry = not any(weight for found in weights.values() for weight in found.values())
     return say(
@@ -215,15 +215,11 @@ ROWS = "Cqd-rows"
 """The label of the rows of C q̇ that are compared."""
 
 
-def _compared_rows(context: Context) -> tuple[Line, ...]:
-    """The rows of C q̇ by the Christoffel symbols, with a number; what they are, the step's text says."""
-    return tuple(Line((), line.formulas, line.uses, ROWS) for line in coriolis_rows(context))
-
-
 def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
     agreed = context.agreement or agreement(context.robot, context.values)
-    rows = _compared_rows(context) if agreed.coriolis else ()
+    shown = coriolis_rows(context) if agreed.coriolis else ()
+    rows = tuple(Line((), line.formulas, line.uses, ROWS) for line in shown)  # what they are, the text says
     verdicts = (
         (say("$𝐃${where}", where=Reference(("D", "D_sum"), " in ")), agreed.inertia),
         (say("$𝐂 𝐪̇${where}", where=Reference(("Cqd", ROWS if rows else "C"), " in ")), agreed.coriolis),

@@ -677,13 +677,9 @@ def of_task(forms: Forms, values: Iterable[Node], dots: int = 0) -> Node:
     if len(set(kinds)) == 1 and all(rational_value(value) is not None for value in written):
         return Row((flat(map(_in_decimals, written)), Words(" "), units.node(kinds[0])))
     return flat(
-        _with_unit(value, unit) if rational_value(value) else value
+        Row((_in_decimals(value), Words(" "), units.node(unit))) if rational_value(value) else value
         for value, unit in zip(written, kinds, strict=True)
     )
-
-
-def _with_unit(value: Node, unit: str) -> Node:
-    return Row((_in_decimals(value), Words(" "), units.node(unit)))
 
 
 def _in_decimals(value: Node) -> Node:

@@ -138,9 +138,15 @@ def _kinds(robot: Robot) -> Prose:
 def _table_notes(robot: Robot) -> Iterator[Prose]:
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
     if len(fixed) == 1:
-        yield (f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the frame before it.",)
+        yield (
+            f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the one it starts from.",
+        )
     elif fixed:
-        yield ("Rows ", *listed(fixed), " have no star: frames that are each fixed in the one before it.")
+        yield (
+            "Rows ",
+            *listed(fixed),
+            " have no star: frames that are each fixed in the one they start from.",
+        )
     shared = [str(joint.index) for joint in robot.joints if len(joint.rates) > 1]
     if len(shared) == 1:
         yield say(

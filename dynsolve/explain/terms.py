@@ -167,7 +167,7 @@ def _rows(
     context: Context, q: Coordinate, terms: list[Term], whole: frozenset[int]
 ) -> Iterator[tuple[Inline, ...]]:
     for place, term in enumerate(terms):
-        form = name_of_term(context, term)
+        form = times(term.count, [(term.letter, 1), *rates_of(context, term)])  # 2 c_121 q̇_1 q̇_2
         if context.has_named_symbols and term.kind in (Kind.CENTRIFUGAL, Kind.CORIOLIS):
             (i, _), (j, _) = term.rates
             symbol = context.symbol(i, j, q.index - 1)
@@ -182,11 +182,6 @@ def rates_of(context: Context, term: Term) -> list[tuple[Node, int]]:
     names = context.robot.ring.names
     rates: list[tuple[Node, int]] = [(Symbol(names[place], dots), 1) for place, dots in term.rates]
     return [(rates[0][0], 2)] if term.kind is Kind.CENTRIFUGAL else rates
-
-
-def name_of_term(context: Context, term: Term) -> Node:
-    """The term by its letter and its rates: 2 c_121 q̇_1 q̇_2."""
-    return times(term.count, [(term.letter, 1), *rates_of(context, term)])
 
 
 def _written_whole(context: Context, terms: Sequence[Term]) -> frozenset[int]:

@@ -114,7 +114,8 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
             values = [_summed(context, q, pose), measured(form, "kg m²")]
         else:
             values = _body_by_body(context, q, pose, form)
-        yield side_by_side(written_pose(pose)), equation(name, *values)
+        written = [equation(Symbol(name), degrees(value)) for name, value in pose.items()]
+        yield side_by_side(written), equation(name, *values)
 
 
 def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> list[Node]:
@@ -182,11 +183,6 @@ def _stands_bare(ring: Ring, value: Expr, name: str) -> bool:
     inside = [(atom, rate) for pair in ring.pairs for atom, rate in pair.angle.terms if name in dict(atom)]
     odd = any(atom != ((name, 1),) or rate.denominator != 1 for atom, rate in inside)
     return odd or value.poly.degrees()[ring.symbol_indices[(name, 0)]] > 0
-
-
-def written_pose(pose: Pose) -> list[Node]:
-    """q₁ = -90°, q₂ = 0"""
-    return [equation(Symbol(name), degrees(value)) for name, value in pose.items()]
 
 
 def degrees(value: int) -> Node:
