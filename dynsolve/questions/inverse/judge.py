@@ -164,6 +164,22 @@ class BranchKey(InverseKey):
     def _reaches(self, q: Mapping[str, float], reached: Sequence[float]) -> bool:
         return near(reaches(self._task, q), reached, self._angles)
 
+    def _is_there(self, q: Mapping[str, float], reached: Sequence[float]) -> bool | None:
+        """Whether a configuration gives what is asked.
+
+        None where lengths have the other sign: where more is asked than joints can do, one root is right.
+        """
+        found = reaches(self._task, q)
+        if near(found, reached, self._angles):
+            return True
+
+        def size(values: Sequence[float]) -> list[float]:
+            pairs = zip(values, self._angles, strict=True)
+            return [value if is_angle else abs(value) for value, is_angle in pairs]
+
+        has_more = len(found) > len(self.robot.coordinates)
+        return None if has_more and near(size(found), size(reached), self._angles) else False
+
     def _is_among(self, q: Mapping[str, float], others: Iterable[Mapping[str, float]]) -> bool:
         return any(same_configuration(self.robot.ring, q, other) for other in others)
 
@@ -172,7 +188,7 @@ class BranchKey(InverseKey):
             if not self._names <= branch.keys():
                 return lacking(number, self._names - branch.keys())
         theirs = [solution_of(in_order(branch)) for branch in given]
-        met: list[set[bool]] = [set() for _ in given]
+        met: list[set[bool | None]] = [set() for _ in given]
         is_incomplete = not given
         for place in self._places:
             present = []
@@ -180,9 +196,10 @@ class BranchKey(InverseKey):
                 q = solution(place.at)
                 if q is not None and not self._is_among(q, place.others):
                     present.append(q)
-                    seen.add(self._reaches(q, place.reached))
+                    seen.add(self._is_there(q, place.reached))
             is_incomplete = is_incomplete or not all(self._is_among(q, present) for q in place.right)
         for number, (branch, seen) in enumerate(zip(given, met, strict=True), 1):
+            seen = seen - {None} if True in seen else {bool(one) for one in seen}
             if seen == {True, False}:
                 is_half = _has_half_a_turn(branch)
                 return SetVerdict(False, "quadrant_lost" if is_half else "branch_sometimes_misses", number)
