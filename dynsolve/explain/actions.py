@@ -304,7 +304,8 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
             concluding=product_named(context, row, place, Matrix.of(energy.ring, [[energy]])) * is_shown,
         )
     i, size, is_up = along
-    h, g = letters.height(letters.index_of(body.name)), _acceleration(context, size)
+    h, is_named = letters.height(letters.index_of(body.name)), "g" in context.robot.parameters
+    g = context.show(size) if is_named or not size.is_number else Symbol("g")
     at: Expr = context.values[f"rc{body.name}"][i, 0]
     named = [(m, context.show(body.mass), "kg"), *([(g, context.show(size), "m/s²")] if tells else [])]
     given = [equation(letter, measured(value, unit)) for letter, value, unit in named if letter != value]
@@ -357,12 +358,6 @@ def _along(context: Context) -> tuple[int, Expr, bool] | None:
     ((i, entry),) = along
     is_up = leads_with_minus(entry)
     return i, -entry if is_up else entry, is_up
-
-
-def _acceleration(context: Context, size: Expr) -> Node:
-    """The size of gravity along its axis: the problem's symbol, g for a number."""
-    named = "g" in context.robot.parameters
-    return context.show(size) if named or not size.is_number else Symbol("g")
 
 
 def leads_with_minus(expr: Expr) -> bool:

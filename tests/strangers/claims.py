@@ -457,8 +457,8 @@ def _adds(m: Mechanism, s: Sentence) -> bool:
 
 @says(
     "{&} <is|are> the moment[s] of inertia about {&} of <all|the bodies> that joint[s] <...> move[s],...",
-    "{&} <is|are> the moment[s] of inertia of <all|the bodies> that joint[s] #& move[s][, ...]: in simple "
-    "poses the ...",
+    "{&} <is|are> the moment[s] of inertia of <all|the bodies> that joint[s] #& move[s][, ...][: in simple "
+    "poses the ...].",
 )
 def _moments(m: Mechanism, s: Sentence) -> bool:
     entries = [node for node in s.formulas if plain(node).startswith("d")]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import pytest
 
 from dynsolve.document import Block, Fold, Formula, Heading, Text
@@ -190,10 +192,9 @@ def test_a_reflected_inertia_is_no_moment_of_inertia_of_what_moves(
     problem: str, text: str, is_true: bool
 ) -> None:
     """And the axis of a joint on a branch is that of the row it starts from."""
-    words = (
-        f"{{d}} is the moment of inertia of {text}: in simple poses the parallel-axis theorem gives the same."
-    )
+    theorem = ": in simple poses the parallel-axis theorem gives the same"
     entries = {2: letters.entry("d", 2, 2), 3: letters.entry("d", 3, 3)}
-    for joint in (2, 3) if is_true else (2,):
+    for joint, ending in product((2, 3) if is_true else (2,), ("", theorem)):
+        words = f"{{d}} is the moment of inertia of {text}{ending}."
         told = Text(say(words, d=entries[joint], joint=str(joint)))
         assert wrong(problem, "", told) == ([] if is_true else ["is not true"])

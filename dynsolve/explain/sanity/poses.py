@@ -58,6 +58,7 @@ def inertia_poses_step(context: Context) -> Step | None:
     all_that = "the bodies that" if has_rotors else "all that"
     one = len(shown) == 1
     numbers = and_joined([str(joint.index) for joint in moved])
+    moves = f"joint {numbers} moves" if one else f"joints {numbers} move"
     are = "is the moment" if one else "are the moments"
     why = say(
         "{names} {are} of inertia about {axes} of {all_that} {moved} held{rotors}: each mass times the "
@@ -66,13 +67,15 @@ def inertia_poses_step(context: Context) -> Step | None:
         names=names,
         are=are,
         axes=listed([letters.z(joint_frame(context.robot, joint)) for joint in moved]),
-        moved=f"joint {numbers} moves, {following}"
-        if one
-        else f"joints {numbers} move, respectively, the joints after them",
+        moved=f"{moves}, {following if one else 'respectively, the joints after them'}",
         all_that=all_that,
         rotors=rotors,
         where=Reference(looked_at(context, "D", [context.result("D")]), " in "),
     )
+    linear = (context.values[f"Dv{body.name}"] for body in context.robot.bodies)
+    is_off_axis = any(not part[q.index - 1, q.index - 1].is_zero for part in linear for q in shown)
+    theorem = ": in simple poses the parallel-axis theorem gives the same"
+    theorem += " for the bodies" * has_rotors
     return Step(
         id="inertia_poses",
         title="Check: moments of inertia in simple poses",
@@ -80,12 +83,11 @@ def inertia_poses_step(context: Context) -> Step | None:
         source=spong("7.2"),
         table=Table(("pose", "moment of inertia"), tuple(chain(*shown.values()))),
         outcome=say(
-            "{names} {are} of inertia of {all_that} {joints}{rotors}: in simple poses the parallel-axis "
-            "theorem gives the same{of_rotors}.",
-            joints=f"joint {numbers} moves" if one else f"joints {numbers} move",
+            "{names} {are} of inertia of {all_that} {moves}{rotors}{theorem}.",
+            moves=moves,
             all_that=all_that,
             rotors=rotors,
-            of_rotors=" for the bodies" if has_rotors else "",
+            theorem=theorem * is_off_axis,
             names=names,
             are=are,
         ),

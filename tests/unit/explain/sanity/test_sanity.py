@@ -40,6 +40,21 @@ def test_a_moment_of_inertia_in_letters_is_told_body_by_body() -> None:
     ]
 
 
+GIMBAL = """
+gravity: none
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*%s}]
+masses: [{link: 2, mass: m, center: tip, inertia: {xx: A, yy: B, zz: C}}]
+"""
+
+
+@pytest.mark.parametrize(("row", "gives"), [("", False), (", a: l", True)])
+def test_the_parallel_axis_theorem_is_for_mass_centers_off_the_axis(row: str, gives: bool) -> None:
+    step = check(GIMBAL % row, "inertia_poses")
+    assert step is not None
+    theorem = ": in simple poses the parallel-axis theorem gives the same" if gives else ""
+    assert words(step.outcome) == f"d₁₁ is the moment of inertia of all that joint 1 moves{theorem}."
+
+
 @pytest.mark.parametrize(
     ("problem", "told"),
     [
