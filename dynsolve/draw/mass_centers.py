@@ -89,7 +89,7 @@ def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton, clear: Clea
     masses: list[MassCenter] = []
     for body in robot.bodies:
         free = free_symbols(robot, body)
-        slides = robot.joints[body.link - 1].type is JointType.PRISMATIC and body.shape is not None
+        slides = robot.joints[body.link - 1].type is JointType.PRISMATIC and body.uniform_shape is not None
         shares = _OF_SLIDING_SHAPES if slides else _SHARES
         tried = [_mass(robot, numbers, bare, body, free, share) for share in shares]
         apart = (m for m in tried if all(distance(m.center, other.center) > _APART for other in masses))
@@ -190,7 +190,7 @@ def _local_center(
     if is_open(robot, body.link):
         usual = _AT_END if body.is_point else _ON_OPEN
     elif distance(near, far) < NEAR:
-        usual = _PAST_AXIS if slides and body.shape is None else _ON_AXIS
+        usual = _PAST_AXIS if slides and body.uniform_shape is None else _ON_AXIS
     try:
         start = center()
         for name, part in zip(free, cycle(uneven)):
@@ -301,11 +301,11 @@ _OUT = 0.9
 
 
 def drawn_bodies(robot: Robot, numbers: RobotNumbers, pose: Skeleton) -> tuple[DrawnBody, ...]:
-    """The bodies that have a shape, of a pose with its mass centres."""
+    """The uniform bodies that have a shape, of a pose with its mass centres."""
     rest = skeleton(robot, numbers, [0.0] * robot.n)
     found = []
     for body, mass in zip(robot.bodies, pose.masses, strict=True):
-        shape = body.shape
+        shape = body.uniform_shape
         if shape is None or shape.kind == "point":
             continue
         main = AXES.index(shape.axis) if shape.axis else 2

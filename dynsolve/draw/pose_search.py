@@ -116,7 +116,7 @@ def last_links(robot: Robot, pose: Skeleton, beyond: float) -> tuple[tuple[Vecto
 
     A body with a shape is drawn itself, and a centre off all axes does not say which way the link runs.
     """
-    shaped = {body.name for body in robot.bodies if body.shape is not None}
+    shaped = {body.name for body in robot.bodies if body.uniform_shape is not None}
     found = []
     for mass in pose.masses:
         origin = pose.frames[mass.link].origin
@@ -229,7 +229,7 @@ def dressed(robot: Robot, numbers: RobotNumbers, pose: Pose) -> Pose:
 
 def options_of(robot: Robot, orientation: Orientation) -> list[tuple[float, ...]]:
     """The values that each coordinate, and the view, may take."""
-    has_shapes = any(body.shape is not None for body in robot.bodies)
+    has_shapes = any(body.uniform_shape is not None for body in robot.bodies)
     slides = _SHAPES_OUT if has_shapes else _SLIDES
     joints = [_TURNS if q.type is JointType.REVOLUTE else slides for q in robot.coordinates]
     return joints if orientation.normal else [*joints, _AZIMUTHS, _ELEVATIONS]

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 from msgspec import Struct
+from msgspec.structs import astuple
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.drawn_motion import drawn_coordinates
@@ -27,7 +28,7 @@ from dynsolve.draw.paths import Path
 from dynsolve.draw.pose_search import best_pose, dressed, held_pose
 from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, Notes, Pose, joint_springs, springs
 from dynsolve.draw.skeleton import Orientation, RobotNumbers, numbers, orientation
-from dynsolve.draw.solids import ground, solids
+from dynsolve.draw.solids import BODY, ground, solids
 from dynsolve.draw.vectors import (
     NEAR,
     Point,
@@ -137,7 +138,7 @@ PARALLELS = "Dashed grey lines at a joint are parallel to the directions between
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey; a square corner is 90°."
 RINGS = "A red arrow around an axis shows the positive sense of the angle."
 IN_METRES = "Lengths are in m."
-SHAPES = "Bodies of a given shape are tan, the rest of the arm is blue-grey."
+SHAPES = "Uniform bodies of a given shape are tan, the rest of the arm is blue-grey."
 POINTS = "A black ball is a point mass."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
@@ -193,7 +194,7 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        _caption(robot, values, pose, labels, frames),
+        _caption(robot, values, pose, labels, body, frames),
         _description(problem),
         paths,
         labels,
@@ -210,7 +211,14 @@ def allowed_pose(robot: Robot, values: RobotNumbers, world: Orientation) -> Pose
     return found and dressed(robot, values, found[0])
 
 
-def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[Label], frames: bool) -> str:
+def _caption(
+    robot: Robot,
+    values: RobotNumbers,
+    pose: Pose,
+    labels: Sequence[Label],
+    body: Iterable[Path],
+    frames: bool,
+) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
     pushed = [load for load, *_ in drawn_forces(robot, values, pose)]
@@ -222,7 +230,7 @@ def _caption(robot: Robot, values: RobotNumbers, pose: Pose, labels: Sequence[La
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, has_offsets(pose)),
         (RINGS, has_rings(pose)),
-        (SHAPES, bool(pose.bodies)),
+        (SHAPES, any(path.fill in astuple(BODY) for path in body)),
         (POINTS, any(mass.is_point for mass in pose.skeleton.masses)),
         (OFF_LINKS, poses.has_masses_off_links(pose)),
         (SPRINGS, bool(at_joints)),

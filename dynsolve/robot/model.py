@@ -194,6 +194,13 @@ class Body(Struct, frozen=True):
         """Whether the body has no inertia about its own mass centre."""
         return self.inertia is None
 
+    @property
+    def uniform_shape(self) -> Shape | None:
+        """The shape of a uniform body, be its mass given or its density."""
+        if self.density is None:
+            return self.shape
+        return None if self.density.varies else self.density.shape
+
 
 class GivenModel(Struct, frozen=True):
     """What a file gives in the place of bodies: D and P, K and P, or L; what it does not give is None.

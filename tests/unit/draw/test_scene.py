@@ -18,9 +18,9 @@ from dynsolve.draw.parts import HALF_HEIGHT
 from dynsolve.draw.paths import BLACK, FRAME, GREY, SIZE, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.scene import OFF_LINKS, Scene, scene
+from dynsolve.draw.scene import OFF_LINKS, SHAPES, Scene, scene
 from dynsolve.draw.skeleton import numbers, orientation
-from dynsolve.draw.solids import solids
+from dynsolve.draw.solids import BODY, solids
 from dynsolve.draw.vectors import Point, distance, dot, segment_distance
 from dynsolve.problem import load, read_problem
 from dynsolve.robot.model import JointType
@@ -318,6 +318,14 @@ def test_a_plate_stands_across_a_tilted_axis() -> None:
 def test_the_caption_says_what_dashed_lines_to_mass_centres_are(name: str, said: bool) -> None:
     caption = drawn(next(path for path in LIBRARY if path.stem == name)).caption
     assert (OFF_LINKS in caption) is said
+
+
+@pytest.mark.parametrize(("density", "is_tan"), [("rho", True), ("rho*x/l", False)])
+def test_a_body_of_uniform_density_is_drawn_as_its_shape(density: str, is_tan: bool) -> None:
+    shape = f"{{box: {{x: l, y: b, z: b, axis: x, density: {density}}}}}"
+    picture = drawn_text(f"dh: [{{theta: q*, a: l}}]\nmasses: [{{link: 1, shape: {shape}}}]")
+    assert any(path.fill == BODY.top for path in picture.paths) is is_tan
+    assert (SHAPES in picture.caption) is is_tan
 
 
 @pytest.mark.parametrize("name", ["puma560", "puma560-first3", "five-bar", "planar-2r", "elbow-3r"])
