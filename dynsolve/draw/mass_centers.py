@@ -291,8 +291,10 @@ _THINNEST = 3.0
 
 _FORMS = {"box": Form.BOX, "sphere": Form.BALL, "shell": Form.BALL}
 
-_USUAL = {"rod": (6.0, 12.0), "disk": (13.0, 3.0), "sphere": (12.0, 12.0), "shell": (12.0, 12.0)}
-"""Half the side on paper of what is no cylinder or box: across its axis, and along it."""
+_USUAL = {"rod": (6.0, 12.0), "disk": (16.0, 3.0), "sphere": (16.0, 16.0), "shell": (16.0, 16.0)}
+"""Half the side on paper of what is no cylinder or box: across its axis, and along it.
+
+One that is round is seen around the mark of its mass centre."""
 
 _SOLID = (9.0, 12.0)
 

@@ -228,7 +228,7 @@ _SAME = 5.0
 MARK = 6.0
 """The radius of the mark of a mass centre."""
 
-_AROUND = 11.0
+AROUND = 11.0
 """Its radius around an axis that is seen end on."""
 
 
@@ -359,7 +359,7 @@ def masses(pose: Pose, notes: Notes) -> None:
         if not _is_on_link(center, pose):
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
             notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
-        radius = _AROUND if _is_under_axis(center, pose) else MARK
+        radius = AROUND if _is_under_axis(center, pose) else MARK
         if mass.is_point:
             notes.draw(Path(paths.circle(center, radius), paths.WHITE, 1.2, paths.BLACK))
         else:

@@ -18,6 +18,7 @@ from dynsolve.draw.parts import HALF_HEIGHT
 from dynsolve.draw.paths import BLACK, FRAME, GREY, SIZE, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
+from dynsolve.draw.poses import AROUND
 from dynsolve.draw.scene import OFF_LINKS, SHAPES, Scene, scene
 from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.solids import BODY, solids
@@ -326,6 +327,14 @@ def test_a_body_of_uniform_density_is_drawn_as_its_shape(density: str, is_tan: b
     picture = drawn_text(f"dh: [{{theta: q*, a: l}}]\nmasses: [{{link: 1, shape: {shape}}}]")
     assert any(path.fill == BODY.top for path in picture.paths) is is_tan
     assert (SHAPES in picture.caption) is is_tan
+
+
+@pytest.mark.parametrize("kind", ["sphere", "shell", "disk"])
+def test_a_round_body_is_seen_around_the_mark_of_its_mass_centre(kind: str) -> None:
+    body = f"{{link: 1, mass: m, center: tip, shape: {{{kind}: {{radius: r}}}}}}"
+    picture = drawn_text(f"dh: [{{theta: q*, a: l}}]\nmasses: [{body}]")
+    box = bounds(path for path in picture.paths if path.fill == BODY.top)
+    assert box.right - box.left > 2 * AROUND + 6
 
 
 @pytest.mark.parametrize("name", ["puma560", "puma560-first3", "five-bar", "planar-2r", "elbow-3r"])
