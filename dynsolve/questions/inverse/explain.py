@@ -354,6 +354,8 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
     match step:
         case OneLine(_, cosine, sine, value) if value.is_zero:
             factors = [sine, cosine]
+        case OneLine(_, cosine, sine, value) if not (cosine.is_zero or sine.is_zero):
+            factors = [sine, cosine, value]
         case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
             factors = [factor for factor in (cosine, sine) if not factor.is_zero]
     if needed := [*_needed(forms, step)]:

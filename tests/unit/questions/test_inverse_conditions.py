@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import dynsolve
 from dynsolve import solve
 from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Number, Symbol, equation
@@ -163,3 +164,22 @@ def test_a_task_of_a_multiple_of_an_angle_is_read() -> None:
     arm = "gravity: none\ndh: [{theta: q1*, a: r}, {theta: q2*, a: s}]\n"
     for task in ("[tip.x, q1 - 2*q2]", "[tip.x, tip.y, q1 + 2*q2]"):
         assert solve_json(arm + f"task: {task}\nfind: [inverse, Jr]\n")["results"]["Jr"]
+
+
+def test_an_angle_is_free_where_its_factors_and_what_they_give_are_0() -> None:
+    """Two equal links folded back reach the height 0 however they are turned."""
+    folded = """
+gravity: none
+dh: [{theta: q1*, a: L}, {theta: q2*, a: L}]
+task: [tip.y, q2]
+find: [inverse]
+"""
+    notes = [str(step.notes) for step in dynsolve.solve(folded).steps]
+    assert any("is free: infinitely many" in note for note in notes)
+    offset = """
+gravity: none
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: L, d: e}]
+task: [tip.x, tip.y]
+find: [inverse]
+"""
+    assert not any("q₁ is free" in str(step.notes) for step in dynsolve.solve(offset).steps)
