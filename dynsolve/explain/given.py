@@ -31,7 +31,16 @@ from dynsolve.explain.mass_centers import Place, ends, is_given_by, other_end, p
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles, units_of_values
 from dynsolve.explain.textbook_letters import Line
-from dynsolve.explain.writing import agreeing, and_joined, listed, machine, measured, name_of, side_by_side
+from dynsolve.explain.writing import (
+    agreeing,
+    and_joined,
+    flat,
+    listed,
+    machine,
+    measured,
+    name_of,
+    side_by_side,
+)
 from dynsolve.notation import tree
 from dynsolve.notation.characters import split
 from dynsolve.notation.printing import decimal_text
@@ -265,14 +274,6 @@ def _axes(normals: Normals) -> Iterator[Prose]:
         told += (" through ", flat_row(axis.line.point)) if axis.is_placed else ()
         yield (*told, ".")
     yield ("In this pose the hand is at ", flat_row(drawing.hand.at), ".")
-
-
-def flat(entries: Iterable[Node]) -> Node:
-    """(v_x, v_y): a column as a line of text can hold it, its commas nearer than those of a list."""
-    parts: list[Node] = []
-    for entry in entries:
-        parts += [Words(",\N{NO-BREAK SPACE}"), entry] if parts else [entry]
-    return Row((Words("("), *parts, Words(")")))
 
 
 def vector(forms: Forms, entries: Sequence[Expr], unit: str) -> Node:

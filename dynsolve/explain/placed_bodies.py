@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import asdict, replace
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import opened, say
@@ -19,7 +20,7 @@ from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.named_steps import Ending, ending
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import SILENT, Way
-from dynsolve.explain.writing import is_small, listed, name_of, spong, sum_of
+from dynsolve.explain.writing import flat, is_small, listed, name_of, spong, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
@@ -86,12 +87,12 @@ def turned(body: Body) -> Prose:
     return say(words, name=name, turns=turns)
 
 
-def _axis(turn: BodyTurn) -> str:
-    """An axis in words: z for [0, 0, 1]."""
+def _axis(turn: BodyTurn) -> Prose:
+    """An axis in words: z for [0, 0, 1], else along (0, -1, 0)."""
     for k, name in enumerate("xyz"):
         if turn.axis == Matrix.identity(turn.axis.ring, 3).column_at(k):
-            return f"the axis {name}"
-    return "the axis given"
+            return (f"the axis {name}",)
+    return ("the axis along ", flat(map(Compactor(turn.axis.ring).form, turn.axis.entries)))
 
 
 def _factors(body: Body) -> tuple[Node, ...]:

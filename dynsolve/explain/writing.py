@@ -365,3 +365,11 @@ def block_of(matrix: Matrix, rows: int, first: int, last: int) -> Matrix:
 def is_small(*nodes: Node) -> bool:
     """Whether trees are small enough to be put into a formula and still be read."""
     return next(islice(walk(*nodes), LARGEST_WORKING, None), None) is None
+
+
+def flat(entries: Iterable[Node]) -> Node:
+    """(v_x, v_y): a column as a line of text can hold it, its commas nearer than those of a list."""
+    parts: list[Node] = []
+    for entry in entries:
+        parts += [Words(",\N{NO-BREAK SPACE}"), entry] if parts else [entry]
+    return Row((Words("("), *parts, Words(")")))

@@ -127,6 +127,12 @@ def test_the_statement_says_how_the_base_is_placed(base: str, told: str) -> None
     assert told.rstrip() in given
 
 
+def test_the_statement_says_about_which_axis_a_body_turns() -> None:
+    body = "{mass: m, at: [0, 0, 0], turn: p, about: [0, -3, 4], inertia: {zz: A}}"
+    (given, _) = stated(solved(f"\nmodel: {{coordinates: {{p: revolute}}, bodies: [{body}]}}"))
+    assert "Body 1 turns by p about the axis along (0, -3/5, 4/5)." in given.replace("\u00a0", " ")
+
+
 MOMENTS = [
     ("numeric-2r", "about the axis through its mass centre parallel to 𝐳₂ is 0.02 kg m². "),
     ("planar-2r", "parallel to 𝐳₁ is I₁; that of body 2, about such an axis parallel to 𝐳₂, is I₂. "),
