@@ -192,9 +192,10 @@ class Mechanism(Struct, frozen=True):
 
     @property
     def size(self) -> float:
-        """The size of what moves, below which results are rounding."""
+        """The size of what moves, or could turn, below which results are rounding."""
         K, P = self.energies()
-        return abs(K) + abs(P)
+        entries = (entry for body in self.robot.bodies if body.inertia for entry in body.inertia.entries)
+        return abs(K) + abs(P) + max((abs(self._number(entry)) for entry in entries), default=0.0)
 
     # -- bodies ------------------------------------------------------------------------------------
 

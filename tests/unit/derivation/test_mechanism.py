@@ -86,3 +86,14 @@ def test_hyper_dual_numbers_carry_two_derivatives() -> None:
     assert value.first == pytest.approx((f(0.7 + step) - f(0.7 - step)) / (2 * step), rel=1e-7)
     assert value.mixed == pytest.approx((f(0.7 + step) - 2 * f(0.7) + f(0.7 - step)) / step**2, rel=1e-5)
     assert (t**-2).mixed == pytest.approx((1.0 / (t * t)).mixed)
+
+
+def test_a_body_that_turns_about_an_axis_without_a_moment_leaves_only_rounding() -> None:
+    rod = """
+gravity: none
+model:
+  coordinates: {p: revolute}
+  bodies: [{mass: m, at: [0, 0, 0], turn: p, about: [0, -3, 4], inertia: {xx: A}}]
+find: [D]
+"""
+    assert dynsolve.solve(rod).to_json()["results"]["D"] == [["0"]]
