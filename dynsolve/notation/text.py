@@ -96,7 +96,7 @@ def tokens(text: str) -> list[FormulaToken]:
 
 
 _EXPONENT = re.compile("[eE]")
-_WITH_EXPONENT = re.compile(r"(?<!\w)\d+[eE][-+]?\d")
+_DECIMAL = re.compile(r"(?<!\w)(?:\d*\.\d|\d+\.(?!\w)|\d+[eE][-+]?\d)")
 
 
 def rational(token: FormulaToken) -> Fraction:
@@ -120,10 +120,10 @@ def rational(token: FormulaToken) -> Fraction:
 def has_decimals(text: str) -> bool:
     """Whether a number of a formula is a decimal: 0.5 or 1e-3, and not 1/2.
 
-    >>> [has_decimals(text) for text in ("l/2 + 1e-3", "0.5*l", "l/2 + 30deg")]
-    [True, True, False]
+    >>> [has_decimals(text) for text in ("l/2 + 1e-3", "0.5*l", "2.", ".5", "l/2 + 30deg", "tip.x - P1.y")]
+    [True, True, True, True, False, False]
     """
-    return "." in text or _WITH_EXPONENT.search(text) is not None
+    return _DECIMAL.search(text) is not None
 
 
 _BEGINS_FACTOR = frozenset({"number", "degrees", "name", "(", "√"})

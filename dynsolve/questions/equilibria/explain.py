@@ -197,6 +197,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         listed=len(result) > 1,
         notes=(*of_free, *notes),
         outcome=tuple(part for k, note in enumerate(notes) for part in ([" "] * (k > 0) + [*note])),
+        uses=None if steady or constrained or found.singular else ("g",),
         detail=Detail.BRIEF,
     )
     if any(found.points) or (constrained and cases):

@@ -149,8 +149,8 @@ def equilibria(
     """The configurations where the forces (n×1) are 0 in every row that no motor holds.
 
     The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
-    `Curvature`.  Where constraints act, they are `held` by these multipliers.  Coordinates of a model are no
-    coordinates where D, its `inertia`, has no inverse: a mass that falls through r = 0 has g = 0 there, too.
+    `Curvature`.  Where constraints act, they are `held` by these multipliers.  What a model has
+    as coordinates may move no body somewhere, by D, its `inertia`: r = 0 of a mass that falls has g = 0, too.
     """
     wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held.zeros(held.rank)]
     if sum(map(len, wanted)) > MOST_TERMS:
@@ -187,8 +187,10 @@ def equilibria(
         for one in alternatives
         if (exist := conditions([condition.expr for condition in one], signs)) is not None
     }
-    mass = inertia and not robot.has_table and inertia.map(there)
-    singular = [one for one in found if mass and _is_singular(mass, one, wanted_rows(robot))]
+    singular: list[Alternative] = []
+    if inertia is not None and not robot.has_table:
+        mass, free = inertia.map(there), wanted_rows(robot)
+        singular = [one for one in found if _is_singular(mass, one, free)]
     found = {one: exist for one, exist in found.items() if one not in singular}
     for condition in (condition for one in found for condition in one):
         if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free

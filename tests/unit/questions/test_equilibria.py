@@ -21,6 +21,7 @@ from dynsolve.questions.equilibria.check import Case, holding, in_balance, verif
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.stability import Stability
 from dynsolve.render.files import Format
+from dynsolve.solution.leading import leading
 from dynsolve.solution.reports import report
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
 
@@ -1132,3 +1133,20 @@ find: [equilibria]
     along, folded = dynsolve.solve(slope).to_json()["results"]["equilibria_stability"][0]
     assert len(along["stable_if"]) == 1 and along["q2"] == "0"
     assert folded == {"q2": "pi", "stability": "unstable"}
+
+
+@pytest.mark.parametrize(
+    ("problem", "is_shown"),
+    [
+        ("dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n", False),
+        (
+            f"model: {{coordinates: {{r: prismatic, a: revolute}}, bodies: [{{mass: m, at: {POLAR}}}]}}\n",
+            True,
+        ),
+        ("model: {coordinates: {a: revolute}, bodies: [{mass: m, at: [l*sin(a), -l*cos(a), 0]}]}\n", False),
+    ],
+)
+def test_the_inertia_is_shown_only_where_equilibria_speak_of_it(problem: str, is_shown: bool) -> None:
+    solution = dynsolve.solve(f"gravity: [0, -g, 0]\n{problem}find: [equilibria]\n")
+    shown = {step.id for step in leading(solution, solution.steps)}
+    assert ("K" in shown) == is_shown and "equilibria" in shown
