@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant, vstack
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
@@ -119,59 +120,19 @@ def _equilibria(context: Context) -> Iterator[Step]:
         yield not_derived("equilibria", "Where nothing moves", found.why)
         return
     shown = EquilibriaForms(robot, context.values)
-    cases, steady = shown.equilibria, bool(robot.questions.model.steady)
+    cases, model = shown.equilibria, robot.questions.model
+    steady = bool(model.steady)
     told = [shown.relations(*both) for both in zip(found.alternatives, cases, strict=True)]
     result: tuple[Node, ...] = tuple(as_row(listed(one)) for one in told if one)
-    said = {equation(value, Number(0)) for one in cases for value in one}
-    both = (
-        [equation(shown.condition(Condition(sign * row)), Number(0)) for sign in (1, -1)]
-        for row in found.rows
-    )
-    rows = tuple(next((one for one in ways if one in said), ways[0]) for ways in both)
-    is_said = said.issuperset(rows)
     constrained, working = _with_constraints(context) if robot.questions.constraints else ((), ())
-    balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
-    own = set() if constrained else {sign * force for force in balanced.entries for sign in (1, -1)}
-    is_new = not is_said and not own.issuperset(found.rows)  # else nothing was combined
-    of_free: list[Prose] = []
-    special = [shown.comparison(one.factor, "≠") for one in found.special if not one.is_of_rank]
-    where = say(" where {special}", special=listed(special)) if special else ""
-    factors = say("that are not 0{where}" if special else "that are never 0", where=where)
-    heading = say(
-        "{what}, without factors {which}:",
-        what="Combined with the constraints" if constrained else "Combined",
-        which="of the parameters" if found.may_be_others else factors,
-    )
-    is_never = any(row.is_number for row in found.rows)  # then it stands for the others, whatever they are
-    lines = (Line(heading, rows),) if is_new and not is_never else ()
-    notes: list[Prose] = []
-    if not cases:
-        never = "No configuration makes all of them 0{where}." if found.is_whole else _NEVER_HELD
-        of_free = [] if is_never or found.singular else [say(never, where=where)]
-        none = "There is no equilibrium{where}."
-        if found.singular:
-            none = "There is no equilibrium with $det 𝐃 ≠ 0${where}."
-        notes.append(say(none, where=where))
-    elif not cases[0]:
-        of_free = [say("Nothing is left to be 0{where}.", where=where)]
-        notes.append(say("Every configuration is an equilibrium{where}.", where=where))
-    else:
-        of_free = [*_never(shown, found), *_arbitrary(robot, cases)]
-        notes += shown.existence("equilibria", found.exist, found.is_seen)
-        notes += _unseen(found)
-        notes += [say("These are the equilibria{where}.", where=where)] if special else []
-    notes += _singular(shown, found, FORCES if steady else letters.G)
-    notes += [note for one in found.special for note in _special(shown, one)]
-    if found.may_be_others:
-        notes.append(("For special values of the parameters there may be others.",))
-    notes += _without_multipliers(shown, found)
-    if _has_coulomb(robot) and not steady:
-        notes.append((_COULOMB,))
+    where = _where(shown, found)
+    combined = _combined(context, shown, found)
+    lines = (Line(_combined_by(found, where, bool(constrained)), combined),) if combined else ()
+    notes = [*_of_cases(shown, found, where), *_besides(shown, found)]
     forces: Node = FORCES if steady else letters.G
     values = context.show(forces_of_motion(context)) if steady else context.form("g")
-    is_held = robot.questions.model.inputs_given
     balance = "Motors hold the others; what has none must be in balance: {passive}. "
-    assumed = [*map(shown.inequality, robot.questions.model.assumed)]
+    assumed = [*map(shown.inequality, model.assumed)]
     passive = listed([Symbol(robot.coordinates[k].name) for k in robot.actions.passive])
     yield Step(
         id="equilibria",
@@ -179,7 +140,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         why=say(
             "{which}{held}{constrained}{given}",
             which=why(context) if steady else _at_rest(robot, _CONSTRAINED if constrained else letters.G),
-            held=say(balance, passive=passive) if is_held else "",
+            held=say(balance, passive=passive) if model.inputs_given else "",
             constrained=constrained,
             given=say(_GIVEN, these=say(", and {these}", these=side_by_side(assumed)) if assumed else "")
             if robot.parameters
@@ -190,18 +151,99 @@ def _equilibria(context: Context) -> Iterator[Step]:
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         working=working,
         lines=lines,
-        concluding=_lead(len(result), len(rows) * is_new, found.is_whole)
-        if len(result) > 1 or (result and is_new)
+        concluding=_lead(len(result), len(combined), found.is_whole)
+        if len(result) > 1 or (result and combined)
         else (),
         result=result,
         listed=len(result) > 1,
-        notes=(*of_free, *notes),
+        notes=(*_of_free(shown, found, where), *notes),
         outcome=tuple(part for k, note in enumerate(notes) for part in ([" "] * (k > 0) + [*note])),
         uses=None if steady or constrained or found.singular else ("g",),
         detail=Detail.BRIEF,
     )
     if any(found.points) or (constrained and cases):
         yield _stability(context, shown, found)
+
+
+def _where(shown: EquilibriaForms, found: Equilibria) -> Prose:
+    """For which parameters all is so that is said of general ones."""
+    special = [shown.comparison(one.factor, "≠") for one in found.special if not one.is_of_rank]
+    return say(" where {special}", special=listed(special)) if special else ()
+
+
+def _is_never(found: Equilibria) -> bool:
+    """Whether a combination is a number: it stands for the others, whatever they are."""
+    return any(row.is_number for row in found.rows)
+
+
+def _combined(context: Context, shown: EquilibriaForms, found: Equilibria) -> tuple[Node, ...]:
+    """The combinations of forces that must be 0, unless they are forces themselves, or what the cases say."""
+    robot = context.robot
+    said = {equation(value, Number(0)) for one in shown.equilibria for value in one}
+    own: set[Expr] = set()
+    if not robot.questions.constraints:
+        balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
+        own = {sign * force for force in balanced.entries for sign in (1, -1)}
+    both = (
+        [equation(shown.condition(Condition(sign * row)), Number(0)) for sign in (1, -1)]
+        for row in found.rows
+    )
+    rows = tuple(next((one for one in ways if one in said), ways[0]) for ways in both)
+    is_new = not said.issuperset(rows) and not own.issuperset(found.rows)
+    return rows if is_new and not _is_never(found) else ()
+
+
+def _combined_by(found: Equilibria, where: Prose, constrained: bool) -> Prose:
+    """What leads to combinations, and what was multiplied by or divided out for them."""
+    return say(
+        "{what}, without factors {which}:",
+        what="Combined with the constraints" if constrained else "Combined",
+        which="of the parameters"
+        if found.may_be_others
+        else say("that are not 0{where}" if where else "that are never 0", where=where),
+    )
+
+
+def _of_free(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterator[Prose]:
+    """What is said beside the cases alone: what may have any value, and what leads to none."""
+    cases = shown.equilibria
+    if not cases:
+        if not _is_never(found) and not found.singular:
+            never = "No configuration makes all of them 0{where}." if found.is_whole else _NEVER_HELD
+            yield say(never, where=where)
+    elif not cases[0]:
+        yield say("Nothing is left to be 0{where}.", where=where)
+    else:
+        yield from _never(shown, found)
+        yield from _arbitrary(shown.robot, cases)
+
+
+def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterator[Prose]:
+    """Whether there are equilibria, and for which parameters."""
+    cases = shown.equilibria
+    if not cases:
+        but = " with $det 𝐃 ≠ 0$" * bool(found.singular)
+        yield say(f"There is no equilibrium{but}{{where}}.", where=where)
+    elif not cases[0]:
+        yield say("Every configuration is an equilibrium{where}.", where=where)
+    else:
+        yield from shown.existence("equilibria", found.exist, found.is_seen)
+        yield from _unseen(found)
+        if where:
+            yield say("These are the equilibria{where}.", where=where)
+
+
+def _besides(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
+    """What is said of configurations and parameters that the cases leave out."""
+    steady = bool(shown.robot.questions.model.steady)
+    yield from _singular(shown, found, FORCES if steady else letters.G)
+    for one in found.special:
+        yield from _special(shown, one)
+    if found.may_be_others:
+        yield ("For special values of the parameters there may be others.",)
+    yield from _without_multipliers(shown, found)
+    if _has_coulomb(shown.robot) and not steady:
+        yield (_COULOMB,)
 
 
 def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:

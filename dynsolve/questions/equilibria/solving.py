@@ -19,7 +19,7 @@ Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from math import prod
 from typing import Any
@@ -155,81 +155,113 @@ def equilibria(
     wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held.zeros(held.rank)]
     if sum(map(len, wanted)) > MOST_TERMS:
         return Skipped(TOO_LONG)
-    ring = search_ring(robot.ring, (), {})
-    there = Transfer(robot.ring, ring)
-    signs = assumed_signs(robot, there)
-    special = Special(signs)
-    left = tuple(combined(robot, wanted, lambda factor: special.add(there(factor))))
     try:
-        rows = [there(row) for row in left]
-        constrained = held.moved(there) if held else None
-        alternatives = (
-            constrained.found(rows, special)
-            if constrained
-            else common_zeros(rows, special, keeps_products=True)
-        )
+        return _Search(robot, wanted, held).found(forces, inertia, may_be_held)
     except TooLong:
         return Skipped(TOO_LONG)
-    settled: Settled | None = Settled(alternatives, tuple(() for _ in alternatives), True)
-    of_rank = Special(signs)
-    if constrained:
+
+
+class _Search:
+    """Where what is `wanted` is 0, looked for in a ring of its own.
+
+    On the way it is noted which factors of parameters may be 0: `special` are those of the zeros, `of_rank`
+    those of the rank of A_c alone.
+    """
+
+    def __init__(self, robot: Robot, wanted: Sequence[Expr], held: Multipliers | None) -> None:
+        self.robot = robot
+        self.there = Transfer(robot.ring, search_ring(robot.ring, (), {}))
+        self.signs = assumed_signs(robot, self.there)
+        self.special, self.of_rank = Special(self.signs), Special(self.signs)
+        self.held = held.moved(self.there) if held else None
+        self.wanted = [*map(self.there, wanted)]
+        self.left = tuple(combined(robot, wanted, lambda factor: self.special.add(self.there(factor))))
+
+    def found(self, forces: Matrix, inertia: Matrix | None, may_be_held: bool) -> Equilibria:
+        """The equilibria; raises TooLong."""
+        alternatives, settled = self._alternatives()
+        excluded = dict(settled.pairs) if settled else {}
+        possible = {
+            one: bounds
+            for one in alternatives
+            if (bounds := conditions([condition.expr for condition in one], self.signs)) is not None
+        }
+        singular = self._singular(possible, inertia)
+        exist = {one: bounds for one, bounds in possible.items() if one not in singular}
+        for condition in (condition for one in exist for condition in one):
+            if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free
+                self.special.add(condition.linear[0])
+        points = self._points(exist, forces, may_be_held)
+        special = self.special
+        short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
+        never = (_never(one, self.signs) for one in alternatives if one not in possible)
+        return Equilibria(
+            rows=self.left,
+            alternatives=tuple(exist),
+            points=points,
+            exist=tuple(without_ends(bounds, short, self.signs) for bounds in exist.values()),
+            special=tuple(self._special_cases(short, settled)),
+            may_be_others=special.is_open or self.of_rank.is_open or len(short) < len(special.factors),
+            excluded=tuple(excluded.get(one, ()) for one in exist),
+            is_whole=settled is None or settled.is_whole,
+            may_be_dependent=settled is None,
+            never=(*special.never, *never),
+            is_seen=tuple(_is_seen(one, self.signs) for one in exist),
+            singular=tuple(singular),
+        )
+
+    def _alternatives(self) -> tuple[tuple[Alternative, ...], Settled | None]:
+        """The cases, and what is known of their multipliers: None where the rows of A_c may be dependent."""
+        rows = [*map(self.there, self.left)]
+        if self.held is None:
+            alternatives = common_zeros(rows, self.special, keeps_products=True)
+            return alternatives, Settled(alternatives, tuple(() for _ in alternatives), True)
+        alternatives = self.held.found(rows, self.special)
         try:
-            settled = constrained.settled(alternatives, constrained.rank, of_rank)
+            settled = self.held.settled(alternatives, self.held.rank, self.of_rank)
         except TooLong:
             settled = None
-    if settled is None or settled.alternatives != alternatives:
-        special.join(of_rank)
-        of_rank = Special(signs)
-        alternatives = settled.alternatives if settled else alternatives
-    excluded = dict(settled.pairs) if settled else {}
-    found = {
-        one: exist
-        for one in alternatives
-        if (exist := conditions([condition.expr for condition in one], signs)) is not None
-    }
-    singular: list[Alternative] = []
-    if inertia is not None and not robot.has_table:
-        mass, free = inertia.map(there), wanted_rows(robot)
-        singular = [one for one in found if _is_singular(mass, one, free)]
-    found = {one: exist for one, exist in found.items() if one not in singular}
-    for condition in (condition for one in found for condition in one):
-        if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free
-            special.add(condition.linear[0])
-    points: tuple[tuple[Point, ...], ...] = tuple(() for _ in found)
-    if constrained is None or constrained.is_of_energy(robot.n):
+        if settled is None or settled.alternatives != alternatives:
+            self.special.join(self.of_rank)
+            self.of_rank = Special(self.signs)
+        return settled.alternatives if settled else alternatives, settled
+
+    def _singular(self, cases: Iterable[Alternative], inertia: Matrix | None) -> list[Alternative]:
+        """Cases in which a coordinate of a model describes nothing."""
+        if inertia is None or self.robot.has_table:
+            return []
+        mass, free = inertia.map(self.there), wanted_rows(self.robot)
+        return [one for one in cases if _is_singular(mass, one, free)]
+
+    def _points(
+        self, exist: Mapping[Alternative, tuple[Bound, ...]], forces: Matrix, may_be_held: bool
+    ) -> tuple[tuple[Point, ...], ...]:
+        """The points of each case, with their stability; none where what is held has no energy."""
+        robot, ring = self.robot, self.there.target
+        if self.held is not None and not self.held.is_of_energy(robot.n):
+            return tuple(() for _ in exist)
         kept = _kept_turning(robot)
         slopes = (
-            [ring.zero if {i, k} & kept else there(robot.ring.diff(g, k)) for k in range(robot.n)]
+            [ring.zero if {i, k} & kept else self.there(robot.ring.diff(g, k)) for k in range(robot.n)]
             for i, g in enumerate(forces.entries)
         )
         second = Matrix.of(ring, slopes)
-        for condition in (condition for one in found for condition in one):
-            special.add(condition.multiplier(second.entries))
-        nonzero = (*special.factors, *of_rank.factors)
-        curvature = Curvature(second, signs.beside(nonzero=nonzero), may_be_held, constrained)
-        points = tuple(
-            tuple(point for point in curvature.points(one, exist) if not _is_told_of_more(point, one, found))
-            for one, exist in found.items()
+        for condition in (condition for one in exist for condition in one):
+            self.special.add(condition.multiplier(second.entries))
+        nonzero = (*self.special.factors, *self.of_rank.factors)
+        curvature = Curvature(second, self.signs.beside(nonzero=nonzero), may_be_held, self.held)
+        return tuple(
+            tuple(point for point in curvature.points(one, bounds) if not _is_told_of_more(point, one, exist))
+            for one, bounds in exist.items()
         )
-    short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
-    cases = [_special_case(factor, [*map(there, wanted)], constrained, signs) for factor in short]
-    if settled and constrained:
-        moved = (factor for factor in of_rank.factors if factor not in special.factors)
-        cases += filter(None, (_of_rank(factor, constrained, settled, signs) for factor in moved))
-    return Equilibria(
-        left,
-        tuple(found),
-        points,
-        tuple(without_ends(exist, short, signs) for exist in found.values()),
-        tuple(cases),
-        special.is_open or of_rank.is_open or len(short) < len(special.factors),
-        tuple(excluded.get(one, ()) for one in found),
-        settled is None or settled.is_whole,
-        settled is None,
-        (*special.never, *(_never(one, signs) for one in alternatives if one not in (*found, *singular))),
-        tuple(_is_seen(one, signs) for one in found),
-        tuple(singular),
-    )
+
+    def _special_cases(self, factors: Iterable[Expr], settled: Settled | None) -> Iterator[SpecialCase]:
+        """What is known where one of these factors is 0, and where one of the rank of A_c alone is."""
+        for factor in factors:
+            yield _special_case(factor, self.wanted, self.held, self.signs)
+        if settled and self.held:
+            moved = (factor for factor in self.of_rank.factors if factor not in self.special.factors)
+            yield from filter(None, (_of_rank(factor, self.held, settled, self.signs) for factor in moved))
 
 
 def _is_singular(inertia: Matrix, case: Alternative, free: Sequence[int]) -> bool:
