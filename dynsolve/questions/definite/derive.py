@@ -2,9 +2,10 @@
 
 An inertia matrix is made of sines and cosines of angles, and is at most quadratic in lengths;
 of a chain with relative coordinates the first one does not occur.  It is positive definite for
-every q exactly if its leading minors are positive for every q (Sylvester).  Each minor is taken
-to its smallest value over one coordinate after the other, which leaves inequalities between
-parameters: those that do not follow from what is assumed are the conditions.
+every q exactly if its leading minors are positive for every q (Sylvester), with the rows and
+columns in any order, of which some decide more than others.  Each minor is taken to its smallest
+value over one coordinate after the other, which leaves inequalities between parameters: those that
+do not follow from what is assumed are the conditions.
 
 Spong, Hutchinson, Vidyasagar, section 7.5; De Luca, Robotics 2, midterm of 29 April 2019.
 
@@ -23,8 +24,10 @@ so one coordinate after the other is taken out.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
+from functools import cache
+from itertools import islice, permutations
 from random import Random
 
 from msgspec import Struct
@@ -32,6 +35,7 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, follows, independent, opposite, simplified
+from dynsolve.algebra.linear_systems import part
 from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
@@ -189,7 +193,10 @@ MOST_WORK = 20_000
 """The products of terms that a determinant may come to."""
 
 TRIES = 4000
-"""So many values of the parameters are tried for a case in which the conditions hold."""
+"""So many values of the parameters are tried for a case in which the conditions hold, and one where not."""
+
+MOST_ORDERS = 24
+"""In so many orders the rows and columns of a matrix are taken."""
 
 
 class Answer(Enum):
@@ -215,9 +222,10 @@ class Definiteness(Struct, frozen=True):
     """What is found of a matrix.
 
     `minors` are its leading ones; `conditions` what the parameters must satisfy beyond what is
-    assumed, or if not `is_exact` what is enough.  Of a matrix that can be none `refusal` says why, `place`
-    the entry (from 0), `extreme` where which minor (its `size`) is not positive.  `moves_with_base` is a
-    remark.
+    assumed, or if not `is_exact` what is enough; `order` (from 0) that of the rows and columns in them.  Of
+    a matrix that can be none `refusal` says why, `place` the entry (from 0), `extreme` where which minor
+    (its `size`) is not positive, or if not `is_whole` what it is over those before it.  `moves_with_base`
+    is a remark.
     """
 
     name: str
@@ -229,6 +237,8 @@ class Definiteness(Struct, frozen=True):
     coordinate: str = ""
     extreme: Extreme | None = None
     size: int = 0
+    is_whole: bool = True
+    order: tuple[int, ...] = ()
     moves_with_base: bool = False
     is_exact: bool = True
 
@@ -240,45 +250,114 @@ def rules(robot: Robot) -> Iterator[Rule]:
 
 
 def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
-    """Whether a matrix can be an inertia matrix, for every q and the parameters that are assumed."""
-    matrix, name = candidate.matrix, candidate.name
+    """Whether a matrix can be an inertia matrix, for every q and the parameters that are assumed.
+
+    That of the first order of its rows that decides, else of the one that leaves the simplest conditions.
+    """
+    matrix = candidate.matrix
     refused = next(_refusals(robot, candidate), None)
     if refused is not None:
         return refused
     if work(matrix) > MOST_WORK:
-        return Skipped(f"the leading minors of {name} are too long")
-    minors = tuple(_leading(matrix))
-    first = matrix.ring.names[0]
-    moves = any(not matrix.ring.diff(entry, 0).is_zero for entry in matrix.entries) and bool(first)
+        return Skipped(f"the leading minors of {candidate.name} are too long")
+    moves = any(not matrix.ring.diff(entry, 0).is_zero for entry in matrix.entries)
+    least = cache(lambda value: _open(value, candidate.assumed))
+    left: list[_Left] = []
+    skipped: list[Skipped] = []
+    for order in _orders(matrix):
+        one = _in_order(candidate, order, least)
+        if isinstance(one, Skipped):
+            skipped.append(one)
+        elif isinstance(one, _Left):
+            left.append(one)
+        else:
+            return replace(one, moves_with_base=moves)
+    found = _with_conditions(candidate, min(left, key=_length)) if left else skipped[0]
+    return found if isinstance(found, Skipped) else replace(found, moves_with_base=moves)
+
+
+def _orders(matrix: Matrix) -> Iterable[tuple[int, ...]]:
+    """The order of the rows as they are written, then others, with short entries of the diagonal first."""
+    written = range(matrix.shape[0])
+    others = permutations(sorted(written, key=lambda k: len(matrix[k, k])))
+    return dict.fromkeys([tuple(written), *islice(others, MOST_ORDERS)])
+
+
+class _Left(Struct, frozen=True):
+    """What the minors of one order leave open."""
+
+    found: Definiteness
+    extremes: tuple[Extreme, ...]
+
+
+def _length(left: _Left) -> tuple[bool, int, int]:
+    """How much is left open; what is no more than enough comes last."""
+    sizes = [len(one.bound.value) for one in left.extremes]
+    return not all(one.needed for one in left.extremes), len(sizes), sum(sizes)
+
+
+_Least = tuple[tuple[Extreme, ...], Extreme | None] | None
+
+
+def _open(value: Expr, assumed: Sequence[Bound]) -> _Least:
+    """What value > 0 needs beyond what is assumed, and what of it fails; None where that is not found."""
+    extremes = smallest(value, assumed)
+    if extremes is None:
+        return None
+    left = tuple(one for one in extremes if not follows(one.bound, assumed))
+    return left, next((one for one in left if one.fails(assumed)), None)
+
+
+def _in_order(
+    candidate: Candidate, order: tuple[int, ...], least: Callable[[Expr], _Least]
+) -> Definiteness | _Left | Skipped:
+    """What the leading minors say, the rows and columns taken in an order."""
+    matrix, name = candidate.matrix, candidate.name
+    minors = tuple(determinant(part(matrix, order[:k], order[:k])) for k in range(1, len(order) + 1))
+    found = Definiteness(name, Answer.YES, minors, order=order)
+    left: list[Extreme] = []
+    for size, minor in enumerate(minors, 1):
+        value = _over(minor, minors[: size - 1])
+        known = least(value)
+        if known is None:
+            return Skipped(f"the smallest value of the {size}×{size} minor of {name} is not found")
+        extremes, failing = known
+        if failing is not None:
+            refused = replace(found, answer=Answer.NO, refusal=Refusal.INDEFINITE)
+            return replace(refused, extreme=failing, size=size, is_whole=value == minor)
+        left += extremes
+    return _Left(found, tuple(left)) if left else found
+
+
+def _with_conditions(candidate: Candidate, left: _Left) -> Definiteness | Skipped:
+    """The conditions on the parameters, where these hold for some and fail for others."""
+    matrix, name, assumed = candidate.matrix, candidate.name, candidate.assumed
     needed: list[Bound] = []
     is_exact = True
-    for size, minor in enumerate(minors, 1):
-        extremes = smallest(minor, candidate.assumed)
-        if extremes is None:
-            return Skipped(f"the smallest value of the {size}×{size} minor of {name} is not found")
-        for extreme in extremes:
-            if follows(extreme.bound, candidate.assumed):
-                continue
-            if extreme.fails(candidate.assumed):
-                found = Definiteness(name, Answer.NO, minors, (), Refusal.INDEFINITE, moves_with_base=moves)
-                return replace(found, extreme=extreme, size=size)
-            bound = simplified(extreme.bound, [*candidate.assumed, *needed])
-            if not follows(bound, needed):
-                needed.append(bound)
-                is_exact &= extreme.needed
-    conditions = independent(needed, candidate.assumed)
-    if conditions and not _is_possible(matrix, (*candidate.assumed, *conditions)):
-        return Skipped(f"whether {name} is positive definite for some parameters is not found")
-    answer = Answer.IF if conditions else Answer.YES
-    return Definiteness(name, answer, minors, conditions, moves_with_base=moves, is_exact=is_exact)
+    for extreme in left.extremes:
+        bound = simplified(extreme.bound, [*assumed, *needed])
+        if not follows(bound, needed):
+            needed.append(bound)
+            is_exact &= extreme.needed
+    conditions = independent(needed, assumed)
+    if not conditions:
+        return left.found
+    some = _are_possible(matrix, (*assumed, *conditions))
+    if not some or not any(_are_possible(matrix, (*assumed, Bound(-one.value))) for one in conditions):
+        which = "all the parameters that are assumed" if some else "some parameters"
+        return Skipped(f"whether {name} is positive definite for {which} is not found")
+    return replace(left.found, answer=Answer.IF, conditions=conditions, is_exact=is_exact)
 
 
-def _leading(matrix: Matrix) -> Iterator[Expr]:
-    for size in range(1, matrix.shape[0] + 1):
-        yield determinant(matrix.block(0, size, 0, size))
+def _over(minor: Expr, before: Sequence[Expr]) -> Expr:
+    """A minor without the factors that are minors before it: these are positive where it matters."""
+    for factor in reversed(before):
+        while not factor.is_number and (rest := minor.quotient(factor)) is not None and not rest.is_zero:
+            minor = rest
+    return minor
 
 
-def _is_possible(matrix: Matrix, bounds: Sequence[Bound]) -> bool:
+def _are_possible(matrix: Matrix, bounds: Sequence[Bound]) -> bool:
     """Whether there are parameters that satisfy all inequalities: tried at random, the same every time."""
     ring, random = matrix.ring, Random(TRIES)  # noqa: S311 - the same values every time are wanted
     for _ in range(TRIES):

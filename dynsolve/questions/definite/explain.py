@@ -105,14 +105,19 @@ def _outcome(forms: Forms, name: Node, found: Definiteness) -> Prose:
 
 def reason(forms: Forms, found: Definiteness) -> Prose:
     """Why a matrix can be an inertia matrix, or cannot."""
+    taken: Prose = ()
+    if found.order != tuple(sorted(found.order)):
+        order = ", ".join(str(k + 1) for k in found.order)
+        taken = (f"Take the rows, and the columns, in the order {order}; any order will do. ",)
     if found.refusal is Refusal.INDEFINITE:
-        return _not_positive(forms, found)
+        return (*taken, *_not_positive(forms, found))
     if found.refusal is not None:
         row, column = (k + 1 for k in found.place)
         q, entry = Symbol(found.coordinate), f"entry ({row}, {column})"
         return say(_REFUSALS[found.refusal], q=q, entry=entry, row=row, column=column)
     return say(
-        "Every leading minor is positive in every configuration{conditions}.",
+        "{taken}Every leading minor is positive in every configuration{conditions}.",
+        taken=taken,
         conditions=say(
             " exactly if {these}" if found.is_exact else " if {these}", these=_all_of(forms, found.conditions)
         )
@@ -134,9 +139,14 @@ def _not_positive(forms: Forms, found: Definiteness) -> Prose:
         if g.kind in ("sin", "cos"):
             sign = Function(g.kind, angle_node(g.angle, ring.names))
         where.append(equation(sign, forms.of(ring.constant(value))))
+    at = say("Where {where}, ", where=listed(where)) if where else ()
+    somewhere = "" if where else " in every configuration"
+    if not found.is_whole:
+        minors = [Letter("Delta", Number(k)) for k in range(1, found.size + 1)]
+        all_ = "both" if found.size == 2 else "all"
+        return say(f"{{at}}{{minors}} are not {all_} positive{somewhere}.", at=at, minors=listed(minors))
     if where:
-        text = "Where {where}, {minor}, which is not positive."
-        return say(text, where=listed(where), minor=known if bound.is_strict else minor)
+        return say("{at}{minor}, which is not positive.", at=at, minor=known if bound.is_strict else minor)
     if found.minors[found.size - 1].is_number:
         return say("{known} is not positive.", known=known)
     return say("{minor} is not positive in every configuration.", minor=minor)

@@ -62,3 +62,11 @@ def test_what_cannot_be_read_is_unreadable(name: str) -> None:
 @pytest.mark.parametrize(("word", "verdict"), [("if", "correct"), ("yes", "wrong"), ("{D: if}", "correct")])
 def test_of_one_matrix_its_name_may_be_left_out(word: str, verdict: str) -> None:
     assert judged(f"definite: {word}", ONE).verdict == verdict
+
+
+def test_yes_is_right_where_other_minors_than_the_first_see_it() -> None:
+    coupled = "[[a + c + 2*b*cos(q), c + b*cos(q)], [c + b*cos(q), c]]"
+    text = f"candidates: {{M: {coupled}}}\ncoordinates: {{p: prismatic, q: revolute}}\n"
+    problem = read_problem(f"{text}assume: [a > 0, a*c > b^2]\nfind: [definite]\n")
+    assert judged("definite: yes", problem).verdict == "correct"
+    assert judged("definite: if", problem).verdict == "wrong"

@@ -34,6 +34,12 @@ def of_three(first: str, off: str = "0", assume: str = "[]") -> str:
     return file(f"[[{first}, {off}, 0], [{off}, 1, 0], [0, 0, 1]]", assume)
 
 
+def of_two(assume: str) -> str:
+    """a + c + 2 b c₂ is seen to be positive by what is assumed of c and the determinant alone."""
+    coupled = "[[a + c + 2*b*cos(q2), c + b*cos(q2)], [c + b*cos(q2), c]]"
+    return f"candidates: {{M: {coupled}}}\ncoordinates: {{q1: revolute, q2: revolute}}\nassume: {assume}\n"
+
+
 def test_the_exam_s_verdicts_come_out() -> None:
     """Sapienza Robotics 2, midterm 29 April 2019, exercise 1."""
     verdicts = solve_json(EXAM)["results"]["definite"]
@@ -55,6 +61,10 @@ CONDITIONS = {
     "a length": (of_three("a + b*d^2"), ["a > 0", "b >= 0"]),
     "a length from elsewhere": (of_three("a + b*d + c*d^2"), ["c > 0", "4*a*c - b**2 > 0"]),
     "a length that must not occur": (of_three("a + b*d"), ["b = 0", "a > 0"]),
+    "a length twice on the diagonal": (
+        file("[[a + b*d^2, 0, 0], [0, c + b*d^2, 0], [0, 0, b]]"),
+        ["a > 0", "c > 0", "b > 0"],
+    ),
     "off the diagonal": (of_three("a", "b*cos(q2)"), ["a - b**2 > 0"]),
     "a third power of what is assumed": (
         file("[[a + b*d + b*d^2, 0, 0], [0, b, 0], [0, 0, 1]]", "[b > 0]"),
@@ -86,12 +96,31 @@ YES = {
     "a square in what is assumed": of_three("a + b", "b*sin(q2)", "[a > 0, b > 0, b < 1]"),
     "a chain of inequalities": of_three("a + b*cos(q2)", "0", "[a > b > 0]"),
     "a bound from below": of_three("a + b*cos(q1)*cos(q2)", "0", "[a + b > 0, a - b > 0]"),
+    "the minors from another entry on": of_two("[a > 0, a*c > b^2]"),
 }
 
 
 @pytest.mark.parametrize("name", YES)
 def test_what_is_assumed_is_enough(name: str) -> None:
     assert found(YES[name]).answer is Answer.YES
+
+
+def test_the_minors_are_those_that_decide() -> None:
+    """c and a c - b² c₂², not a + c + 2 b c₂ first."""
+    one, ring = found(YES["the minors from another entry on"]), read_problem(of_two("[]")).robot.ring
+    assert one.order == (1, 0)
+    assert str(one.minors[0]) == str(ring.symbol("c"))
+    text = report(dynsolve.solve(read_problem(of_two("[]"))), Format.TEXT).decode()
+    assert "in the order 2, 1; any order will do" in text
+    assert "exactly if c > 0 and a c - b² > 0" in " ".join(text.split())
+
+
+def test_no_if_is_said_where_nothing_is_seen_to_fail() -> None:
+    """a³ > b³ is a > b, which no product of what is assumed shows."""
+    result = solve_json(of_three("a - b", "0", "[a^3 > b^3]"))["results"]["definite"]["M"]
+    assert result == {
+        "skipped": "whether M is positive definite for all the parameters that are assumed is not found"
+    }
 
 
 REFUSED = {
@@ -105,6 +134,7 @@ REFUSED = {
     "a negative determinant": (of_three("1", "2"), Refusal.INDEFINITE),
     "never positive": (of_three("-a", "0", "[a > 0]"), Refusal.INDEFINITE),
     "a length that grows": (of_three("1 + d"), Refusal.INDEFINITE),
+    "one of two minors": (file("[[a + b*d^2, 0, 0], [0, -1, 0], [0, 0, 1]]"), Refusal.INDEFINITE),
 }  # fmt: skip
 
 
@@ -114,6 +144,11 @@ def test_a_refusal_has_its_reason(name: str) -> None:
     one = found(text)
     assert (one.answer, one.refusal) == (Answer.NO, refusal)
     assert solve_json(text)["results"]["definite"]["M"]["why"]
+
+
+def test_of_minors_that_share_a_factor_no_value_is_told() -> None:
+    result = solve_json(REFUSED["one of two minors"][0])["results"]["definite"]["M"]
+    assert result["why"] == "Δ₁ and Δ₂ are not both positive in every configuration."
 
 
 def test_a_model_s_matrix_is_judged_by_itself() -> None:
