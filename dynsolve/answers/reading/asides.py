@@ -74,18 +74,19 @@ def read_aside(reader: EquationReader, display: Display) -> None:
 
 
 def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -> None:
-    members, vocabulary = equation.members, reader.vocabulary
+    """Keep one of them: an order of angles, equations of motion, an answer, or the meaning of a letter."""
+    members, vocabulary, aside = equation.members, reader.vocabulary, origin.display.aside
     if (order := defined_order(members)) is not None:
         vocabulary.count(dict([order]))
-        reader.found.left_alone.append(origin.of(members, origin.display.aside))
+        reader.found.left_alone.append(origin.of(members, aside))
         return
     side = read_left_side(vocabulary, members[0])
     motion = None if isinstance(side, NamedAnswers) else motion_equation(vocabulary, members)
     if motion is not None:
         tokens = [token for member in members for token in member]
         origin = replace(origin, names=motion.forces)
-        refused = origin.of(members, origin.display.aside)
-        if may_hold(origin.display.aside):
+        refused = origin.of(members, aside)
+        if may_hold(aside):
             reader.found.motion_aside(motion, tokens, origin, refused)
         else:
             reader.found.said_aside(refused)
@@ -94,69 +95,114 @@ def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -
     value: RightSide | ReadError = ReadError(f"more than {MAX_MEMBERS} members")
     if len(members) <= MAX_MEMBERS:
         value = read_right_side(vocabulary, members[-1])
-    if isinstance(side, UnknownSide) and isinstance(value, RightSide):
+    if isinstance(value, RightSide):
+        side, names = _by_content(reader, members[0], side, value)
+        origin = replace(origin, names=names or origin.names)
+    members, value = _without_condition(vocabulary, members, side, value)
+    if reader.defines_shorthand(members[0], [value] if isinstance(value, RightSide) else []):
+        reader.found.left_alone.append(origin.of(members, aside))
+        return
+    gives = isinstance(value, RightSide) and not isinstance(value.value, Abstract)
+    if isinstance(side, NamedAnswers) and (
+        isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
+    ):
+        _keep_answers(reader, members, side, value, origin)
+    else:
+        _keep_meaning(reader, equation, members, side, value, origin)
+
+
+def _by_content(
+    reader: EquationReader, first: list[Token], side: LeftSide, value: RightSide
+) -> tuple[LeftSide, tuple[str, ...]]:
+    """What a left side means by what it is equal to, and the answers that it may speak of."""
+    vocabulary = reader.vocabulary
+    names: tuple[str, ...] = ()
+    if isinstance(side, UnknownSide):
         forces = force_meant(vocabulary, side.key, value.value)
-        by_content = meant(vocabulary, side.key, value.value) or forces
-        if len(by_content) == 1:
-            reader.define(side.key, value)
-            side = NamedAnswers(by_content)
-        origin = replace(origin, names=by_content or origin.names)
-    if isinstance(side, NamedAnswers) and isinstance(value, RightSide):
-        name = name_alone(vocabulary, members[0])
-        called = called_force(vocabulary, name, side.candidates, [value.value])
-        if friction := called_friction(vocabulary, name, side.candidates, [value.value]):
-            reader.define(name, replace(value, value=Reference(friction[0])))
-        side = NamedAnswers(called or friction or side.candidates)
-        origin = replace(origin, names=side.candidates)
-    names = [side.candidates] if isinstance(side, NamedAnswers) else []
+        names = meant(vocabulary, side.key, value.value) or forces
+        if len(names) != 1:
+            return side, names
+        reader.define(side.key, value)
+        side = NamedAnswers(names)
+    if not isinstance(side, NamedAnswers):
+        return side, names
+    name = name_alone(vocabulary, first)
+    called = called_force(vocabulary, name, side.candidates, [value.value])
+    if friction := called_friction(vocabulary, name, side.candidates, [value.value]):
+        reader.define(name, replace(value, value=Reference(friction[0])))
+    side = NamedAnswers(called or friction or side.candidates)
+    return side, side.candidates
+
+
+def _without_condition(
+    vocabulary: Vocabulary, members: list[list[Token]], side: LeftSide, value: RightSide | ReadError
+) -> tuple[list[list[Token]], RightSide | ReadError]:
+    """The members and their value, without the last one where it only says when the one before holds."""
     before = read_right_side(vocabulary, members[-2]) if len(members) > 2 else None
+    names = [side.candidates] if isinstance(side, NamedAnswers) else []
     if (
         isinstance(before, RightSide)
         and is_value(before)
         and is_condition(vocabulary, names, value, [before])
     ):
-        members, value = members[:-1], before
-    own = members[0][0].text if len(members[0]) == 1 else ""
-    gives = isinstance(value, RightSide) and not isinstance(value.value, Abstract)
-    if reader.defines_shorthand(members[0], [value] if isinstance(value, RightSide) else []):
-        reader.found.left_alone.append(origin.of(members, origin.display.aside))
+        return members[:-1], before
+    return members, value
+
+
+def _keep_answers(
+    reader: EquationReader,
+    members: list[list[Token]],
+    side: NamedAnswers,
+    value: RightSide | ReadError,
+    origin: Origin,
+) -> None:
+    """Keep the answers that all left sides name, where nothing else answers them."""
+    vocabulary, aside = reader.vocabulary, origin.display.aside
+    sides = [side, *read_left_sides(vocabulary, members)[1:]]
+    names = [one.candidates for one in sides if isinstance(one, NamedAnswers)]
+    member = Member(len(members) - 1, members[-1], value)
+    answers = [reader.found.answer(candidates, member, origin) for candidates in names]
+    refused = origin.of(members, value.message if isinstance(value, ReadError) else aside)
+    if isinstance(value, RightSide) and value.is_definition:
+        reader.found.left_alone.append(replace(refused, needs=value.references))
+        reader.found.general += answers
         return
-    if isinstance(side, NamedAnswers) and (
-        isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
-    ):
-        sides = [side, *read_left_sides(vocabulary, members)[1:]]
-        names = [one.candidates for one in sides if isinstance(one, NamedAnswers)]
-        member = Member(len(members) - 1, members[-1], value)
-        answers = [reader.found.answer(candidates, member, origin) for candidates in names]
-        refused = origin.of(members, value.message if isinstance(value, ReadError) else origin.display.aside)
-        if isinstance(value, RightSide) and value.is_definition:
-            reader.found.left_alone.append(replace(refused, needs=value.references))
-            reader.found.general += answers
-        else:
-            holds = may_hold(origin.display.aside)
-            if holds and states_zero(vocabulary, members[0], names, value):
-                refused, holds = replace(refused, why=CONDITION), False
-            reader.found.said_aside(refused, answers if holds else ())
+    holds = may_hold(aside)
+    if holds and states_zero(vocabulary, members[0], names, value):
+        refused, holds = replace(refused, why=CONDITION), False
+    reader.found.said_aside(refused, answers if holds else ())
+
+
+def _keep_meaning(
+    reader: EquationReader,
+    equation: Equation,
+    members: list[list[Token]],
+    side: LeftSide,
+    value: RightSide | ReadError,
+    origin: Origin,
+) -> None:
+    """Keep what a letter means, or that it cannot be read."""
+    vocabulary, aside = reader.vocabulary, origin.display.aside
+    if isinstance(value, ReadError) or isinstance(value.value, Abstract):
+        reader.found.left_alone.append(origin.of(members, aside))
+        if isinstance(value, ReadError) and isinstance(side, UnknownSide):
+            vocabulary.cannot_be_read(side.key, value.message)
         return
-    if gives and _only_renames(vocabulary, members[0], side, value):
+    if _only_renames(vocabulary, members[0], side, value):
         origin = replace(origin, names=())
-    refused = origin.of(members, origin.display.aside)
-    kept = _define(reader, side, own, value, equation) if gives and isinstance(value, RightSide) else ""
+    refused = origin.of(members, aside)
+    own = members[0][0].text if len(members[0]) == 1 else ""
+    kept = _define(reader, side, own, value, equation)
     if kept:
         reader.found.own_scalars.append((kept, [], refused))
     else:
         reader.found.left_alone.append(refused)
-    if gives:
-        _define_by_the_end(reader, members)
-    elif isinstance(value, ReadError) and isinstance(side, UnknownSide):
-        vocabulary.cannot_be_read(side.key, value.message)
+    _define_by_the_end(reader, members)
 
 
-def _only_renames(
-    vocabulary: Vocabulary, first: list[Token], side: LeftSide, found: RightSide | ReadError
-) -> bool:
+def _only_renames(vocabulary: Vocabulary, first: list[Token], side: LeftSide, found: RightSide) -> bool:
     r"""Whether a formula only says what else a symbol, a sine or a cosine is called: `\sin q_2 = s_2`."""
-    value = found.value if isinstance(found, RightSide) else None
+    value = found.value
     same = read_right_side(vocabulary, first)
     is_same = isinstance(same, RightSide) and isinstance(value, Node) and same.value == value
     return is_same or (isinstance(side, NamedAnswers) and isinstance(value, Symbol))

@@ -53,7 +53,7 @@ def steps(context: Context) -> Iterator[Step]:
     if "qd" in wanted:
         assert asked.velocity is not None
         why = say("$𝐫̇ = 𝐉_r 𝐪̇$")
-        yield _solution(context, "qd", "The rates of the joints", asked.velocity, formula("𝐫̇"), why)
+        yield _System(context, "qd", asked.velocity, formula("𝐫̇")).step("The rates of the joints", why)
     if "qdd" in wanted:
         assert asked.acceleration is not None
         right = wanted_by_accelerations(context.robot, asked.acceleration, context.values["Jr_dot"])
@@ -62,7 +62,7 @@ def steps(context: Context) -> Iterator[Step]:
             "The rest"
         )
         title = "The accelerations of the joints"
-        yield _solution(context, "qdd", title, right, formula("𝐫̈ - 𝐉̇_r 𝐪̇"), why)
+        yield _System(context, "qdd", right, formula("𝐫̈ - 𝐉̇_r 𝐪̇")).step(title, why)
     known = not asked.state or bool({"qd", "qdd"} & wanted)
     for name in (name for name in _SPACES if name in wanted):
         yield replace(_space(context, name), normal=TOLD & ~Part.WORKING if known else TOLD)
@@ -88,78 +88,107 @@ def _state_once(context: Context, name: str) -> Prose:
     return say("In the state {given}.", given=given) if rates else ()
 
 
-def _solution(context: Context, name: str, title: str, asked: Matrix, b: Node, why: Prose) -> Step:
-    """The x of J x = b with x = q̇ or q̈: where there are many, the least; where there is none, the nearest."""
-    at = AtState(context.robot.ring, context.robot.questions.state.by_symbol)
-    J, right = at.matrix(context.values["Jr"]), at.matrix(asked)
-    rank, (rows, columns) = rank_parts(J).rank, J.shape
-    x = letters.QD if name == "qd" else letters.QDD
-    weights = context.robot.questions.weights
-    if context.robot.questions.weighs_by_inertia:
-        weights = at.matrix(context.values["D"])
-    notes: tuple[Prose, ...] = ()
-    in_product = Parenthesized(b) if isinstance(b, Sum) else b
-    least = "of least norm" if weights is None else say("with the least ${x}ᵀ 𝐖 {x}$", x=x)
-    deficient = f", the rank being {rank}" if rank < min(rows, columns) else ""
-    if rank == columns and is_solvable(J, right):
-        how = say(" has one solution. ")
-    elif is_solvable(J, right):
-        how = say(" has many solutions{rank}: this is the one {least}. ", rank=deficient, least=least)
-    elif rank == columns:
-        text = " has {none}: these come nearest to one, in the sense of least squares. "
-        how = say(text, none=_none(context, J, right))
-    else:
-        how = say(
-            " has {none}{rank}; many come nearest to one, in the sense of least squares, those with "
-            "{normal}: this is the one {least}. ",
-            none=_none(context, J, right),
-            rank=deficient,
-            normal=formula("𝐉_rᵀ 𝐉_r {x} = 𝐉_rᵀ {b}", x=x, b=in_product),
-            least=least,
+class _System:
+    """J x = b at the state, x = q̇ or q̈: where it has many solutions, the least; where none, the nearest."""
+
+    def __init__(self, context: Context, name: str, asked: Matrix, b: Node) -> None:
+        at = AtState(context.robot.ring, context.robot.questions.state.by_symbol)
+        questions = context.robot.questions
+        self.context, self.name, self.b = context, name, b
+        self.x = letters.QD if name == "qd" else letters.QDD
+        self.in_product = Parenthesized(b) if isinstance(b, Sum) else b
+        self.J, self.right = at.matrix(context.values["Jr"]), at.matrix(asked)
+        self.rank, (self.rows, self.columns) = rank_parts(self.J).rank, self.J.shape
+        self.solvable = is_solvable(self.J, self.right)
+        self.weights = at.matrix(context.values["D"]) if questions.weighs_by_inertia else questions.weights
+
+    def step(self, title: str, why: Prose) -> Step:
+        """The step that solves it."""
+        context = self.context
+        return Step(
+            id=self.name,
+            title=title,
+            why=(*why, *self._how(), *_state_once(context, self.name)),
+            formula=equation(self.x, self._solution()),
+            source=spong("4.11"),
+            working=tuple(self._working()),
+            result=(equation(self.x, context.form(self.name)),),
+            entries=tuple(
+                (Symbol(q.name, 1 if self.name == "qd" else 2),) for q in context.robot.coordinates
+            ),
+            notes=(say(_UNSEEN, x=self.x),) if self.solvable and self.rank < self.columns else (),
+            detail=Detail.BRIEF,
         )
-    if rank < columns and is_solvable(J, right):
-        text = "Every motion of the joints that the task does not see may be added: ${x}$ with $𝐉_r {x} = 𝟎$."
-        notes = (say(text, x=x),)
-    pseudo = formula("𝐉_r^{plus}", plus="+")
-    if weights is not None:
-        pseudo = Power(Parenthesized(formula("𝐉_r 𝐖⁻¹ 𝐉_rᵀ")), Words("+"))
-    if rank == rows == columns:
-        inverse = "𝐉_r⁻¹ {b}"
-    elif rank == rows:
-        inverse = "𝐉_rᵀ (𝐉_r 𝐉_rᵀ)⁻¹ {b}" if weights is None else "𝐖⁻¹ 𝐉_rᵀ (𝐉_r 𝐖⁻¹ 𝐉_rᵀ)⁻¹ {b}"
-    elif rank == columns:
-        inverse = "(𝐉_rᵀ 𝐉_r)⁻¹ 𝐉_rᵀ {b}"
-    else:
-        inverse = "{pseudo} {b}" if weights is None else "𝐖⁻¹ 𝐉_rᵀ {pseudo} {b}"
-        how += say("The pseudoinverse {pseudo} gives it. ", pseudo=pseudo)
-    working = [equation(_J, context.show(J))] if context.robot.questions.state else []
-    working.insert(len(working) if name == "qd" else 0, equation(b, context.show(right)))
-    if rank < columns and weights is not None:
-        working.append(equation(letters.WEIGHTS, context.show(weights)))
-    elif rank in (rows, columns) and rank and work(squared(J)) <= MOST_PRODUCTS:
-        det = formula("det {of}", of=square_of(_J, J))
-        working.append(equation(det, context.show(determinant(squared(J)))))
-    inverse_times = formula(inverse, b=in_product, pseudo=pseudo)
-    if rank < min(rows, columns):
-        sides = context.show(J.T @ J), context.show(J.T @ right)
-        if not is_solvable(J, right) and is_small(*sides):
-            working.append(equation(formula("𝐉_rᵀ 𝐉_r"), sides[0]))
-            working.append(equation(formula("𝐉_rᵀ {b}", b=in_product), sides[1]))
-    if rank < columns and weights is None and len({q.type for q in context.robot.coordinates}) > 1:
-        how += _MIXED
-    how += _where_rank(J, rank)
-    return Step(
-        id=name,
-        title=title,
-        why=(*why, *how, *_state_once(context, name)),
-        formula=equation(x, inverse_times),
-        source=spong("4.11"),
-        working=tuple(working),
-        result=(equation(x, context.form(name)),),
-        entries=tuple((Symbol(q.name, 1 if name == "qd" else 2),) for q in context.robot.coordinates),
-        notes=notes,
-        detail=Detail.BRIEF,
-    )
+
+    def _how(self) -> Prose:
+        """How many solutions it has, and which one is meant."""
+        rank, columns = self.rank, self.columns
+        least: Value = "of least norm"
+        if self.weights is not None:
+            least = say("with the least ${x}ᵀ 𝐖 {x}$", x=self.x)
+        if self.solvable:
+            text = " has one solution. " if rank == columns else " has many solutions{rank}: {one}. "
+        else:
+            text = " has {none}: these come nearest to one, in the sense of least squares. "
+            if rank < columns:
+                text = _MANY_NEAREST
+        how = say(
+            text,
+            rank=f", the rank being {rank}" if rank < min(self.J.shape) else "",
+            one=say("this is the one {least}", least=least),
+            none=() if self.solvable else _none(self.context, self.J, self.right),
+            normal=formula("𝐉_rᵀ 𝐉_r {x} = 𝐉_rᵀ {b}", x=self.x, b=self.in_product),
+        )
+        if rank < columns and rank < self.rows:
+            how += say("The pseudoinverse {pseudo} gives it. ", pseudo=self._pseudoinverse)
+        if (
+            rank < columns
+            and self.weights is None
+            and len({q.type for q in self.context.robot.coordinates}) > 1
+        ):
+            how += _MIXED
+        return how + _where_rank(self.J, rank)
+
+    @property
+    def _pseudoinverse(self) -> Node:
+        if self.weights is None:
+            return formula("𝐉_r^{plus}", plus="+")
+        return Power(Parenthesized(formula("𝐉_r 𝐖⁻¹ 𝐉_rᵀ")), Words("+"))
+
+    def _solution(self) -> Node:
+        """x, by the inverse that J has."""
+        if self.rank == self.rows == self.columns:
+            inverse = "𝐉_r⁻¹ {b}"
+        elif self.rank == self.rows:
+            inverse = "𝐉_rᵀ (𝐉_r 𝐉_rᵀ)⁻¹ {b}" if self.weights is None else "𝐖⁻¹ 𝐉_rᵀ (𝐉_r 𝐖⁻¹ 𝐉_rᵀ)⁻¹ {b}"
+        elif self.rank == self.columns:
+            inverse = "(𝐉_rᵀ 𝐉_r)⁻¹ 𝐉_rᵀ {b}"
+        else:
+            inverse = "{pseudo} {b}" if self.weights is None else "𝐖⁻¹ 𝐉_rᵀ {pseudo} {b}"
+        return formula(inverse, b=self.in_product, pseudo=self._pseudoinverse)
+
+    def _working(self) -> Iterator[Node]:
+        """J and b, the weights, and what is inverted or, where nothing is, solved."""
+        show, J = self.context.show, self.J
+        given = [equation(self.b, show(self.right))]
+        if self.context.robot.questions.state:
+            given.insert(0 if self.name == "qd" else 1, equation(_J, show(J)))
+        yield from given
+        if self.rank < self.columns and self.weights is not None:
+            yield equation(letters.WEIGHTS, show(self.weights))
+        elif self.rank in J.shape and self.rank and work(squared(J)) <= MOST_PRODUCTS:
+            yield equation(formula("det {of}", of=square_of(_J, J)), show(determinant(squared(J))))
+        if self.rank < min(J.shape) and not self.solvable:
+            square, right = show(J.T @ J), show(J.T @ self.right)
+            if is_small(square, right):
+                yield equation(formula("𝐉_rᵀ 𝐉_r"), square)
+                yield equation(formula("𝐉_rᵀ {b}", b=self.in_product), right)
+
+
+_UNSEEN = "Every motion of the joints that the task does not see may be added: ${x}$ with $𝐉_r {x} = 𝟎$."
+_MANY_NEAREST = (
+    " has {none}{rank}; many come nearest to one, in the sense of least squares, those with {normal}: {one}. "
+)
 
 
 def _none(context: Context, J: Matrix, right: Matrix) -> Prose:
@@ -269,9 +298,6 @@ def _dependent(context: Context, matrix: Matrix, vectors: Matrix) -> Prose:
         return ()
     are = "these vectors are dependent" if vectors.shape[1] > 1 else "this vector is 0"
     return say(f" Where {{zero}}, {are}.", zero=equation(where, ZERO))
-
-
-# -- forces from outside, held at rest --------------------------------------------------------------
 
 
 # -- hints -----------------------------------------------------------------------------------------
