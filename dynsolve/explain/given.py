@@ -293,7 +293,8 @@ def _model(forms: Forms) -> Iterator[Prose]:
         return
     yield from (_position(forms, body) for body in forms.robot.bodies)
     for candidate in forms.robot.questions.candidates:
-        yield (equation(Symbol(candidate.name), forms.of(candidate.matrix)), ".")
+        own = forms.in_ring(candidate.matrix.ring)
+        yield (equation(Symbol(candidate.name), own.of(candidate.matrix)), ".")
 
 
 def _position(forms: Forms, body: Body) -> Prose:

@@ -110,7 +110,7 @@ def _with_candidates(values: CellValues, parsed: ParsedFile, robot: Robot) -> Ro
         return robot
     from dynsolve.problem.mechanism import assumed, candidates
 
-    judged = candidates(values, parsed.candidates, robot.given.D if robot.given else None)
+    judged = candidates(values, parsed.candidates, parsed.model.D if parsed.model else None)
     asks = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
     return replace(robot, questions=replace(robot.questions, candidates=judged, model=asks))
 

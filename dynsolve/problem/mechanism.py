@@ -466,17 +466,22 @@ def _inequality(faults: Faults, node: ScalarNode) -> Iterator[Inequality]:
 # -- the matrices, with exact values ---------------------------------------------------------------
 
 
-def candidates(values: CellValues, parsed: Candidates, given: Matrix | None) -> tuple[Candidate, ...]:
-    """The matrices to be judged, or the D that a model is given by; what is wrong is reported."""
-    every = _bounds(values, parsed.assumed.get(EVERY, ()))
-    if not parsed.matrices:
-        return (Candidate("D", given, every, parsed.is_relative),) if given is not None else ()
+def candidates(
+    values: CellValues, parsed: Candidates, D: tuple[tuple[Cell, ...], ...] | None
+) -> tuple[Candidate, ...]:
+    """The matrices to be judged, or the D that a model is given by; what is wrong is reported.
+
+    Each is in a ring of its own, in which it is as short as if it stood alone: cos 2q beside no cos q.
+    """
+    matrices = parsed.matrices or ({"D": D} if D else {})
     made = []
-    for name, cells in parsed.matrices.items():
-        matrix = values.matrix(cells)
+    for name, rows in matrices.items():
+        inequalities = (*parsed.assumed.get(EVERY, ()), *parsed.assumed.get(name, ()))
+        sides = (side for one in inequalities for side in (one.left, one.right))
+        own = values.alone([*(cell for row in rows for cell in row), *sides])
+        matrix = own.matrix(rows)
         if matrix is not None:
-            own = _bounds(values, parsed.assumed.get(name, ()))
-            made.append(Candidate(name, matrix, (*every, *own), parsed.is_relative))
+            made.append(Candidate(name, matrix, _bounds(own, inequalities), parsed.is_relative))
     return tuple(made)
 
 

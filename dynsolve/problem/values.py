@@ -14,7 +14,7 @@ from msgspec import Struct
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import build_ring, value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.problem.base import ParsedRotation
 from dynsolve.problem.bodies import ParsedPlace, ParsedTensor
@@ -36,6 +36,12 @@ class CellValues:
         self, faults: Faults, ring: Ring, left_out: frozenset[int], written: Mapping[str, str]
     ) -> None:
         self.faults, self.ring, self._left_out, self.written = faults, ring, left_out, written
+
+    def alone(self, cells: Iterable[Cell]) -> CellValues:
+        """The values of some cells, in a ring that holds no more than these."""
+        trees = [cell.tree for cell in cells if id(cell) not in self._left_out]
+        ring = build_ring(self.ring.coordinates, trees)
+        return CellValues(self.faults, ring, self._left_out, self.written)
 
     def expr(self, cell: Cell) -> Expr | None:
         """The value of a cell, None where something of it was reported."""

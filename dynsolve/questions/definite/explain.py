@@ -64,7 +64,8 @@ def steps(context: Context) -> Iterator[Step]:
 
 def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped) -> Step:
     name = Symbol(candidate.name) if context.robot.given is None else letters.D
-    matrix = equation(name, context.show(candidate.matrix))
+    forms = context.forms.in_ring(candidate.matrix.ring)
+    matrix = equation(name, forms.of(candidate.matrix))
     step = Step(
         id=f"definite_{candidate.name}",
         title=f"The matrix {candidate.name}",
@@ -76,20 +77,20 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
         return replace(step, why=why, outcome=(name, f": {found.why}."))
     assumed: Prose = ()
     if candidate.assumed and found.refusal in (None, Refusal.INDEFINITE):
-        assumed = say("Let {these}. ", these=_all_of(context.forms, candidate.assumed))
+        assumed = say("Let {these}. ", these=_all_of(forms, candidate.assumed))
     notes: tuple[Prose, ...] = ()
     if found.moves_with_base and found.answer is not Answer.NO:
         text = "It depends on {q}, which no inertia matrix of a chain with relative coordinates does."
         notes = (say(text, q=Symbol(context.robot.coordinates[0].name)),)
-    minors = [formula("Δ_{k} = {value}", k=k, value=context.show(m)) for k, m in enumerate(found.minors, 1)]
+    minors = [formula("Δ_{k} = {value}", k=k, value=forms.of(m)) for k, m in enumerate(found.minors, 1)]
     conclusion = _CONCLUSIONS[found.answer]
     return replace(
         step,
         source=spong("7.5"),
         result=(matrix, *minors),
-        why=(*assumed, *reason(context.forms, found), f" So {conclusion}"),
+        why=(*assumed, *reason(forms, found), f" So {conclusion}"),
         notes=notes,
-        outcome=_outcome(context.forms, name, found),
+        outcome=_outcome(forms, name, found),
         normal=NOTED,
         hint=("Look at its entries first, then at its leading minors.",),
     )

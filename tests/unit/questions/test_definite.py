@@ -123,6 +123,19 @@ def test_no_if_is_said_where_nothing_is_seen_to_fail() -> None:
     }
 
 
+def test_what_stands_beside_a_matrix_does_not_matter() -> None:
+    """cos 2q is a polynomial in cos q where both stand in one ring, of a degree that is too high."""
+    twice, once = (f"[[a, b*cos({k}*q2), 0], [b*cos({k}*q2), c, 0], [0, 0, 1]]" for k in (2, 1))
+    beside = file(f"{twice}, N: {once}")
+    alone, results = solve_json(file(twice))["results"]["definite"], solve_json(beside)["results"]["definite"]
+    assert results["M"] == alone["M"]
+    assert results["N"]["verdict"] == "if"
+    model = (
+        f"model:\n  coordinates: {{q1: revolute, q2: revolute, q3: revolute}}\n  D: {twice}\n  P: a*cos(q2)\n"
+    )
+    assert solve_json(f"{model}find: [definite, g]\n")["results"]["definite"] == alone["M"]
+
+
 REFUSED = {
     "not symmetric": (file("[[1, 0, 0], [a, 1, 0], [0, 0, 1]]"), Refusal.ASYMMETRIC),
     "an angle in a power": (of_three("1 + q2^2"), Refusal.NOT_PERIODIC),
