@@ -1112,7 +1112,7 @@ The singular configurations:
 Along <row|column> #, each entry times the determinant that is left, signs in turn[, with ...]:
 #; {}; slides along; {}; anywhere
 The axis of joint # may be anywhere along the direction, for a slide has no place.
-{} is kept, and the origin with which {} has no constant part.
+Taken are {}, and the origin with which {} has no constant part.
 Only the other joints move it to its place, and the wrist then turns the hand: position and rotation are
   decoupled.
 The last joint does not move its own axis: the first two turn that to where it is to be ...

@@ -16,7 +16,8 @@ from dynsolve.explain.step import Detail, Group, Step
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words, column, equation
 from dynsolve.quantities import letters
-from dynsolve.robot.drawing.normals import Drawing, Normals, Relation, frames
+from dynsolve.robot.drawing.angles import sign
+from dynsolve.robot.drawing.normals import Drawing, Normals, Relation, dot, frames
 from dynsolve.robot.model import Convention
 
 FRAMES = Group("frames", "The frames")
@@ -62,15 +63,15 @@ _CHOSEN = {
     ),
     Relation.INTERSECTING: (
         ", so that {a} is 0: {o} is the point where they do, and {x} is perpendicular to both. Of its two "
-        "directions the one nearer to {x_before} is taken."
+        "directions the one {which} is taken."
     ),
     Relation.PARALLEL: (
         ": every line across is a common normal. The one with {d} = 0 is taken, and {x} points from the "
         "first to the second."
     ),
     Relation.COINCIDENT: (
-        ": {x} may point anywhere across, and {o} be anywhere on it. {x_before} is kept, and the origin with "
-        "which {d} has no constant part."
+        ": {x} may point anywhere across, and {o} be anywhere on it. Taken are {x_before}, and the origin "
+        "with which {d} has no constant part."
     ),
 }
 """What is chosen for two axes that lie so."""
@@ -165,23 +166,39 @@ def _why_frame(context: Context, normals: Normals, i: int) -> Prose:
             "anywhere across it. The origin is {which} of the world, and $𝐱_0$ an axis of the world.",
             which="that" if normal.end.is_zero else "the point nearest to that",
         )
-    x, o, before = letters.bold("x", Number(i)), letters.o(i), letters.bold("x", Number(i - 1))
+    x, o = letters.bold("x", Number(i)), letters.o(i)
     if i == n and normals.drawing.hand.z is None:
         is_on = normal.relation is Relation.COINCIDENT
         return say(_HAND_ON if is_on else _HAND_BESIDE, n=n, x=x, z=letters.z(n), before=n - 1)
+    has_own_x = i == n and normals.drawing.hand.x is not None
+    before = "the x of the hand" if has_own_x else letters.bold("x", Number(i - 1))
     own, following = f"the axis of joint {i}", f"the axis of joint {i + 1}" if i < n else "the z of the hand"
-    is_told = any(each.relation is normal.relation for each in normals.all[1:i])
-    _, d, a, _ = letters.columns(context.robot, Number(i))
+    is_nearer = _is_nearer(normals, i)
+    is_told = not has_own_x and any(
+        each.relation is normal.relation
+        and (normal.relation is not Relation.INTERSECTING or _is_nearer(normals, j) is is_nearer)
+        for j, each in enumerate(normals.all[1:i], 1)
+    )
+    _, d, a, alpha = letters.columns(context.robot, Number(i))
+    nearer, positive = say("nearer to {x}", x=before), say("with a positive {alpha}", alpha=alpha)
     return say(
         f"The axis of joint {i} and {following} {_LIE[normal.relation]}"
         + (", too." if is_told else _CHOSEN[normal.relation]),
         x=x,
         o=o,
         x_before=before,
+        which=nearer if is_nearer else positive,
         d=d,
         a=a,
         foot=following if context.standard else own,
     )
+
+
+def _is_nearer(normals: Normals, i: int) -> bool:
+    """Whether the x of a normal is nearer than its opposite to the x that it is compared with."""
+    x, own = normals.all[i].x, normals.drawing.hand.x
+    before = normals.all[i - 1].x if own is None or i < len(normals.all) - 1 else own
+    return sign(dot(before, x)) > 0
 
 
 def _measured_table(context: Context, normals: Normals) -> Step:

@@ -78,6 +78,29 @@ def test_what_is_alike_is_said_once(problem: str) -> None:
         assert text.count(sentence) <= 1
 
 
+TWO_THAT_MEET = """
+gravity: none
+axes:
+  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: q2, about: [%s, 0, 0], through: [0, 0, h]}
+tip: {at: [0, l, h]%s}
+"""
+
+
+@pytest.mark.parametrize(
+    ("about", "hand", "chosen"),
+    [
+        ("1", "", "with a positive α"),
+        ("-1", "", "with a positive α"),
+        ("1", ", z: [0, 1, 0], x: [0, 0, 1]", "nearer to the x of the hand"),
+    ],
+)
+def test_the_direction_of_a_normal_has_the_reason_that_chose_it(about: str, hand: str, chosen: str) -> None:
+    text = " ".join(report(solved(TWO_THAT_MEET % (about, hand)), Format.TEXT).decode().split())
+    assert f"Of its two directions the one {chosen} is taken." in text
+    assert "nearer to 𝐱₀" not in text
+
+
 def test_a_coordinate_of_another_branch_has_a_column_of_zeros() -> None:
     steps = {step.id: step for step in dynsolve.solve(FINGERS).explain(["jacobian"])}
     whole = steps["J"].formula
