@@ -333,17 +333,24 @@ def _body(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
         what = (f" a uniform {SHAPES[shape.kind]}", *_sized(forms, body, shape), ", its ", *center)
     else:
         what = (*_mass(forms, body), ", its ", *center)
-    axes = () if body.is_point and density is None else _from_the_base(body, bool(drawn.frames))
+    axes = () if body.is_point and density is None else _own_axes(forms, body, bool(drawn.frames))
     return (f"{name_of(body)} in link {body.link},", *what, *axes)
 
 
-def _from_the_base(body: Body, is_drawn: bool) -> Prose:
-    """How the axes of a body lie, where the problem gives turns that take those of the base to them."""
+def _own_axes(forms: Forms, body: Body, is_drawn: bool) -> Prose:
+    """How the axes of a body lie, where they are not those of its link."""
+    axes, from_base = body.axes, body.axes.kind is AxesKind.BASE
+    if axes.kind is AxesKind.REST:
+        return say(", its axes those of the base at $𝐪 = 𝟎$")
     if lies_as_drawn(body):
         return (", its axes those of the world",)
-    if body.axes.kind is not AxesKind.BASE or not body.axes.turns:
-        return ()
-    return (f", its axes those of the {'world' if is_drawn else 'base'} turned by ", turned(body.axes.turns))
+    ground = "the world" if is_drawn else "the base"
+    seen_from = ground if from_base else f"frame {body.link}"
+    if axes.turns:
+        return (f", its axes those of {seen_from} turned by ", turned(axes.turns))
+    rotation = forms.robot.base_rotation @ axes.rotation if from_base and is_drawn else axes.rotation
+    columns = [flat(map(forms.of, column)) for column in rotation.T.rows]
+    return (f", its axes, seen from {seen_from}, along ", *listed(columns)) if axes.written else ()
 
 
 def _mass(forms: Forms, body: Body) -> Prose:
@@ -452,22 +459,16 @@ def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
     for body, own in found:
         told += ("; " if told else "", f"{name_of(body)} has ")
         one_each = all(len(alike) == 1 for alike in own.values())
-        groups = (
-            [(list(own), [axis for (axis,) in own.values()])]
-            if one_each
-            else [([value], alike) for value, alike in own.items()]
-        )
+        groups = [([value], alike) for value, alike in own.items()]
+        if one_each:
+            groups = [(list(own), [axis for (axis,) in own.values()])]
         told += listed([_about_axes(forms, body, *group) for group in groups])
     if not told:
         return ()
     several = any(len(_nonzero(body)) > 1 for body, _ in found)
-    one = len(found) == 1
-    rest = f"; the other entries of {'this tensor' if one else 'these tensors'} are taken as 0" * several
-    return (
-        f"Moments of inertia about axes through the mass centre{'' if one else 's'}: ",
-        *told,
-        f"{rest}. ",
-    )
+    centers, these = ("centre", "this tensor") if len(found) == 1 else ("centres", "these tensors")
+    rest = f"; the other entries of {these} are taken as 0" * several
+    return (f"Moments of inertia about axes through the mass {centers}: ", *told, f"{rest}. ")
 
 
 def _about_axes(forms: Forms, body: Body, values: Sequence[Expr], axes: Sequence[str]) -> Prose:
@@ -643,12 +644,8 @@ def _unit(robot: Robot, name: str, dots: int = 0) -> str:
 
 def in_units(robot: Robot, values: Iterable[tuple[str, int, Node]]) -> Node:
     """q₂ = 0.1 m, q̇₁ = 2 rad/s"""
-    return side_by_side(
-        [
-            equation(Symbol(name, dots), _measured(value, _unit(robot, name, dots)))
-            for name, dots, value in values
-        ]
-    )
+    measures = ((Symbol(name, dots), value, _unit(robot, name, dots)) for name, dots, value in values)
+    return side_by_side([equation(sign, _measured(value, unit)) for sign, value, unit in measures])
 
 
 def _measured(value: Node, unit: str) -> Node:

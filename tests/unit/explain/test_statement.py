@@ -6,6 +6,7 @@ from typing import TypeGuard
 
 import pytest
 
+import dynsolve
 from dynsolve.document import Block, Formula, Text
 from dynsolve.explain.given import statement, to_be_found
 from dynsolve.notation.unicode import to_unicode
@@ -53,6 +54,26 @@ CASES = [
         "time derivative 𝐀̇_c of the matrix of the constraints and the multipliers 𝛌.",
     ),
 ]
+
+
+AXES = {
+    "Ry(90deg)": "its axes those of frame 1 turned by 𝐑_{y,90°}",
+    "base": "its axes those of the base at 𝐪 = 𝟎",
+    "{base: Rz(q1)}": "its axes those of the base turned by 𝐑_{z,q1}",
+    "[[0, 1, 0], [-1, 0, 0], [0, 0, 1]]": (
+        "its axes, seen from frame 1, along (0, -1, 0), (1, 0, 0) and (0, 0, 1)"
+    ),
+    "{base: [[cos(q1), -sin(q1), 0], [sin(q1), cos(q1), 0], [0, 0, 1]]}": (
+        "its axes, seen from the base, along (c₁, s₁, 0), (-s₁, c₁, 0) and (0, 0, 1)"
+    ),
+}
+
+
+@pytest.mark.parametrize("axes", AXES)
+def test_it_is_told_how_the_axes_of_a_body_lie(axes: str) -> None:
+    body = f"{{mass: m, link: 1, center: tip, inertia: {{xx: Ix, zz: Iz}}, axes: {axes}}}"
+    given, *_ = stated(dynsolve.solve(f"dh: [{{theta: q1*, a: l}}]\nmasses: [{body}]\nfind: [D]\n"))
+    assert f", {AXES[axes]}. Moments" in given
 
 
 @pytest.mark.parametrize(("problem", "told"), [(name, told) for name, *told in CASES])

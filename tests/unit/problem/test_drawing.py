@@ -327,6 +327,10 @@ def test_the_bodies_of_a_drawing_are_given_as_they_are_drawn() -> None:
     given = " ".join(told[: told.index("To be found")].split())
     assert "body 2 in link 2, of mass m₂, its mass centre at (h, b, 0), its axes those of the world" in given
     assert "𝐇₀" not in given  # frame 0 is to be found
+    first, second = "[cos(q2), -sin(q2), 0]", "[cos(q1)*sin(q2), cos(q1)*cos(q2), -sin(q1)]"
+    rows = f"{{base: [{first}, {second}, [sin(q1)*sin(q2), sin(q1)*cos(q2), cos(q1)]]}}"
+    told = text_of(ON_ITS_SIDE.replace("ZERO", "drawn").replace("GIVEN", rows))
+    assert "seen from the world, along (c₂, c₁ s₂, s₁ s₂)" in " ".join(told.split())
 
 
 def text_of(problem: str) -> str:
