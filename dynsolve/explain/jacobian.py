@@ -147,7 +147,8 @@ def _about(context: Context) -> Prose:
     if not context.standard:
         own = "$𝐳_i$, the axis of its own frame: where Spong, in the standard convention, has $𝐳_(i-1)$ and "
         own += "$𝐨_(i-1)$, here stand $𝐳_i$ and $𝐨_i$."
-    return say(f"In the {robot.convention.value} convention joint i {moves} {own}")
+    joint = "joint i" if all(joint.type for joint in robot.joints) else "the joint of row i"
+    return say(f"In the {robot.convention.value} convention {joint} {moves} {own}")
 
 
 def _same_origins(context: Context, moving: Sequence[int]) -> Prose:

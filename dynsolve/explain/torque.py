@@ -182,7 +182,7 @@ def _driven_by(context: Context, q: Coordinate) -> Prose:
             rate=() if abs(rate) == 1 else (number(abs(rate)),),
             times="" if abs(rate) == 1 else " times ",
             own="torque" if joint.type is JointType.REVOLUTE else "force",
-            joint=joint.index,
+            joint=context.robot.number_of(joint),
         )
     return say(
         " is not the variable of one joint alone. By virtual work its {kind} is{p}.", kind=kind, p=parts

@@ -366,8 +366,10 @@ def no_tool_row(reading: Reading) -> Iterator[Remark]:
     """A table in the modified convention that ends with a revolute joint: the last link has no length."""
     robot = reading.problem.robot
     if robot.ends_in_a_joint:
-        last = len(robot.joints)
-        message = f"the table ends at joint {last}, so H{last} and the Jacobian belong to a point on its axis"
+        joint, last = robot.number_of(robot.joints[-1]), len(robot.joints)
+        message = (
+            f"the table ends at joint {joint}, so H{last} and the Jacobian belong to a point on its axis"
+        )
         help = "for the end of the arm, add a fixed row: {theta: 0, d: 0, a: l, alpha: 0} with its length"
         cell = reading.parsed.table.rows[-1].cells["theta"]
         yield _span(reading, cell), message, help

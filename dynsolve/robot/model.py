@@ -422,6 +422,10 @@ class Robot(Struct, frozen=True):
         """The joints that a coordinate moves, each with the rate of its variable."""
         return tuple((joint, rate) for joint in self.joints for k, rate in joint.rates if k == q.index - 1)
 
+    def number_of(self, joint: Joint) -> int:
+        """Which of the joints one is, from 1, as a book counts them: fixed rows are none."""
+        return sum(1 for before in self.joints[: joint.index] if before.type)
+
     def is_of_motor(self, q: Coordinate) -> bool:
         """Whether a coordinate is the angle of a rotor alone: in the table no joint has it."""
         return self.has_table and not self.joints_of(q)

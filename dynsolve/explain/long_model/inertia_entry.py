@@ -79,7 +79,7 @@ class InertiaEntry(Struct, frozen=True, dict=True):
                 "Joint {joint} moves {what} {bodies} alone, so {name} has the terms of {these}. Products of "
                 "vectors, and of a tensor with them, are the same along any axes: {those} of the link "
                 "{each}are taken.",
-                joint=shares[0].last.joint.index,
+                joint=self.context.robot.number_of(shares[0].last.joint),
                 what="bodies" if many else "body",
                 bodies=listed([share.body.name for share in shares]),
                 name=name,

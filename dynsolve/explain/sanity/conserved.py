@@ -183,9 +183,7 @@ def _named(context: Context, q: Coordinate) -> Prose:
         of_all=f" (the {kind} momentum of the {context.machine} {where}",
         of_some=f" (the {kind} momentum {where}",
         axis=letters.z(joint_frame(robot, joint)),
-        joint=f"joint {joint.index}"
-        if all(each.type for each in robot.joints)
-        else say("the joint of {q}", q=Symbol(q.name)),
+        joint=f"joint {robot.number_of(joint)}",
     )
 
 
@@ -253,7 +251,7 @@ def on_last_entry(context: Context) -> Prose:
     return say(
         "{entry} is constant: of all that joint {joint} moves, it is the {what}.",
         entry=letters.entry("d", last.index, last.index),
-        joint=joint.index,
+        joint=context.robot.number_of(joint),
         what="moment of inertia about its axis" if turns(last) else "mass",
     )
 

@@ -51,13 +51,14 @@ def inertia_poses_step(context: Context) -> Step | None:
     of_rotors = context.values["Dm"] if context.robot.actions.rotors else None
     has_rotors = of_rotors is not None and any(not of_rotors[q.index - 1, q.index - 1].is_zero for q in shown)
     moved = [context.robot.joints_of(q)[0][0] for q in shown]
-    after = [j.index for j in context.robot.joints if j.type and j.index > moved[0].index]
+    robot = context.robot
+    after = [robot.number_of(j) for j in robot.joints if j.type and j.index > moved[0].index]
     following = f"joint {after[0]}" if len(after) == 1 else "the joints after it"
     added = "the rotor adds" if len(context.robot.actions.rotors) == 1 else "the rotors add"
     rotors = f", with what {added}" if has_rotors else ""
     all_that = "the bodies that" if has_rotors else "all that"
     one = len(shown) == 1
-    numbers = and_joined([str(joint.index) for joint in moved])
+    numbers = and_joined([str(robot.number_of(joint)) for joint in moved])
     moves = f"joint {numbers} moves" if one else f"joints {numbers} move"
     are = "is the moment" if one else "are the moments"
     why = say(

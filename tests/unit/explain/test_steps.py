@@ -162,6 +162,21 @@ masses:
 """
 
 
+def test_joints_are_counted_without_fixed_rows() -> None:
+    problem = """
+gravity: [0, 0, -g]
+dh: [{d: l1}, {theta: q1*, a: l2}, {theta: q2*, a: l3, alpha: 90deg}]
+masses:
+  - {mass: m2, link: 2, center: midpoint, inertia: {zz: I2}}
+  - {mass: m3, link: 3, center: tip, inertia: {yy: I3}}
+find: [D, J]
+"""
+    text = everything_said(problem)
+    assert "of all that joint 1 moves, joint 2 held" in text
+    assert "joint 3" not in text
+    assert "In the standard convention the joint of row i turns about" in text
+
+
 def test_a_turned_base_fixed_rows_and_a_tensor_about_the_joint() -> None:
     text = everything_said(MOVED)
     assert "above the origin of the world" in text and "above the origin of the base" not in text
