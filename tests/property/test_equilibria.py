@@ -145,13 +145,21 @@ def mechanisms(count: int, seed: int) -> Iterator[Mechanism]:
         yield Mechanism(kinds, tuple(draw.sample(ENERGIES[kinds].split(", "), draw.randint(2, 6))))
 
 
+SPRINGS = [
+    Mechanism("RR", ("a*sin(x)", "b*sin(x + y)", "c*(x + y)^2/2")),
+    Mechanism("RR", ("a*sin(x)", "b*sin(x + y)", "c*(x + y - pi/2)^2/2")),
+    Mechanism("RR", ("-a*cos(x)", "-b*cos(y)", "c*(x - y)^2/2")),
+]
+"""Springs at an angle, which therefore stands by itself, too."""
+
+
 def drawn(draw: Random) -> dict[str, float]:
     """Parameters, of which some are often equal."""
     return {name: float(draw.choice((1, 1, 2, 4))) for name in "abcde"}
 
 
 @pytest.mark.parametrize(
-    "mechanism", list(mechanisms(20, 1)), ids=lambda one: one.text.split("P: ")[1].split("}")[0]
+    "mechanism", [*mechanisms(20, 1), *SPRINGS], ids=lambda one: one.text.split("P: ")[1].split("}")[0]
 )
 def test_against_differences(mechanism: Mechanism) -> None:
     results = solve_json(mechanism.text)["results"]
@@ -187,6 +195,9 @@ def holds_the_stability(told: Told, values: Mapping[str, float], starts: Sequenc
     """The least eigenvalue has the sign that is told."""
     for point, equations in told.points(values):
         function = told.residuals(equations, values)
+        if point.keys() >= {*told.of.names}:
+            at = np.array([eval(point[name], KNOWN) for name in told.of.names])  # noqa: S307
+            assert np.max(np.abs(function(at))) < CLOSE, (point, equations)
         for at in (zero(function, start) for start in starts):
             if at is None or np.max(np.abs(function(at)), initial=0) > CLOSE:
                 continue

@@ -195,7 +195,9 @@ class Curvature(Struct, frozen=True):
         for values in product(*turns):
             point = point_at(values)
             if point is not None and (point.is_open or point.stability is Stability.UNDECIDED):
-                yield from filter(None, (point_at((*values, *more)) for more in at_rest))
+                together = (dict.fromkeys((*values, *more)) for more in at_rest)
+                agreeing = (one for one in together if len({pair for pair, _, _ in one}) == len(one))
+                yield from filter(None, (point_at(tuple(one)) for one in agreeing))
             if point is not None:
                 yield point
 
