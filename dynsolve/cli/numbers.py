@@ -54,9 +54,8 @@ def with_numbers(
     if not (values or state or solution.problem.written):
         if digits is None:
             return solution
-        from dynsolve.explain.forms import is_numeric
 
-        if not is_numeric(solution.robot):
+        if not solution.robot.is_numeric:
             raise typer.BadParameter("--digits needs numbers: --set, --at, or masses or values: in the file")
     from dynsolve.solution.numbers.given import of_option
 

@@ -38,7 +38,7 @@ from dynsolve.explain.entry_formulas import (
     forms_of_long_model,
     pairs,
 )
-from dynsolve.explain.forms import Forms, in_decimals
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.recurring import Definition, exchanged, name_recurring, rewritten
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
@@ -288,7 +288,7 @@ def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
         return _assembled(forms, (), forms.matrix("D"), forms.matrix("g"), symbols)
     base = BaseParameters.of(forms.robot, values["D"], values["g"], CONSTANT)
     leading, parallel = forms.collecting
-    collected, decimal = [*base.meanings, *leading], in_decimals(forms.robot)
+    collected, decimal = [*base.meanings, *leading], forms.robot.has_decimals
     compactor = Compactor(base.ring, collected, parallel, decimal=decimal, angles_outside=True)
     inertia = base.matrix(values["D"])
     return _assembled(
@@ -328,7 +328,7 @@ def _assembled(
     if potential is not None:
         parts["P",] = potential
     taken = short_names_taken(forms.robot)
-    name = partial(name_recurring, list(parts.values()), whole=long, decimal=in_decimals(forms.robot))
+    name = partial(name_recurring, list(parts.values()), whole=long, decimal=forms.robot.has_decimals)
     sums, used = name(free_names(RECURRING, taken))
     if len(sums) == 1 and SINGLE not in taken:
         (one,), used = name(iter([Symbol(SINGLE)]))

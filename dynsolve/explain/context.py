@@ -13,7 +13,7 @@ from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.euler_lagrange import Agreement
 from dynsolve.derivation.graph import Derivation
-from dynsolve.explain.forms import Forms, in_decimals
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import are_counted, craig, machine, spong
 from dynsolve.notation import tree
 from dynsolve.notation.characters import split
@@ -175,7 +175,7 @@ def style_of(robot: Robot) -> Style:
     shorthand = {name: s for name, s in subscripts.items() if s and counts[s] == 1}
     if any({f"s{s}", f"c{s}"} & taken for s in shorthand.values()):
         shorthand = {}  # no cos(q_1) beside c_3
-    return Style(shorthand=shorthand, star=True, decimal=in_decimals(robot))
+    return Style(shorthand=shorthand, star=True, decimal=robot.has_decimals)
 
 
 DIGITS = 4

@@ -30,6 +30,7 @@ from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matr
 from dynsolve.explain.parameter_meanings import angles_in
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.printing import decimal_text
 from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Symbol, walk
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
@@ -73,7 +74,7 @@ class Forms:
 
     def __init__(self, robot: Robot, values: Derivation, *, decimal: bool = False) -> None:
         self.robot = robot
-        self._decimal = decimal or in_decimals(robot)
+        self._decimal = decimal or robot.has_decimals
         self.values = values
         self._made: dict[str, Node] = {}
         self._symbols: dict[tuple[int, int, int], Node] = {}
@@ -147,7 +148,7 @@ class Forms:
             made = self._from_parts(name)
             if made is not None:
                 return made
-        if quantity is not None and in_decimals(self.robot):
+        if quantity is not None and self.robot.has_decimals:
             if quantity.family is families.DLDQD:
                 return self._momentum_in_decimals(value)
             if quantity.family in _KINETIC:
@@ -162,7 +163,7 @@ class Forms:
 
     def _potential_energy(self, compact: Node) -> Node:
         """Σ P_i as it is added up, unless collecting makes it much shorter."""
-        if is_numeric(self.robot) or not self.robot.bodies:
+        if self.robot.is_numeric or not self.robot.bodies:
             return compact
         springs = ["Ps"] if self.robot.actions.stored else []
         added = total([self(name) for name in (*(f"P{body.name}" for body in self.robot.bodies), *springs)])
@@ -191,8 +192,10 @@ class Forms:
                 terms.append(times(1 if j == k else 2, factors, decimal=True))
             inner = total(terms)
         first, *others = factors_of(inner)
-        if isinstance(first, Number) and first.q == 1:  # ½·8 q̇²
-            return times(Fraction(first.p, 2), [(factor, 1) for factor in others], decimal=True)
+        # ½·8 q̇² and, beside letters, ½ (1/12) m q̇² are one number
+        is_exact = isinstance(first, Number) and decimal_text(first.p, first.q) is None
+        if isinstance(first, Number) and (first.q == 1 or (is_exact and not self.robot.is_numeric)):
+            return times(Fraction(first.p, 2 * first.q), [(factor, 1) for factor in others], decimal=True)
         return Product((letters.HALF, *factors_of(inner)))
 
     # -- long values from their parts --------------------------------------------------------------
@@ -328,16 +331,6 @@ def _linear_names(expr: Expr) -> list[str]:
         if len(above) == 1 and above[0][1] == 1 and above[0][0].kind == "symbol":
             found.append(above[0][0].name)
     return found
-
-
-def is_numeric(robot: Robot) -> bool:
-    """Whether the masses are numbers."""
-    return any(body.mass.is_number and not body.mass.is_zero for body in robot.bodies)
-
-
-def in_decimals(robot: Robot) -> bool:
-    """Whether numbers are printed as decimals: the masses are numbers, and some of the file are decimals."""
-    return robot.has_decimals and is_numeric(robot)
 
 
 def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:

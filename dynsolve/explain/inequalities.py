@@ -10,7 +10,7 @@ from dynsolve.algebra.factors import is_positive, ratio, trig_factors, trig_quot
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.explain.forms import ProductForms, in_decimals, leading_names, parallel_coordinates
+from dynsolve.explain.forms import ProductForms, leading_names, parallel_coordinates
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import ZERO, Node, Relation
 from dynsolve.robot.model import Robot
@@ -60,7 +60,7 @@ class Inequalities:
         """The compactor of a ring of the search: the values of the task lead its sums, then masses."""
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
-        return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=in_decimals(self.robot))
+        return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=self.robot.has_decimals)
 
 
 def _squared(value: Expr) -> list[Expr]:

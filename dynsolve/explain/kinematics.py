@@ -12,7 +12,6 @@ from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose, Reference, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.last_frame import by_halves
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step
 from dynsolve.explain.working.identities import product_named
@@ -85,7 +84,7 @@ def _table(context: Context) -> Step:
             "{motions} {stars}{numbers}",
             motions=_four_motions(context),
             stars=stars,
-            numbers=" Lengths are in m." if is_numeric(robot) else "",
+            numbers=" Lengths are in m." if any(map(_is_length, robot.joints)) else "",
         ),
         source=context.by_convention("3.2", "3.4"),
         result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
@@ -119,6 +118,11 @@ def _four_motions(context: Context) -> Prose:
         x=x,
         z=z,
     )
+
+
+def _is_length(joint: Joint) -> bool:
+    """Whether a length of a row is a number with a unit."""
+    return any(length.is_number and not length.is_zero for length in (joint.d, joint.a))
 
 
 def _kinds(robot: Robot) -> Prose:

@@ -35,7 +35,7 @@ from dynsolve.explain.abbreviations import (
 from dynsolve.explain.context import is_short
 from dynsolve.explain.differentiation import by_symbol, differentiated, product_of
 from dynsolve.explain.entry_formulas import coriolis_matrix
-from dynsolve.explain.forms import Forms, is_numeric
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.named_steps import introduced
 from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.notation.build import cost, negated, split_sign, summands, times, total
@@ -74,7 +74,7 @@ SHORTEST = 4
 def name_inertias(forms: Forms, names: Iterator[Symbol]) -> InertiaNames:
     """Names for the sums by which LEAST_SAVED_BY_SUMS operations are saved; none of robots in numbers."""
     robot = forms.robot
-    if is_numeric(robot):
+    if robot.is_numeric:
         return InertiaNames()
     of_coordinates = (f"{stem}{q.index}" for q in robot.coordinates for stem in _OF_COORDINATES)
     counted = (name for name in ("K", "D", "Cqd", *of_coordinates) if name in forms.values.rules)

@@ -65,7 +65,8 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
     """The style of a report on a robot, in which every sign has one meaning.
 
     A model in numbers is shown with `digits` significant digits; without these, with a few more than the
-    longest number of the problem has, so that a reader can follow each line from the one before it.
+    longest number of the problem has, so that a reader can follow each line from the one before it.  Where
+    masses are letters, a number is a decimal if that comes to an end, and exact.
     """
     style = _with_free_shorthands(robot, style_of(robot))
     short = filter(None, (shorthand(node, style) for node in shorthands(robot, style)))
@@ -79,7 +80,7 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
         if letter != base:
             found[base, "italic", count] = letter
     decimal = style.decimal or digits is not None
-    shown = (digits or shown_digits(robot) + MORE_DIGITS) if decimal else 0
+    shown = digits or (shown_digits(robot) + MORE_DIGITS if decimal and robot.is_numeric else 0)
     return replace(style, letters=found, bold=True, decimal=decimal, digits=shown)
 
 

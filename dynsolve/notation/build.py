@@ -141,12 +141,17 @@ def negated(node: Node) -> Node:
     return node.argument if isinstance(node, Negative) else node if node == ZERO else Negative(node)
 
 
+_PI = Symbol("pi")
+_DEGREES = 180
+
+
 def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, decimal: bool = False) -> Node:
     """coefficient · Π node^exponent; negative exponents go below the fraction line.
 
     Signs and numbers of the factors are drawn to the front, products flattened, in
     the given order: 1/(2·3 a) is 1/(6 a).  With `decimal`, and of a decimal, a fraction is one number in
     front, 0.12 c₂ and not 3 c₂/25; one that does not end is kept exact, and rounded where it is shown.
+    Parts of a turn stay fractions: π/6.
     """
     factors = tuple(factors)
     above: list[Node] = []
@@ -174,7 +179,9 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
         return total([negated(term) for term in above[0].terms])
     size = coefficient if coefficient > 0 else -coefficient
-    if size.denominator != 1 and (decimal or any(_begins_with_decimal(node) for node, _ in factors)):
+    is_turn = _PI in above and _DEGREES % size.denominator == 0
+    is_decimal = decimal or any(_begins_with_decimal(node) for node, _ in factors)
+    if size.denominator != 1 and is_decimal and not is_turn:
         node = _decimal(size, above)
         node = Quotient(node, _product(below)) if below else node
     else:

@@ -212,6 +212,8 @@ class FormulaPrinter(Printer):
         factors = flat_factors(node)
         if not factors:
             return self._digits("1")
+        if (over := self._over(factors)) is not None:
+            return self._quotient(over)
         pieces: list[str] = []
         last = len(factors) - 1
         for position, factor in enumerate(factors):

@@ -9,7 +9,7 @@ printer never changes what the tree says; it only decides on parentheses.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -170,6 +170,15 @@ class Printer:
     def parenthesized(self, text: str) -> str:
         """The text in parentheses as the notation writes them."""
         return f"({text})"
+
+    def _over(self, factors: Sequence[Node]) -> Quotient | None:
+        """A product over the denominator of its number, 7 l²/3: of one that is no decimal that ends."""
+        first, *others = factors
+        is_open = type(first) is Number and first.decimal and self.style.number(first) is None
+        if not (is_open and others and isinstance(first, Number)):
+            return None
+        above = others if first.p == 1 else [Number(first.p), *others]
+        return Quotient(above[0] if len(above) == 1 else Product(tuple(above)), Number(first.q))
 
     def _digits(self, text: str) -> str:
         """A whole number or a decimal as the notation writes it."""

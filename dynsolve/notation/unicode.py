@@ -221,6 +221,8 @@ class UnicodePrinter(FormulaPrinter):
         factors = flat_factors(node)
         if not factors:
             return "1"
+        if (over := self._over(factors)) is not None:
+            return self._quotient(over)
         last = len(factors) - 1
         text = before = self._factor(factors[0], True, last == 0)
         for position in range(1, last + 1):

@@ -78,8 +78,9 @@ def build_robot(
         given=given,
         parameters=tuple(name for name in ring.parameters if name not in ("pi", *inputs)),
         inputs=inputs,
-        has_decimals=any(has_decimals(cell.text) for cell in parsed.cells),
     )
+    numbers = (cell.text for cell in parsed.cells if robot.is_numeric or not cell.names)
+    robot = replace(robot, has_decimals=any(map(has_decimals, numbers)))
     if parsed.acting is not None:
         from dynsolve.problem.acting import actions
 

@@ -18,7 +18,6 @@ from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
-from dynsolve.explain.forms import in_decimals
 from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.writing import as_row, listed, side_by_side
 from dynsolve.notation.build import cost, split_sign, times, total
@@ -106,7 +105,7 @@ class SetForms(Inequalities):
         coefficients = [Fraction(int(c.p), int(c.q)) for part in parts for c in part.poly.coeffs()]
         whole = lcm(*(c.denominator for c in coefficients))
         is_long = any(abs(c * whole) > _MOST_WHOLE for c in coefficients)
-        return 1 if is_long and in_decimals(self.robot) else whole
+        return 1 if is_long and self.robot.has_decimals else whole
 
     def vanishing(self, value: Expr, signed: Set[int] = frozenset()) -> Node:
         """What is 0 where an expression is, without the factors that never are; 1 where there is no other.

@@ -361,7 +361,7 @@ class Robot(Struct, frozen=True):
     of the generalized forces, one a coordinate, where results hold them.  `questions` are
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
     bodies are given by their positions, or `given` stands in their place.  `has_decimals` says that numbers
-    were written as 0.5, and not as 1/2.
+    were written as 0.5, and not as 1/2; where masses are letters, numbers that stand alone, not 0.5 of 0.5 l.
     """
 
     ring: Ring
@@ -384,6 +384,11 @@ class Robot(Struct, frozen=True):
     def has_table(self) -> bool:
         """Whether it is an arm with a table, and so with frames and a Jacobian of its end."""
         return bool(self.joints)
+
+    @property
+    def is_numeric(self) -> bool:
+        """Whether the masses are numbers."""
+        return any(body.mass.is_number and not body.mass.is_zero for body in self.bodies)
 
     @property
     def has_dynamics(self) -> bool:

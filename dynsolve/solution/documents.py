@@ -40,7 +40,6 @@ from dynsolve.document import (
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.given import at_the_state, holds_at_state, in_words, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
@@ -98,7 +97,7 @@ _WIDEST = 50
 
 def measured_steps(steps: Iterable[Step], robot: Robot, style: Style) -> Iterator[Step]:
     """The steps as they are; of a model in numbers with units."""
-    if not is_numeric(robot):
+    if not robot.is_numeric:
         yield from steps
         return
     known = _units(robot)
@@ -507,8 +506,10 @@ _ROUNDED = (
     "else; ≈ marks that."
 )
 
+_IN_SI = "Numbers are exact, in SI units (m, kg, s, N)."
+
 _IN_NUMBERS = (
-    "Numbers are exact, in SI units (m, kg, s, N).{rounded} A unit stands behind a result "
+    f"{_IN_SI}{{rounded}} A unit stands behind a result "
     "that is a number other than 0, and behind some matrices of which all entries have it; any other formula "
     "has that of its left side, and so has an entry of a matrix."
 )
@@ -559,9 +560,11 @@ class _Parts(Struct, dict=True):
         yield Heading(problem.title, 1)
         if problem.source:
             yield Text((f"{problem.source.rstrip('.')}.",))
-        if is_numeric(self.solution.robot):
+        if self.solution.robot.is_numeric:
             digits = self.solution.style.digits
             yield Text(say(_IN_NUMBERS, rounded=say(_ROUNDED, digits=digits) if digits else ""))
+        elif self.solution.robot.has_decimals:
+            yield Text((_IN_SI,))
 
     def statement(self, derivation: tuple[Block, ...]) -> Iterator[Block]:
         """The exercise, before a whole solution of it."""

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from dynsolve.errors import AlgebraError, UsageError
-from dynsolve.explain.forms import Forms, in_decimals, is_numeric
+from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
@@ -270,7 +270,7 @@ class Solution(Dynamics, frozen=True, dict=True):
         """
         from dynsolve.solution.numbers.results import Numbers, Valued, needed
 
-        shown = self if digits is None or not is_numeric(self.robot) else self._in_decimals(digits)
+        shown = self if digits is None or not self.robot.is_numeric else self._in_decimals(digits)
         values = tuple(values)
         all_parameters = set(needed(self.robot))
         with_values = bool(values) or (bool(all_parameters) and all_parameters <= self.problem.written.keys())
@@ -279,7 +279,7 @@ class Solution(Dynamics, frozen=True, dict=True):
         given = parameters(self.problem, values)
         at = None if state is None else read_state(self.problem, state)
         numeric = self._with(given) if given.entries else self
-        decimal = given.decimal or digits is not None or in_decimals(self.robot)
+        decimal = given.decimal or digits is not None or self.robot.has_decimals
         valued = Valued(
             robot=numeric.robot,
             values=numeric.values,

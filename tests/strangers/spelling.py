@@ -11,6 +11,7 @@ from typing import Any
 
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, walk
+from dynsolve.quantities.letters import HALF
 
 CO_FUNCTION = {"sin": "cos", "cos": "sin"}
 
@@ -23,7 +24,7 @@ def misspelled(forms: Iterable[Node]) -> Iterator[tuple[str, Node]]:
             case tree.Product() | tree.Quotient():
                 if _keeps_fractions(node):
                     yield "a number before a sum that keeps fractions", node
-                if isinstance(node, tree.Product) and any(isinstance(f, Number) for f in node.factors[1:]):
+                if isinstance(node, tree.Product) and any(map(_is_misplaced, node.factors, node.factors[1:])):
                     yield "a number behind a factor", node
                 for factor in _factors(node):
                     if isinstance(factor, tree.Sum) and not _turns_or_moves(factor):
@@ -38,6 +39,11 @@ def misspelled(forms: Iterable[Node]) -> Iterator[tuple[str, Node]]:
                 yield "a sum of one term", node
             case tree.Power(Number(1, 1)):
                 yield "a power of 1", node
+
+
+def _is_misplaced(before: tree.Node, factor: tree.Node) -> bool:
+    """Whether a factor is a number behind another one, unless it is a decimal of D: ½·0.25 m q̇²."""
+    return isinstance(factor, Number) and not (factor.decimal and before == HALF)
 
 
 def _keeps_fractions(node: Node) -> bool:

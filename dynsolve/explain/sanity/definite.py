@@ -19,7 +19,6 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import in_decimals
 from dynsolve.explain.named_steps import looked_at
 from dynsolve.explain.sanity.determinant import (
     MULTIPLIED_OUT,
@@ -272,7 +271,7 @@ def _by_bodies(context: Context) -> Step | None:
         if _is_positive(context, factor):
             energy = Product((Number(2), letters.of_body("K", body)))
             rate = letters.velocity(robot.coordinates[k])
-            value = times(1, [(factor, 1), (rate, 2)], decimal=in_decimals(robot))
+            value = times(1, [(factor, 1), (rate, 2)], decimal=robot.has_decimals)
             lines.append(equation(energy, value))
             resting.add(k)
     if len(resting) < robot.n:

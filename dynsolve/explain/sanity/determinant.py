@@ -23,7 +23,6 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.differentiation import product_of
-from dynsolve.explain.forms import in_decimals
 from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.identities import Identity, are_alike, equals, identities, said
@@ -204,7 +203,7 @@ def determinant_of_two(context: Context, places: tuple[int, int], value: Expr, f
         operations, form = OPERATIONS, _in_terms(context, form, expanded)
     used = identities(context.robot.ring, lines[-1], form) or ()
     line = equation(*members, *lines, form)
-    cancelled = gone if in_decimals(context.robot) else ()
+    cancelled = gone if context.robot.has_decimals else ()
     return Determinant(line, form, operations, used, best.differences, cancelled)
 
 
@@ -214,7 +213,7 @@ def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
     d_aa, d_ab, d_bb = (letters.entry("d", i + 1, j + 1) for i, j in ((a, a), (a, b), (b, b)))
     in_letters = formula("{aa} {bb} - {ab}²", aa=d_aa, ab=d_ab, bb=d_bb)
     yield _Written(in_letters, (D[a, a], D[b, b], D[a, b]))
-    if in_decimals(context.robot):
+    if context.robot.has_decimals:
         return
     whole = formula("{aa} - 2 {ab} + {bb}", aa=d_aa, ab=d_ab, bb=d_bb)
     for k, changed, kept, replaced in ((b, a, d_bb, d_aa), (a, b, d_aa, d_bb)):

@@ -27,7 +27,6 @@ from dynsolve.explain.differentiation import (
     multiplied_out,
     sums_of_rates,
 )
-from dynsolve.explain.forms import in_decimals
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
     SILENT,
@@ -81,7 +80,7 @@ class _Derivative(Struct, frozen=True):
 
 def _derivative(context: Context, of: Node, rule: Rule, value: Expr, form: Node) -> _Derivative:
     """The derivative of a formula; its form alone where that is a look, or the lines are not proved."""
-    decimal = in_decimals(context.robot)
+    decimal = context.robot.has_decimals
     found = differentiated(of, rule, decimal=decimal)
     expanded = multiplied_out(found.tree, decimal=decimal)
     if are_alike(found.tree, form) or proved(value, [("", found.tree), ("", expanded)]) is None:
@@ -111,7 +110,7 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node) -> Wa
     tactics: list[Tactic] = [("Term by term:", found.tree)]
     last = found.expanded
     if last != found.tree and sums_of_rates(last) - sums_of_rates(found.form):
-        last = by_rates(last, decimal=in_decimals(context.robot))
+        last = by_rates(last, decimal=context.robot.has_decimals)
         tactics.append((SORTED if isinstance(last, Sum) else "Multiplied out:", last))
     elif last != found.tree:
         tactics.append(("Multiplied out:", last))

@@ -18,7 +18,6 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import in_decimals
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
     SILENT,
@@ -121,7 +120,7 @@ def _terms(context: Context, w: Matrix, moments: tree.Matrix | None) -> Iterator
         first, second = context.show(w[i, 0]), context.show(w[j, 0])
         rates = [(without_signs(first), 2)] if i == j else [(first, 1), (second, 1)]
         if moment != ZERO:
-            yield times(1 if i == j else 2, [(moment, 1), *rates], decimal=in_decimals(context.robot))
+            yield times(1 if i == j else 2, [(moment, 1), *rates], decimal=context.robot.has_decimals)
 
 
 # -- ω, or the columns of J_ω, brought to a body's own axes: Rᵀ ω, by one product of matrices a line

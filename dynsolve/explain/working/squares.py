@@ -30,7 +30,7 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.differentiation import brackets, has_rates, is_trigonometric
-from dynsolve.explain.forms import Forms, in_decimals
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
     COLLECTED,
@@ -246,7 +246,7 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[No
 
     What stands beside each product of rates, with these, and its value.
     """
-    decimal = in_decimals(context.robot)
+    decimal = context.robot.has_decimals
     for first, second in combinations_with_replacement(context.robot.coordinates, 2):
         slopes = [[factor_of_rate(x, q.name) for q in (first, second)] for x in components]
         pairs = [(a, b) for a, b in slopes if not (a.is_zero or b.is_zero)]
@@ -493,7 +493,7 @@ def shared(robot: Robot, components: Sequence[Expr]) -> Shared:
     Of decimals they share nothing.
     """
     ring = robot.ring
-    if in_decimals(robot):
+    if robot.has_decimals:
         return Shared(ring.one, ring.one)
     terms = [term for x in components for term in x.poly.to_dict().items()]
 
@@ -585,7 +585,7 @@ def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group] | None:
 
 def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group | None:
     """The product of the factors: lengths, what is in brackets, rates; None for a bracket with rates."""
-    ring, decimal = forms.robot.ring, in_decimals(forms.robot)
+    ring, decimal = forms.robot.ring, forms.robot.has_decimals
     content, factors = poly.factor()
     lengths = Expr(ring, ring.one.poly)
     bracketed: list[tuple[fmpq_mpoly, int]] = []
@@ -627,7 +627,7 @@ def factored(forms: Forms, poly: fmpq_mpoly) -> Node:
     front = fraction(content)
     if len(kept) > 1:  # a sum keeps the fractions of its terms
         kept, front = kept * ring.constant(front), Fraction(1)
-    return times(front, [(forms.of(kept), 1), *changed], decimal=in_decimals(forms.robot))
+    return times(front, [(forms.of(kept), 1), *changed], decimal=forms.robot.has_decimals)
 
 
 def _terms(ring: Ring, poly: fmpq_mpoly) -> Node:

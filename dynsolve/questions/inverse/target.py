@@ -36,7 +36,6 @@ from dynsolve.derivation.reached import CLOSE, angle_rows, gap, near, same_confi
 from dynsolve.document import Prose, Table
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
-from dynsolve.explain.forms import in_decimals
 from dynsolve.explain.step import NOTED, Detail, Group, Step
 from dynsolve.explain.writing import agreeing, listed
 from dynsolve.notation.build import cost, negated, split_sign, times, total
@@ -460,7 +459,7 @@ def _in_numbers(forms: TargetForms, one: Configuration, name: str) -> Relation:
 
 def _number(forms: TargetForms, formula: Node, value: float) -> tuple[Node, bool]:
     """A value as a decimal, and whether that is the value; of a model in numbers the page rounds it."""
-    whole, digits = rational_value(formula), DIGITS if in_decimals(forms.robot) else _DIGITS
+    whole, digits = rational_value(formula), DIGITS if forms.robot.has_decimals else _DIGITS
     places = Fraction(str(round(value, digits)))
     if whole is not None and whole == places:
         return Number(whole.numerator, whole.denominator, decimal=True), True

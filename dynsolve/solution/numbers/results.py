@@ -18,7 +18,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError, Finding
-from dynsolve.explain.forms import Forms, entry_of, in_decimals, leading_names
+from dynsolve.explain.forms import Forms, entry_of, leading_names
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.index import quantities
@@ -122,7 +122,7 @@ class State(_NumericResults):
         """Whether results are shown as decimals: where a decimal goes in, or an angle such as 17°."""
         turned = [g.angle for g in self._put.ring.generators if g.kind in ("sin", "cos", "constant")]
         odd = any(all(atom == () for atom, _ in angle.terms) for angle in turned)
-        return self.decimal or self.given.decimal or in_decimals(self.robot) or odd
+        return self.decimal or self.given.decimal or self.robot.has_decimals or odd
 
     def value(self, name: str) -> Any:
         """A value of the derivation, skipped where a denominator is 0 at this state."""

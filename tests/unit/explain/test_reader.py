@@ -468,3 +468,26 @@ def test_rates_stand_before_accelerations_alone() -> None:
         "Summary"
     )[2]
     assert text.index("At q₁ = 0, q₂ = 90°: 𝐪̇") < text.index("At q₁ = 0, q₂ = 90°, q̇₁ = 1, q̇₂ = 2: 𝐪̈")
+
+
+def test_decimals_of_a_file_stay_decimals_beside_masses_that_are_letters() -> None:
+    shown = in_one_line(
+        "gravity: [0, -g, 0]\n"
+        "dh: [{theta: q1*, a: l}, {theta: q2*, a: 0.3}]\n"
+        "masses:\n"
+        "  - {mass: m, link: 1, center: midpoint, shape: {rod: {length: l}}}\n"
+        "  - {mass: 2*m, link: 2, center: midpoint, inertia: {zz: 0.02}}\n"
+    )
+    assert "Numbers are exact, in SI units" in shown and "Lengths are in m." in shown
+    assert "h = -0.3 m l s₂" in shown and "m g (2.5 l c₁ + 0.3 c₁₂)" in shown
+    assert "7l²/3" in shown and "≈" not in shown, "what comes to no end is a fraction"
+    half = "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1, center: {near: [0.5*l, 0, 0]}}]\n"
+    assert "at l/2 from" in in_one_line("gravity: [0, -g, 0]\n" + half), "0.5 l is half of l, and no datum"
+
+
+def test_a_part_of_a_turn_is_a_fraction_among_decimals() -> None:
+    shown = in_one_line(
+        "gravity: none\ndh: [{theta: q*, a: 0.5}]\nmasses: [{mass: 2, link: 1}]\n"
+        "springs: [{stiffness: 20, of: q, rest: 30deg}]\nfind: [tau]\n"
+    )
+    assert "at rest at q = π/6" in shown and "10(q - π/6)²" in shown and "τ₁ = 0.5 q̈ + 20q - 10π/3" in shown

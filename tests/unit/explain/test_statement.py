@@ -112,7 +112,7 @@ PLACES = [
     ("{near: [0, 0, 0]}", "a point of mass m₂ at 𝐨₁"),
     ("{along: 2/3}", "a point of mass m₂ ⅔ of the way from 𝐨₁ to 𝐨₂"),
     ("[0, -e, 0]", "a point of mass m₂ at e from 𝐨₂ along -𝐲₂"),
-    ("[0.25, 0, 0]", "a point of mass m₂ at ¼ m from 𝐨₂ along 𝐱₂"),
+    ("[0.25, 0, 0]", "a point of mass m₂ at 0.25 m from 𝐨₂ along 𝐱₂"),
     ("[e, 0, h]", "a point of mass m₂ at (e, 0, h) from 𝐨₂ along the axes of frame 2"),
 ]
 
@@ -178,7 +178,7 @@ def test_the_statement_says_which_moments_are_given(problem: str, told: str) -> 
 SHAPES = [
     ("{cylinder: {radius: r, length: h}}", "solid cylinder of mass m, radius r and length h along 𝐱₁, its"),
     ("{box: {x: b, y: b, z: h}}", "solid of mass m and sides b, b and h along 𝐱₁, 𝐲₁ and 𝐳₁, its"),
-    ("{sphere: {radius: 0.1}}", "solid sphere of mass m and radius 1/10 m, its"),
+    ("{sphere: {radius: 0.1}}", "solid sphere of mass m and radius 0.1 m, its"),
     ("{disk: {radius: r}}", "thin disk of mass m and radius r, its axis along 𝐳₁, its"),
 ]
 
