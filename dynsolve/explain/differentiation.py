@@ -310,10 +310,16 @@ def _terms_of_rates(node: Node) -> Iterator[Node]:
 
 
 def sums_of_rates(node: Node) -> set[Node]:
-    """The sums q̇₁ + q̇₂ that stand in a tree."""
+    """The sums q̇₁ + q̇₂ that stand in a tree; q̇₁² + q̇₁ q̇₂ is none."""
     sums = (part for part in walk(node) if isinstance(part, Sum))
-    symbols = {each: [part for part in walk(each) if isinstance(part, Symbol)] for each in sums}
-    return {each for each, found in symbols.items() if found and all(part.dots for part in found)}
+    return {each for each in sums if all(map(_is_rate, each.terms))}
+
+
+def _is_rate(term: Node) -> bool:
+    """Whether of letters a term holds one rate alone, and that to no power."""
+    parts = list(walk(term))
+    symbols = [part for part in parts if isinstance(part, Symbol)]
+    return len(symbols) == 1 and symbols[0].dots > 0 and not any(isinstance(part, Power) for part in parts)
 
 
 def brackets(node: Node) -> set[Node]:
