@@ -48,12 +48,11 @@ def steps(context: Context) -> Iterator[Step]:
     yield _general(context)
     for joint in context.robot.joints:
         yield _row(context, joint)
-    why = say(
-        "{outwards} The fourth column is the origin of the frame, the first three are its axes.",
-        outwards=OUTWARDS,
-    )
+    joints = context.robot.joints
+    outwards = (*OUTWARDS, " ") if _are_multiplied(context.robot, joints) else ()
+    why = (*outwards, "The fourth column is the origin of the frame, the first three are its axes.")
     group = Group("H", f"The frames seen from the {context.ground}", why)
-    for joint in context.robot.joints:
+    for joint in joints:
         yield replace(_frame(context, joint.index), group=group)
 
 
@@ -261,6 +260,11 @@ OUTWARDS = say("Each $𝐀$ leads one frame further along the arm, so it multipl
 """Why the matrices of the rows stand in this order."""
 
 
+def _are_multiplied(robot: Robot, joints: Sequence[Joint]) -> bool:
+    """Whether some of these frames is seen by a product, not by the matrix of its row alone."""
+    return letters.has_base(robot) or any(joint.parent for joint in joints)
+
+
 def _frame(context: Context, i: int) -> Step:
     robot, has_base = context.robot, letters.has_base(context.robot)
     last, start = i == len(robot.joints), robot.joints[i - 1].parent
@@ -326,7 +330,7 @@ _ENDS_IN_A_JOINT = (
 def _last_why(context: Context) -> Prose:
     """What the last frame tells, and of which point; if no frame before it is a product, why this order."""
     robot = context.robot
-    is_told = letters.has_base(robot) or any(joint.parent for joint in robot.joints[:-1])
+    is_told = _are_multiplied(robot, robot.joints[:-1])
     return say(
         "{outwards}The fourth column is where {end} is, the first three how {what} is turned.{ends}",
         outwards=() if is_told else (*OUTWARDS, " "),
