@@ -47,7 +47,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.robot.actions import part
-from dynsolve.robot.model import Act, Body, Coordinate, Resisting, Robot, Rotor, Stored
+from dynsolve.robot.model import Act, Body, Resisting, Robot, Rotor, Stored
 from dynsolve.robot.shapes import AXES
 
 
@@ -212,37 +212,6 @@ def friction_steps(context: Context) -> Iterator[Step]:
         entries=tuple((letters.friction(q.index),) for q in context.robot.coordinates),
         detail=Detail.BRIEF,
     )
-
-
-def in_recursions(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
-    """What is said of rotors, springs and friction of a coordinate, and their terms of its force.
-
-    Beside what the joint holds stand k_r I (k_r q̈ + zᵀω̇) of each rotor that it turns, ∂P_s/∂q and friction.
-    """
-    robot, k = context.robot, q.index - 1
-    why = ""
-    terms: list[Node] = []
-    for motor in robot.actions.rotors:
-        if motor.turns == k:
-            why += " It also drives the rotor, through its gear."
-            dw = context.values[f"wdl{motor.carrier}"] if motor.carrier else None
-            terms.append(context.show(actions.rotor_drive(robot, motor, dw) * motor.ratio))
-    if robot.actions.stored and not robot.ring.diff(context.values["Ps"], k).is_zero:
-        why += " Springs are held."
-        terms.append(letters.partial_derivative(letters.PS, Symbol(q.name)))
-    if context.has_friction(k):
-        why += " Friction is overcome."
-        terms.append(letters.friction(q.index))
-    return (why,) if why else (), terms
-
-
-def rotor_moments(context: Context, link: int) -> Iterator[tuple[Node, Matrix]]:
-    """What each rotor that rides on a link takes from it, a moment, with its value."""
-    for place, motor in enumerate(context.robot.actions.rotors, 1):
-        if motor.carrier == link:
-            w, dw = context.values[f"wl{link}"], context.values[f"wdl{link}"]
-            name = letters.bold("n", Row((Words("m"), Number(place))))
-            yield name, actions.rotor_moment(context.robot, motor, w, dw)
 
 
 def passive_prose(context: Context) -> Prose:

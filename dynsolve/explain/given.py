@@ -188,7 +188,7 @@ def in_words(robot: Robot, members: Sequence[Quantity]) -> Prose:
     ('the matrices ', ' and ', ' of the rows of the table')
     """
     family = members[0].family
-    before, filled, after = agreeing(family.called, len(members)).partition("{}")
+    before, filled, after = agreeing(family.called_of(robot), len(members)).partition("{}")
     if not family.has_letter or family is DH:
         return (f"{before.rstrip()}{after}",)
     own = listed([(quantity.letter(robot),) for quantity in members])

@@ -92,12 +92,12 @@ class Line(Struct, frozen=True):
 
 def outlined(lines: Sequence[Line]) -> tuple[Line, ...]:
     """Lines of which a worked example has the last, and those by an identity; the others can be found."""
-
-    def by_identity(line: Line) -> bool:
-        return any(isinstance(part, Relation) for part in line.by)
-
-    others = (line if by_identity(line) else replace(line, detail=Detail.FULL) for line in lines[:-1])
-    return (*others, *lines[-1:])
+    return tuple(
+        line
+        if line is lines[-1] or any(isinstance(part, Relation) for part in line.by)
+        else replace(line, detail=Detail.FULL)
+        for line in lines
+    )
 
 
 OF_ITS_FILE = cast(Stage, "")

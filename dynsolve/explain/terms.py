@@ -63,6 +63,7 @@ class Kind(StrEnum):
     GRAVITY = "gravity"
     SPRING = "spring"
     HELD = "gravity and spring"
+    POTENTIAL = "potential"
 
 
 _MEANINGS: dict[Kind, str] = {
@@ -76,6 +77,8 @@ _MEANINGS: dict[Kind, str] = {
     Kind.SPRING: "Without rates and accelerations it is a spring: what {holds} must hold at rest.",
     Kind.HELD: "Without rates and accelerations it is what {holds} must hold at rest, against gravity and "
     "springs.",
+    Kind.POTENTIAL: "Without rates and accelerations it is of the potential energy: what {holds} must hold "
+    "at rest.",
 }
 
 _TWICE = " The 2 of a Coriolis term comes from two equal symbols{symbols}: $c_ijk + c_jik = 2 c_ijk$."
@@ -112,6 +115,8 @@ def _all_terms(context: Context, k: int) -> Iterator[Term]:
 
 def _held_by(context: Context, k: int) -> Kind:
     """What a term without rates holds: gravity, a spring, or both."""
+    if context.robot.given is not None:
+        return Kind.POTENTIAL
     springs = context.robot.actions.stored
     spring = context.robot.ring.diff(context.values["Ps"], k) if springs else None
     if spring is None or spring.is_zero:
@@ -339,9 +344,9 @@ def _meanings(context: Context) -> Prose:
         passive = passive_prose(context)
     return say(
         "$𝐃 𝐪̈$ are the inertial terms, $𝐂 𝐪̇$ the Coriolis and centrifugal ones, {friction}$𝐠$ those of "
-        "gravity{springs}.{outside}{held}{passive}",
+        "{by}.{outside}{held}{passive}",
         friction=say("$𝛕_f$ those of friction, ") if context.robot.actions.resisting else "",
-        springs=" and springs" if robot.actions.stored else "",
+        by=robot.held_by,
         outside=say(" $𝐐$ are the forces from outside.") if robot.questions.loads else "",
         held=say(" $𝐀_cᵀ 𝛌$ are the forces of the constraints.") if robot.questions.constraints else "",
         passive=passive,

@@ -183,7 +183,7 @@ P_i: potential energy | of body i | J
 {D_POINTS} | inertia matrix of the masses alone, as points | {inertia}
 c_ijk | Christoffel symbol: always with three indices | {inertia}
 𝐂: matrix of the Coriolis and centrifugal terms; c_kj: its entries | | {rate}
-𝐠: column of the gravity terms; g_k: its entries | | {force}
+𝐠: column of the {held} terms; g_k: its entries | | {force}
 * {references} | reference of the coordinates, of which there are rates
 (letters of questions)
 𝐍: skew-symmetric matrix; n_ij: its entries | | {rate}
@@ -233,7 +233,7 @@ def _line(row: str, values: Mapping[str, Value]) -> Line:
         rest.format_map(values),
         unit.format_map(values),
         frozenset(kinds),
-        tuple(words for _, words in told),
+        tuple(words.format_map(values) for _, words in told),
     )
 
 
@@ -316,6 +316,7 @@ def _of_robot(robot: Robot) -> dict[str, Value]:
         "or_point": " or of a point" if points else "",
         "point_v": None if bodies else formula("𝐯_i"),
         "machine": machine(robot),
+        "held": " and ".join(robot.held),
         "references": (letters.bold("q", Symbol("r")), *map(Symbol, ring.plan.references)),
     }
 

@@ -129,7 +129,7 @@ def rest(context: Context) -> Step:
     in_letters = say(" $𝐂 𝐪̇$ is not written out: the Christoffel symbols below give it.")
     return Step(
         id="Cqd",
-        title="Coriolis, centrifugal and gravity terms, read off",
+        title=f"{and_joined(['Coriolis', 'centrifugal', *context.robot.held])} terms, read off",
         why=say(
             what_is_left + "{in_letters}",
             are_C=say("are $𝐂 𝐪̇$"),
@@ -249,19 +249,14 @@ def coriolis(context: Context, told: tuple[Prose, tuple[Node, ...]] | None = Non
 
 def gravity(context: Context, told: tuple[Prose, Way] | None = None) -> Step:
     """g, from the potential energy; of a long model as it is `told`."""
-    still, springs = context.values["g"].is_zero, bool(context.robot.actions.stored)
     directly = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
-    why = say(
-        "{way}{springs}{still}",
-        way=directly,
-        springs=" The forces of the springs are part of it." if springs and not still else "",
-        still=say(" It does not depend on any coordinate, so $𝐠$ is zero.") if still else "",
-    )
+    none = say(" It does not depend on any coordinate, so $𝐠$ is zero.")
+    why = (*directly, *none) if context.values["g"].is_zero else directly
     why, way = told or (why, Way(gravity_rows(context)))
     end = ending(context, "g", {"g": (letters.G,)}, way)
     return Step(
         id="g",
-        title=f"The {'gravity and spring' if springs else 'gravity'} terms, from the potential energy",
+        title=f"The {' and '.join(context.robot.held)} terms, from the potential energy",
         why=why,
         formula=formula("g_k = ∂𝒫/∂q_k"),
         source=spong("7.3"),

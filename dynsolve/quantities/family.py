@@ -159,6 +159,10 @@ class Family(Struct, frozen=True, eq=False, kw_only=True):
     needs_rotation: bool = False
     is_symmetric_entry: bool = False
 
+    def called_of(self, robot: Robot) -> str:
+        """What it is called, where the gravity terms are those of springs, too, or of springs alone."""
+        return self.called.replace("gravity", " and ".join(robot.held))
+
     @property
     def stem(self) -> str:
         """What the names of its members begin with: `Kv` of `Kv{b}`."""

@@ -396,6 +396,21 @@ class Robot(Struct, frozen=True):
         return bool(self.bodies) or self.given is not None
 
     @property
+    def held(self) -> tuple[str, ...]:
+        """What g is made of: terms of gravity, of springs; of a model that is given its potential energy."""
+        if self.given is not None:
+            return ("potential",)
+        has_springs = bool(self.actions.stored)
+        is_heavy = not (has_springs and self.gravity.is_zero)
+        return (*["gravity"] * is_heavy, *["spring"] * has_springs)
+
+    @property
+    def held_by(self) -> str:
+        """What acts without rates: "gravity and springs", of a model that is given "the potential energy"."""
+        nouns = {"spring": "springs", "potential": "the potential energy"}
+        return " and ".join(nouns.get(each, each) for each in self.held)
+
+    @property
     def n(self) -> int:
         """The number of degrees of freedom."""
         return len(self.coordinates)

@@ -427,7 +427,7 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     step = next((step for step in steps if name in (step.id, *step.also)), None)
     if by_letter or step is None:
         return
-    called = quantity.family.called.replace(" {}", "") if quantity is not None else step.title
+    called = quantity.family.called_of(robot).replace(" {}", "") if quantity is not None else step.title
     steady = robot.questions.model.steady if name == "equilibria" else ()
     kept = side_by_side([equation(Symbol(of, 1), value) for of, value in steady]) if steady else ""
     of_motion = say(" with {kept}", kept=kept) if steady else ""

@@ -805,7 +805,10 @@ def _not_cyclic(m: Mechanism, s: Sentence) -> bool:
     return m.changes(lambda p: m.result("tau", p)[others], (q,))
 
 
-@says("The given state is no equilibrium: <gravity|gravity and springs|the given forces> move[s] #, ...")
+@says(
+    "The given state is no equilibrium: <gravity|springs|gravity and springs|the potential energy|the given "
+    "forces> move[s] #, ..."
+)
 def _unbalanced(m: Mechanism, s: Sentence) -> bool:
     at = {q: m.value(of, m.point()) for q, _, of in m.solution.robot.questions.model.linearize}
     rates = {f"{q}'": 0.0 for q in m.coordinates}

@@ -266,7 +266,7 @@ def _forces(context: Context) -> Step:
                 ),
             ),
             Line(
-                ("In the Christoffel symbols and the gravity terms",),
+                say("In the Christoffel symbols and the entries of $𝐠$"),
                 (formula("c_ijk = ½ {slopes}, g_k = ∂𝒫/∂q_k", slopes=SLOPES),),
             ),
         ),

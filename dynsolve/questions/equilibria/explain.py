@@ -598,7 +598,7 @@ def _state_matrix(context: Context) -> Step:
         return not_derived("linear_A", "The matrix A of the linear model", value.why)
     has_friction = robot.actions.resisting
     passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
-    by = "gravity and springs do" if robot.actions.stored else "gravity does"
+    by = f"{robot.held_by} {'do' if 'spring' in robot.held else 'does'}"
     balanced = f"No motor drives {{passive}}: in the equilibrium {by} not move {{which}}. "
     rests = [
         equation(Symbol(name, dots), value)

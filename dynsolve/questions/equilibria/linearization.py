@@ -104,7 +104,7 @@ def state_matrix(robot: Robot, D: Matrix, gravity: Matrix, *acting: Matrix) -> L
         return Skipped(CONSTRAINED)
     name = unbalanced(robot, gravity)
     if name:
-        by = "gravity and springs move" if robot.actions.stored else "gravity moves"
+        by = f"{robot.held_by} move{'' if 'spring' in robot.held else 's'}"
         by = "the given forces move" if robot.questions.loads else by
         moved = to_unicode(Symbol(name))
         return Skipped(f"{NO_EQUILIBRIUM}: {by} {moved}, which no motor holds")

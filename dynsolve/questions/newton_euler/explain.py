@@ -15,10 +15,11 @@ from msgspec import Struct
 from msgspec.structs import asdict, replace
 
 from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.derivation import actions
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
-from dynsolve.explain.actions import friction_steps, in_recursions, rotor_moments, stored_steps
+from dynsolve.explain.actions import friction_steps, stored_steps
 from dynsolve.explain.context import MOST_JOINTS, Context
 from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import Detail, Group, Line, Step
@@ -446,7 +447,7 @@ def _inwards(context: Context, joint: Joint) -> Iterator[Step]:
             else "The moments about {o}.",
             o=letters.o(joint.parent if context.standard else i),
         )
-        rotors = [name for name, _ in rotor_moments(context, i)]
+        rotors = [name for name, _ in _rotor_moments(context, i)]
         if rotors:
             takes = "a rotor takes" if len(rotors) == 1 else "rotors take"
             why = say(
@@ -501,7 +502,16 @@ def _moments(context: Context, i: int) -> Iterator[Part]:
             tensor, w, dw = _tensor(context, body), values[f"wl{i}"], values[f"wdl{i}"]
             found += [tensor @ dw, cross(w, tensor @ w)]
         yield from zip(_moment_of_body(Names.of(robot, i, body), name, body.is_point), found, strict=True)
-    yield from rotor_moments(context, i)
+    yield from _rotor_moments(context, i)
+
+
+def _rotor_moments(context: Context, link: int) -> Iterator[tuple[Node, Matrix]]:
+    """What each rotor that rides on a link takes from it, a moment, with its value."""
+    for place, motor in enumerate(context.robot.actions.rotors, 1):
+        if motor.carrier == link:
+            w, dw = context.values[f"wl{link}"], context.values[f"wdl{link}"]
+            name = letters.bold("n", Row((Words("m"), Number(place))))
+            yield name, actions.rotor_moment(context.robot, motor, w, dw)
 
 
 # -- the forces of the motors ----------------------------------------------------------------------
@@ -543,7 +553,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
         terms.append(_rated(rate, Product((Transpose(held), axis))))
     is_passive = q.index - 1 in context.robot.actions.passive
     kind, what = ("torque", "moment") if turns(q) else ("force", "force")
-    beside, added = in_recursions(context, q)
+    beside, added = _beside_held(context, q)
     end = ending(context, f"tau{q.index}", {f"tau{q.index}": (driving_row(context.robot, q),)})
     return Step(
         id=f"tau{q.index}",
@@ -560,6 +570,28 @@ def _torque(context: Context, q: Coordinate) -> Step:
         **asdict(end),
         detail=Detail.BRIEF,
     )
+
+
+def _beside_held(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
+    """What is said of rotors, springs and friction of a coordinate, and their terms of its force.
+
+    Beside what the joint holds stand k_r I (k_r q̈ + zᵀω̇) of each rotor that it turns, ∂P_s/∂q and friction.
+    """
+    robot, k = context.robot, q.index - 1
+    why = ""
+    terms: list[Node] = []
+    for motor in robot.actions.rotors:
+        if motor.turns == k:
+            why += " It also drives the rotor, through its gear."
+            dw = context.values[f"wdl{motor.carrier}"] if motor.carrier else None
+            terms.append(context.show(actions.rotor_drive(robot, motor, dw) * motor.ratio))
+    if robot.actions.stored and not robot.ring.diff(context.values["Ps"], k).is_zero:
+        why += " Springs are held."
+        terms.append(letters.partial_derivative(letters.PS, Symbol(q.name)))
+    if context.has_friction(k):
+        why += " Friction is overcome."
+        terms.append(letters.friction(q.index))
+    return (why,) if why else (), terms
 
 
 def _what_drives(context: Context, q: Coordinate, what: str) -> Prose:

@@ -491,3 +491,55 @@ def test_a_part_of_a_turn_is_a_fraction_among_decimals() -> None:
         "springs: [{stiffness: 20, of: q, rest: 30deg}]\nfind: [tau]\n"
     )
     assert "at rest at q = π/6" in shown and "10(q - π/6)²" in shown and "τ₁ = 0.5 q̈ + 20q - 10π/3" in shown
+
+
+def test_sums_of_rates_are_multiplied_out_where_some_stood() -> None:
+    slanted = """
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic}
+  bodies: [{mass: m, at: [x + y*sin(30deg), y*cos(30deg), 0]}]
+find: [K]
+"""
+    text = in_one_line(slanted)
+    assert "Collected: K_v1 = ½ m (ẋ² + ẋ ẏ + ẏ²)" in text and "sums of rates" not in text
+    assert "The sums of rates multiplied out" in in_one_line(ARM + "find: [K]\n")
+
+
+def test_why_matrices_multiply_from_the_right_stands_above_a_product() -> None:
+    why = "Each 𝐀 leads one frame further along the arm"
+    two_arms = "dh: [{theta: u*, a: a1}, {from: 0, theta: v*, a: a2}]\n"
+    for detail in (Detail.NORMAL, Detail.FULL):
+        assert why not in " ".join(page(two_arms, detail).split())
+    assert why in " ".join(page(TWO_LINKS).split())
+
+
+SPRING = "springs: [{stiffness: k, of: q1 - q2}]\n"
+ENERGIES = """
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  K: J1*q1'^2/2 + J2*q2'^2/2
+  P: k*(q2 - q1)^2/2
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "terms", "by"),
+    [
+        ("gravity: none\n" + TWO_LINKS + MASSES + SPRING, "spring", "springs"),
+        ("gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES + SPRING, "gravity and spring", "gravity and springs"),
+        ("gravity: [0, -g, 0]\n" + TWO_LINKS + MASSES, "gravity", "gravity"),
+        (ENERGIES, "potential", "the potential energy"),
+    ],
+)
+def test_the_terms_without_rates_are_called_by_what_acts(problem: str, terms: str, by: str) -> None:
+    text = " ".join(page(problem + "find: [D, C, g]\n", Detail.FULL).split())
+    for told in (
+        f"𝐂 and the {terms} terms 𝐠",
+        f"The {terms} terms, from the potential energy",
+        f"{terms} terms, read off",
+        f"𝐠 those of {by}.",
+        f"column of the {terms} terms",
+    ):
+        assert told in text, told
+    assert "gravity" in by or not re.search("gravity (and spring )?terms", text)
