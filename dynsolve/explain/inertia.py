@@ -158,6 +158,10 @@ def _given(context: Context, body: Body, about: str) -> _Told:
     if entering := _entering(context, body):
         return None, (), _left_out(context, body, entering, about), f"tensor {entering, about}"
     zero = tuple(entry.is_zero for entry in body.inertia.entries)
+    if context.values[f"Jw{body.name}"].is_zero:
+        rest = "" if all(map(any, _filled(body.inertia))) else ": what is not given is taken as 0"
+        told = f"{opened(name_of(body))} does not turn, so its tensor does not enter{rest}."
+        return None, (), (told,), f"still tensor {zero}"
     why = say(
         "The tensor of {name} is given, about {about}, along {axes}.{principal}",
         name=name_of(body),

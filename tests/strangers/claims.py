@@ -242,6 +242,11 @@ def _speed(m: Mechanism, s: Sentence) -> bool:
     return all(not m.changes(speed, (name,)) for name in names_of(s.formulas))
 
 
+@says("Body # does not turn, so its tensor does not enter[: what is not given is taken as 0].")
+def _does_not_turn(m: Mechanism, s: Sentence) -> bool:
+    return all(near(m.result(f"Jw{s.words[0]}", p), 0) for p in m.points())
+
+
 @says("The angular velocity is the rate of the angle along its axis, which does not move.")
 def _one_turn(m: Mechanism, s: Sentence) -> bool:
     return not m.changes(lambda p: m.result(f"Jw{s.body}", p), m.coordinates)
