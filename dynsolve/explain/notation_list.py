@@ -16,7 +16,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.document import Block, Inline, Prose, Table
 from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated
-from dynsolve.explain.parameter_meanings import Role, in_order, meanings, shape_letters, told_together
+from dynsolve.explain.parameter_meanings import Acting, Role, in_order, meanings, shape_letters, told_together
 from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, shorthands, units_of
 from dynsolve.explain.textbook_letters import ENTRIES_IN_PRODUCTS, SHAPES, Line, textbook
 from dynsolve.explain.writing import agreeing, listed, side_by_side
@@ -63,14 +63,14 @@ def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
         units = dict.fromkeys(unit for own, unit, _ in known.values() if own == role)
         for unit in units:
             alike = [(name, told) for name, (own, its, told) in known.items() if (own, its) == (role, unit)]
-            for names, words in told_together(
-                [(name, told) for name, told in alike if frames and told.words]
-            ):
+            by_place = frames or isinstance(role, Acting)
+            of_place = [(name, told) for name, told in alike if by_place and told.words]
+            for names, words in told_together(of_place):
                 yield _named(names, agreeing(words, len(names)), unit)
             by_share: dict[str, list[str]] = {}
             is_in_figure = role is Role.LENGTH and not frames
             for name, told in alike:
-                if not (frames and told.words):
+                if not (by_place and told.words):
                     by_share.setdefault("" if is_in_figure else told.share, []).append(name)
             for share, names in by_share.items():
                 is_told = unit == "m" or has_bodies  # a₁ (kg) of a given 𝐃 need be no mass

@@ -9,10 +9,10 @@ Parameters that are alike, each with its own number, are told in one line with i
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
-from itertools import chain
 from string import ascii_letters, digits
 
 from msgspec import Struct
@@ -92,7 +92,7 @@ class Role(Enum):
     CENTER = "place of a|the mass centre|centres in its|their link|links"
     POSITION = "length|lengths in the given positions"
     DIRECTION = "angle|angles in the given positions"
-    DOWN = "angle|angles of gravity to the axes of the base"
+    DOWN = "angle|angles in the direction of gravity"
     FORCE = "force|forces from outside"
     MOMENT = "moment|moments from outside"
     PLACE = "place of a|the point|points in its|their link|links"
@@ -210,6 +210,15 @@ def _dimensions(robot: Robot) -> dict[str, str]:
     return units
 
 
+_OF_SEVERAL = {
+    "its mass centre": "their mass centres",
+    "the origin of its frame": "the origins of their frames",
+    "its joint": "their joints",
+    "its {axes}": "their {axes}",
+}
+"""What the words of one body are of several."""
+
+
 def _as_one(role: AnyRole, places: Sequence[Meaning]) -> Meaning:
     """What a parameter is that may stand in several places: in two rows, of two bodies, about two axes."""
     places = [place for place in places if place.words] or places
@@ -232,6 +241,8 @@ def _as_one(role: AnyRole, places: Sequence[Meaning]) -> Meaning:
     if alike and not first.link and all(place.axes == first.axes for place in others):
         bodies = and_joined([place.body for place in places])
         words = first.words.replace("body {body}", f"bodies {bodies}")
+        for one, several in _OF_SEVERAL.items():
+            words = words.replace(one, several)
         return Meaning(words, axes=axes, share=first.share)
     return Meaning(share=first.share if alike else _WITHIN if first.share else "")
 
@@ -269,10 +280,16 @@ def _places(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
             yield from _untold(Role.DIRECTION, *map(angles_in, body.center.entries))
         rates = (rate for turn in body.turns for rate in turn.rates.entries)
         yield from _untold(Role.POSITION, *map(names_in, rates))
-    for one in (one for act in robot.actions.acts for one in act.parameters(robot) if one.words):
-        shares = _shares(one.value) if one.is_whole else ((name, "") for name in names_in(one.value))
-        for name, share in shares:
-            yield Acting(one.words), name, Meaning(share=share)
+    acting = [
+        (one.words, name, share)
+        for one in (one for act in robot.actions.acts for one in act.parameters(robot) if one.words)
+        for name, share in (_shares(one.value) if one.is_whole else ((n, "") for n in names_in(one.value)))
+    ]
+    users = Counter((words, name) for words, name, _ in acting)
+    for words, name, share in acting:
+        what, of, whose = words.partition(" of a|the ")
+        own = agreeing(what, 1) + of[:4] + agreeing(whose, 2) if users[words, name] > 1 else ""
+        yield Acting(words), name, Meaning(own, share=share)
     yield from _asked(robot)
 
 
@@ -392,23 +409,25 @@ def _inertia(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
         return
     point = {"center": "its mass centre", "origin": "the origin of its frame"}.get(body.about, "its joint")
     moment = Meaning(f"moment of inertia of body {{body}} about {{axes}} through {point}", body=body.name)
+    product = replace(moment, words="product|products of inertia of body {body}")
     for i, row in enumerate(rows):
         for j, entry in enumerate(row):
             for name, share in _shares(entry):
                 if i == j:
                     yield Role.INERTIA, name, replace(moment, axes=(AXES[i],), share=share)
                 else:
-                    product = Meaning(
-                        "product|products of inertia of body {body}", body=body.name, share=share
-                    )
-                    yield Role.PRODUCT, name, product
+                    yield Role.PRODUCT, name, replace(product, share=share)
 
 
 def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
     near = _from_near_end(robot, body.link, body.center)
-    coordinates = list(_coordinates(body.center))
+    coordinates, of_near = list(_coordinates(body.center)), [] if near is None else list(_coordinates(near))
+    at, start = "{coordinates} of the mass centre of body {body}, in frame {link}", -1
     link, before = body.link, robot.joints[body.link - 1].parent
+    if len({name for name, *_ in of_near}) > len({name for name, *_ in coordinates}):
+        coordinates, start = of_near, before
+        at = "{coordinates} of the mass centre of body {body} from o{before}, in frame {link}"
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
         words = "distance from o{%s} to the mass centre of body {body}"
         if factor := _far_out(body.center, name):
@@ -418,12 +437,9 @@ def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
             share = _of_multiple(factor)
             yield Role.CENTER, name, Meaning(words % "before", link, body.name, before, share=share)
         else:
-            words = "{coordinates} of the mass centre of body {body}, in frame {link}"
             for of, share, axis in coordinates:
                 if of == name:
-                    yield Role.CENTER, name, Meaning(words, link, body.name, axes=(axis,), share=share)
-            in_near = () if near is None else chain.from_iterable(map(_alone, near.entries))
-            yield from _untold(Role.CENTER, [name] if name in set(in_near) else [])
+                    yield Role.CENTER, name, Meaning(at, link, body.name, start, axes=(axis,), share=share)
 
 
 def _coordinates(place: Matrix) -> Iterator[tuple[str, str, str]]:

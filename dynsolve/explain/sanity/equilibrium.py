@@ -53,7 +53,8 @@ def _everywhere(context: Context) -> Prose:
         kinds = {q.type for q in context.robot.coordinates}
         what = "no torque" if JointType.REVOLUTE in kinds else "no force"
         what += " and no force" if len(kinds) > 1 else ""
-        why = f"no mass centre changes its height, so gravity needs {what} at any joint."
+        where = " at any joint" if context.robot.has_table else ""
+        why = f"no mass centre changes its height, so gravity needs {what}{where}."
     return say(f"$𝐠 = 𝟎$ in every pose: {why}")
 
 

@@ -85,7 +85,7 @@ def test_parameters_of_what_is_asked_are_told_by_what_they_are() -> None:
         "v: given velocity of the task (m/s)",
         "w: rate of a coordinate in the given state (rad/s)",
         "γ: value of a coordinate in the given state (rad)",
-        "β: angle of gravity to the axes of the base (rad)",
+        "β: angle in the direction of gravity (rad)",
     ):
         assert f"• {line}\n" in text
     assert "parameter of the problem" not in text and "parameters of the problem" not in text
@@ -543,3 +543,50 @@ def test_the_terms_without_rates_are_called_by_what_acts(problem: str, terms: st
     ):
         assert told in text, told
     assert "gravity" in by or not re.search("gravity (and spring )?terms", text)
+
+
+def test_the_tensor_of_a_body_that_does_not_turn_does_not_enter() -> None:
+    slide = "gravity: [0, -g, 0]\ndh: [{d: x*, alpha: 90deg}]\n"
+    body = "masses: [{mass: m, link: 1, center: origin, inertia: {%s}}]\nfind: [tau]\n"
+    text = in_one_line(slide + body % "zz: I")
+    assert "Body 1 does not turn, so its tensor does not enter: what is not given is taken as 0." in text
+    assert "principal axes" not in text and "is given, about" not in text
+    assert "so its tensor does not enter. " in in_one_line(slide + body % "xx: A, yy: B, zz: I")
+
+
+def test_what_several_things_share_is_told_of_all_of_them() -> None:
+    model = """
+gravity: [g*sin(beta), -g*cos(beta), 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute, psi: revolute}
+  bodies:
+    - {mass: m, at: [x, 0, 0], turn: phi, inertia: {zz: J}}
+    - {mass: m, at: [x, y, 0], turn: psi, inertia: {zz: J}}
+springs: [{stiffness: k, of: x}, {stiffness: k, of: y}, {stiffness: K, of: x - y}]
+dampers: [{damping: b, of: x}, {damping: b, of: y}]
+find: [tau]
+"""
+    text = in_one_line(model)
+    for told in (
+        "J: moment of inertia of bodies 1 and 2 about axis z through their mass centres",
+        "k: stiffness of springs",
+        "K: stiffness of a spring",
+        "b: coefficient of dampers",
+        "β: angle in the direction of gravity",
+    ):
+        assert f"• {told} (" in text, told
+
+
+def test_gravity_loads_no_joint_where_there_is_one() -> None:
+    level = "gravity: [0, 0, -g]\n"
+    free = level + "model: {coordinates: {x: prismatic}, bodies: [{mass: m, at: [x, 0, 0]}]}\n"
+    assert "so gravity needs no force. " in " ".join(page(free, Detail.FULL).split())
+    arm = level + TWO_LINKS + MASSES
+    assert "so gravity needs no torque at any joint." in " ".join(page(arm, Detail.FULL).split())
+
+
+def test_the_coordinates_of_a_mass_centre_are_told_from_one_origin() -> None:
+    text = in_one_line(
+        "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1, center: {near: [x1, y1, 0]}}]\nfind: [tau]\n"
+    )
+    assert "x₁, y₁: coordinates x and y of the mass centre of body 1 from 𝐨₀, in frame 1 (m)" in text
