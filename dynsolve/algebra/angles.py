@@ -40,8 +40,6 @@ from dynsolve.notation.tree import (
     children,
 )
 
-# Angles as linear forms, exact: Σ rᵢ·atomᵢ + degrees
-
 Atom = tuple[tuple[str, int], ...]
 """A monomial: names with their exponents, sorted by name."""
 

@@ -35,8 +35,6 @@ from dynsolve.algebra.lowest_terms import without_shared, zero_of_all
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Expr, Ring
 
-# Matrices of fractions: what comes out of a system of equations
-
 
 class FractionMatrix(Struct, frozen=True, eq=False):
     """An r×c matrix of fractions over a ring; frozen.  `==` decides equality exactly."""

@@ -45,8 +45,6 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.tree_values import evaluate as value_of_tree
 
-# The exact value of a tree in a ring.  Only trees are evaluated, never text
-
 SHORT = 64
 """Products of up to so many terms are added up before they are reduced."""
 

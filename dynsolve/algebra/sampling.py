@@ -26,8 +26,6 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.tree import Function
 
-# Values at which formulas are compared in numbers
-
 SEED = 20_200_312
 """The samples are the same every time."""
 

@@ -46,8 +46,6 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
 
-# Sums of square roots: exact real numbers Σ cᵢ √mᵢ, the c rational, the m squarefree
-
 MOST_BITS = 96
 """Larger numbers under a root are not taken apart into factors."""
 

@@ -46,8 +46,6 @@ from dynsolve.questions.definite.derive import Definiteness
 from dynsolve.questions.definite.judge import fault
 from dynsolve.robot.model import Robot
 
-# The verdict of one answer that was given
-
 ROUNDED = "rounded"
 NOT_FROM_OWN = "right, though your own earlier answers lead elsewhere"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's, with which Ḋ - 2C is {}"

@@ -20,8 +20,6 @@ from dynsolve.cli.numbers import STDIN, STDIN_NAME, Problems, Quiet, described, 
 from dynsolve.errors import ExitCode, Finding, ProblemError, UsageError
 from dynsolve.render.files import write_whole
 
-# `dynsolve problems`: the library that comes with dynsolve
-
 
 def problems(
     name: Annotated[

@@ -19,8 +19,6 @@ from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, follows
 from dynsolve.algebra.ring import Expr
 
-# Gauss's elimination on floating-point numbers, by which the independent checks are made
-
 Rows = Sequence[Sequence[float]]
 
 _INDEPENDENT = 1e-4

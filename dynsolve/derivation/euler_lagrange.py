@@ -28,8 +28,6 @@ from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.link_frame import quadratic_energy
 from dynsolve.robot.model import AxesKind, Body, Robot
 
-# The Lagrangian and the Euler-Lagrange equations: d/dt ∂L/∂q̇_k - ∂L/∂q_k = τ_k
-
 
 def lagrangian(K: Expr, P: Expr) -> Expr:
     """L = K - P"""

@@ -17,8 +17,6 @@ from collections.abc import Callable, Sequence
 from dynsolve.algebra.matrix import Matrix, cross, hstack
 from dynsolve.robot.model import Convention, Joint, JointType, Robot
 
-# Forward kinematics: A_i from a row of the table, H_i as their product
-
 
 def dh_matrix(robot: Robot, joint: Joint) -> Matrix:
     """A_i, 4×4: frame i seen from frame i-1.

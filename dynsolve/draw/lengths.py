@@ -44,8 +44,6 @@ from dynsolve.notation.tree import Degrees, Node, Symbol, Words
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType, Robot
 
-# Lengths: thin lines with two heads beside what they measure
-
 _AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0, 110.0, 128.0)
 """How far beside what it measures a line may run, in picture units."""
 

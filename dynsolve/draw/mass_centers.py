@@ -50,8 +50,6 @@ from dynsolve.notation.tree import names_in
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
 from dynsolve.robot.shapes import AXES, Shape
 
-# Where the mass centres of a robot are at a pose
-
 _SHARES = (1.0, 0.7, 1.3)
 """What part of the way to the middle of a link a free symbol stands for, best first."""
 

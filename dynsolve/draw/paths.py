@@ -21,8 +21,6 @@ from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Letter, Node, Number, Symbol, Words, walk
 from dynsolve.notation.unicode import UnicodePrinter
 
-# Paths with their colours: the elements of a picture on paper, the same for every format
-
 Command = tuple[str, tuple[Point, ...]]
 """A letter and its points: M and L with one, C (a Bézier curve) with three, Z with none."""
 

@@ -49,8 +49,6 @@ from dynsolve.notation.tree import Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType, Robot
 
-# A robot in a pose, and the cost of the pose
-
 AXIS = 44.0
 """How long the axes of frames are drawn."""
 

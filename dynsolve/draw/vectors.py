@@ -11,8 +11,6 @@ from collections.abc import Iterable
 from msgspec import Struct
 from msgspec.structs import replace
 
-# Vectors of three and of two numbers: as much geometry as a picture needs
-
 Vector = tuple[float, float, float]
 Point = tuple[float, float]
 Rotation = tuple[Vector, Vector, Vector]

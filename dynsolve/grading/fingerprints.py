@@ -24,8 +24,6 @@ from dynsolve.grading.record import Key, Record
 from dynsolve.grading.set_file import Item, ProblemSet
 from dynsolve.quantities.index import quantities
 
-# What a result was made from, cause by cause, and what has changed since
-
 _CAUSES = {
     "hand-in": "the hand-in changed",
     "problem": "the problem changed",

@@ -39,8 +39,6 @@ from dynsolve.grading.uploads import Uploads, digest
 from dynsolve.grading.which_problem import CONVERTED, as_text
 from dynsolve.quantities.index import quantities
 
-# The run: everything that was handed in goes through the workers into the record, then out
-
 Data = dict[str, Any]
 
 AHEAD = 4

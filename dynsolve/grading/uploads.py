@@ -44,8 +44,6 @@ from dynsolve.errors import Finding, InputError, ProblemError
 from dynsolve.problem.kinds import did_you_mean
 from dynsolve.render.files import write_changed
 
-# The files that were handed in, out of a folder or a zip, and those that are refused
-
 MAX_FILE = 2_000_000
 """A larger file is not read: what is handed in takes a few pages."""
 

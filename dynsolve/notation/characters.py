@@ -17,8 +17,6 @@ from functools import lru_cache
 
 from dynsolve.errors import ReadError
 
-# The characters that a formula may contain, and the errors about all others
-
 _NAMES_OF_GREEK = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi "
     "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"

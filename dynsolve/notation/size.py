@@ -32,8 +32,6 @@ from dynsolve.notation.tree import (
     children,
 )
 
-# How large a formula is, known from its tree alone, before anything is multiplied out
-
 _BITS = 32
 """A number counts as a factor more for each so many bits."""
 

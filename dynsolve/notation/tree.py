@@ -41,8 +41,6 @@ from typing import Any, TypeVar
 
 from msgspec import Struct
 
-# The notation tree: a formula as it is written, neither more nor less
-
 
 class Node(Struct, frozen=True, cache_hash=True):
     """A formula or a part of one; trees share parts, so each part is hashed once."""

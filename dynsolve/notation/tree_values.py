@@ -35,8 +35,6 @@ from dynsolve.notation.tree import (
     children,
 )
 
-# Numeric values of trees
-
 DOTS = ("", "_dot", "_ddot")
 
 

@@ -33,8 +33,6 @@ from dynsolve.problem.kinds import describe, did_you_mean
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, ScalarNode, Span, YamlNode, too_many
 from dynsolve.robot.questions import TIP, coordinate_of
 
-# Expressions in a problem file: read where they stand, their errors at the very character
-
 
 class Cell(Struct, frozen=True):
     """An expression of the file: what it is called in messages, its tree, its names, its place."""

@@ -50,8 +50,6 @@ from dynsolve.robot.drawing.normals import (
 from dynsolve.robot.drawing.rows import DrawnRow, placed, rows_of
 from dynsolve.robot.model import Convention, JointType
 
-# Joint axes as a drawing shows them, in a problem file: `axes`, `tip`, `zero`
-
 Vector = tuple[Cell, ...]
 
 _EXAMPLE = PROBLEM["axes"].help

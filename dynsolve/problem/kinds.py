@@ -22,8 +22,6 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.characters import normalize
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 
-# The kinds of values that a key of a file may have, and the key itself
-
 BRACKETS = re.compile(r"\{[^{}]*(?:\{[^{}]*\})?[^{}]*\}|\[[^]]*\]")
 """An example in a sentence: [0, 0, -g], {rod: {length: l1}}."""
 

@@ -53,8 +53,6 @@ from dynsolve.robot.geometry import rotation_about
 from dynsolve.robot.model import Axes, AxesKind, Body, BodyTurn, GivenModel
 from dynsolve.robot.questions import Candidate
 
-# `model` of a problem file
-
 _HELP = PROBLEM["model"].help
 _COORDINATES = MODEL["coordinates"].help
 

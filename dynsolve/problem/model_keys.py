@@ -21,8 +21,6 @@ from dynsolve.problem.kinds import (
     vector,
 )
 
-# The keys of `model`: a mechanism by positions, or given energies; see `specification`
-
 MAX_COORDINATES = 12
 MAX_TURNS = 6
 

@@ -41,8 +41,6 @@ from dynsolve.problem.kinds import (
 from dynsolve.problem.specification import BODY, PLACED_BODY, PROBLEM, ROW, SHAPE
 from dynsolve.robot.shapes import KINDS
 
-# The JSON Schema of a problem file, for editors: completion, descriptions, a first check
-
 Schema = dict[str, Any]
 
 _PLAIN = {"true": True, "false": False, "1": 1, "2": 2}

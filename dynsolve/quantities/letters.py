@@ -28,8 +28,6 @@ from dynsolve.notation.tree import (
 from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 from dynsolve.robot.names import FORCES, names_taken, spelled
 
-# The textbook's letters: H_2^0, J_{v_1}, 𝓘_1, τ_1
-
 HALF = Quotient(Number(1), Number(2))
 """½ of a general formula, a fraction also where the numbers of a robot are decimals."""
 

@@ -17,8 +17,6 @@ from typing import IO
 
 from dynsolve.errors import UsageError
 
-# Files that are written whole or not at all
-
 
 def check_place(path: Path) -> None:
     """Refuse a place that cannot be written, before any work is done for it.

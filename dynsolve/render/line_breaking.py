@@ -39,8 +39,6 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.render.terminal_boxes import holds_matrix
 
-# Formulas as pieces between which a line may end, and the best lines for a width
-
 RELATION_BREAK, SUM_BREAK, FACTOR_BREAK = 0, 1, 3
 """How deep a place to break lies, within one level of parentheses."""
 

@@ -24,8 +24,6 @@ from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
 from dynsolve.render.line_breaking import FACTOR_BREAK, FormulaSplitter, Notation, Piece, lines
 from dynsolve.render.terminal_boxes import entry_equations, holds_matrix
 
-# Displayed formulas set to a width in em, in any notation
-
 INDENT = 2.0
 """How far a line is moved in that goes on with a member, in em."""
 

@@ -27,8 +27,6 @@ from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import State
 from dynsolve.solution.numbers.substitution import robot_with
 
-# What only some exercises ask, verified by computations that share no formula with it
-
 
 def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) -> Derivation:
     """The values, of which what is asked for beside the course's derivation was verified.

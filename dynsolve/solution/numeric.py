@@ -34,8 +34,6 @@ from dynsolve.notation.tree_values import DOTS, Program, compile_trees, plain_na
 from dynsolve.problem import Problem
 from dynsolve.quantities.index import quantities
 
-# Results as NumPy functions of the state and the parameters
-
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "sgn": np.sign}
 
 

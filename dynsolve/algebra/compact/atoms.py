@@ -37,8 +37,6 @@ from dynsolve.algebra.generators import Generator, is_sign
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.notation.tree import Function, Node, Number, children
 
-# Atoms: the factors of a printed product, and their order
-
 
 class Rank(IntEnum):
     """The order in products and sums: √2 m a d (a + b) sin θ (c₁ + c₂) θ̇ (θ̇₁ + θ̇₂)."""

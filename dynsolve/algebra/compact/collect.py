@@ -50,8 +50,6 @@ from dynsolve.notation.tree import (
     walk,
 )
 
-# Collecting polynomials in the parameters
-
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
 

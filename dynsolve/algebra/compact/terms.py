@@ -26,8 +26,6 @@ from typing import Any, Generic, NamedTuple, TypeVar
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-# A polynomial as a dictionary of terms, laid out for collecting
-
 Rational = int | Fraction
 """A rational factor: an int wherever it is whole, since those are fast."""
 

@@ -46,8 +46,6 @@ from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.rationals import fraction, rational
 from dynsolve.algebra.ring import Ring
 
-# The forms in which a person may write a trigonometric polynomial in parallel angles
-
 TrigPolynomial = dict[Exponents, Rational]
 
 TrigMonomial = tuple[tuple[TrigFunction, int], ...]

@@ -14,8 +14,7 @@ explanations one after the other, the nearest first, in the order of the list at
                      term, and the words of the mend; several such slips, each in a term of its own
     substitution     one symbol, angle or function for another throughout
     own_steps        an earlier step done otherwise, and all that follows from it; one slip that explains
-                     all
-                     the wrong entries of a matrix
+                     all the wrong entries of a matrix
 
 What they share: `wrong_entry` (the scalar that is wrong, its terms in words, a number for a letter),
 `mends` (what mends an answer, and an expression as terms), `own_steps` (what steps give from the student's

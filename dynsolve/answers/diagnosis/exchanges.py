@@ -43,8 +43,6 @@ from dynsolve.notation.tree import Negative, Node, Number, Product, Sum, walk
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import INERTIA, MASS
 
-# One factor where another belongs
-
 HEAVY = 4
 """The weight of a term that is missing, or one too many: anything lighter is likelier."""
 

@@ -30,8 +30,6 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, walk, with_children
 
-# Whether an answer equals what was expected: exactly, with numbers for symbols, or rounded
-
 ROUNDED = "rounded"
 
 

@@ -28,11 +28,10 @@ Every equation ends as an answer, in `not_recognized`, which the student is show
 `configurations` reads sets: singular configurations, branches of the inverse kinematics; `set_text`
 takes apart what words join in them, and the vectors of a space; `displayed_sets` finds those of a report.
 `matrix_parts` are rows, columns and entries of a matrix, `dh_tables` tables of Denavit-Hartenberg
-parameters,
-`by_content` names that mean an answer only where their value says so, and equations of motion whose sides
-name none; `vocabulary` knows what the indices of a Christoffel symbol mean; `asides` lists what names an
-answer where nothing is read.  The values of an answer file come from `yaml_values` or, where YAML refuses
-the file, from `answer_file`, which reads them.
+parameters, `by_content` names that mean an answer only where their value says so, and equations of motion
+whose sides name none; `vocabulary` knows what the indices of a Christoffel symbol mean; `asides` lists
+what names an answer where nothing is read.  The values of an answer file come from `yaml_values` or,
+where YAML refuses the file, from `answer_file`, which reads them.
 
 Modules import only those of earlier layers: text (`sources`, `lexer`, `prepare`, `displays`), names
 (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations (`matrix_parts`, `left_side`, `by_content`,

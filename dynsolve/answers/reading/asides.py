@@ -54,8 +54,6 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Reference, Symbol
 from dynsolve.quantities.letters import key
 
-# What a formula in the midst of a sentence says
-
 _NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
 """Letters of sentences that are no abbreviation: the time, running indices, the number of joints."""
 

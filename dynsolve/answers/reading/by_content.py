@@ -45,8 +45,6 @@ from dynsolve.quantities.letters import key
 from dynsolve.quantities.stages import Stage
 from dynsolve.questions.forward_dynamics import QDD_FORWARD
 
-# Names that mean an answer only where their value says so: k_1, u_1, H_11, T_1, Γ_1
-
 _NAME = re.compile(r"(k|u)([0-9a-z]?)|(H)((?:[1-9][1-9])?)")
 _FRICTION = re.compile(r"(?:tau|[TMFQ])(?:f|fr|fric|friction|r|R|Reib|reib|fv|d|D|diss)")
 """What the vector of friction is called beside the torques."""

@@ -30,8 +30,6 @@ from dynsolve.notation.tree import ZERO, Function, Negative, Reference, Sum, Sym
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.letters import key
 
-# What the sides of an equation name: answers, nothing known, or nothing at all
-
 _DETERMINANT = re.compile(r"(?:det\(?|\|)J[\w^()]*\|?")
 _LONGEST_DETERMINANT = 20
 SETS = ("singular", "equilibria", "inverse")

@@ -20,8 +20,6 @@ from dynsolve.answers.reading.grids import MAX_IDENTIFIER, MAX_LENGTH, MAX_TOKEN
 from dynsolve.errors import ReadError
 from dynsolve.notation.characters import SPELLED, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS, character_error
 
-# The lexer: the text of an answer, plain or LaTeX, cut into tokens that know their place
-
 
 class Token(NamedTuple):
     """A piece of the text.

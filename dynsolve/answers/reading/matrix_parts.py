@@ -47,8 +47,6 @@ from dynsolve.quantities import families
 from dynsolve.quantities.index import Quantities
 from dynsolve.questions.parameters import REFERENCE
 
-# One row or one column of a matrix, as programs name it
-
 _ALL = frozenset({":", "*", "cdot"})
 _CLOSING = {"(": ")", "{": "}"}
 

@@ -24,8 +24,6 @@ from dynsolve.notation.characters import split
 from dynsolve.notation.tree import Negative, Node, Number, Product, Quotient, Sum, Symbol, children, walk
 from dynsolve.quantities.letters import key
 
-# Runs of letters cut into the names of the problem: `m_2gL_1` is m_2, g and L_1
-
 _LONGEST_RUN = 60
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc sgn sign".split())
 _CALLS = frozenset(

@@ -15,8 +15,6 @@ from dynsolve.answers.reading.grids import MAX_BYTES
 from dynsolve.answers.verdict import Place
 from dynsolve.notation.unicode import printable
 
-# The text of a hand-in, whatever its bytes, and where in the file each character stands
-
 _LONGEST_EXCERPT = 400
 
 _WIDE = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz+-*/^=()[]{}|,.:;_"

@@ -17,8 +17,6 @@ from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, blanked, plain_signs
 from dynsolve.errors import Finding
 
-# Web pages: the text of an HTML file, its formulas as they were written in LaTeX
-
 _SILENT = frozenset({"style", "head", "template", "noscript", "title", "del", "s", "strike"})
 _SCRIPTS = {"sub": "_{", "sup": "^{"}
 """The tags of indices and powers, as LaTeX opens them."""

@@ -4,8 +4,7 @@ A matrix loses rank exactly where all minors of the size of its greatest rank ar
 minor is taken apart into factors; at a singular configuration one factor of every minor is 0.
 
     zeros       what is left of a matrix when everything is cleared that is never 0; one equation f(q) = 0,
-                and
-                whether equations can hold together
+                and whether equations can hold together
     losses      the rank at a singular configuration, and the directions that are lost there
     sets        all minors at once: the alternatives, each a list of conditions
 

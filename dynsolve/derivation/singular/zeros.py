@@ -36,8 +36,6 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.elimination import turn_of
 from dynsolve.errors import AlgebraError
 
-# Whether equations can hold together, and what follows from them, by Buchberger's algorithm
-
 LIMITS = (40, 150, 400)
 """Of a basis: its polynomials, the terms of one, and the binary digits of its coefficients."""
 

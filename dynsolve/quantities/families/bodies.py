@@ -11,8 +11,6 @@ from dynsolve.quantities.letters import each
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.units import INERTIA, LENGTH, NONE, PER_SECOND, VELOCITY
 
-# The families of the bodies: mass centres, velocities, inertia
-
 LINEAR = each("v vc vm", "{b}")
 """What students write for the velocity of a body's mass centre."""
 

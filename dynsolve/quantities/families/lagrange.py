@@ -16,8 +16,6 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
 from dynsolve.robot.units import ENERGY, INERTIA, MOMENTUM
 
-# The families of the Euler-Lagrange equations
-
 
 def _momentum(q: Coordinate) -> Node:
     return letters.partial_derivative(letters.L, letters.velocity(q))

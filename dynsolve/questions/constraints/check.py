@@ -3,7 +3,8 @@
 A state with h = 0 is found by Newton's method, and its rates are put on A_c q̇ = 0.  Accelerations and
 multipliers are random but for A_c q̈ + Ȧ_c q̇ = 0 and for the forces of coordinates without a motor, which
 are 0; the motors give what D q̈ + C q̇ + g - Q - A_cᵀ λ leaves to them.  Nothing is multiplied by a
-nullspace.
+nullspace.  The functions h, A_c and its rate are held to the motion as a task is, and the multipliers to
+those that elimination on numbers finds from the equations of motion and the constraint together.
 """
 
 from __future__ import annotations

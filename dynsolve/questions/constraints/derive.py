@@ -12,18 +12,11 @@ without an inverse, as of a coordinate that moves no mass, leaves both systems t
 
 Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.2;
 Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 11.4 for constraints on the rates.
-
-Constraints as rules; the formulas are in `constraints`.
-
-Constraints, compared with the motion of the arm, and the multipliers with elimination on numbers.
-
-The functions h, A_c and its rate are held to the motion as a task is.  The multipliers are found by
-elimination from the equations of motion and the constraint together.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import partial
 
 from dynsolve.algebra.linear_systems import (
@@ -53,8 +46,6 @@ from dynsolve.questions.task import derive as task
 from dynsolve.questions.task.derive import position_rule, task_value
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, Constraint, Task, points_of
-
-# Constraints: A_c q̇ = 0, its rate, and the multipliers that keep it
 
 MOST_PRODUCTS = 200_000
 """Multipliers that may come to more products of terms are not multiplied out: nobody could read them."""
@@ -126,7 +117,7 @@ def bordered(A: Matrix, D: Matrix) -> Matrix:
     return vstack(upper, Matrix(D.ring, tuple((*row, *(D.ring.zero for _ in A.rows)) for row in A.rows)))
 
 
-# Constraints as rules; the formulas are in `constraints`
+# The rules
 
 LAMBDA, REDUCED = "lambda", "reduced"
 
@@ -168,8 +159,3 @@ def _multipliers(robot: Robot) -> Rule:
         return multipliers(robot, A, A_dot, D, acting_forces(robot, *forces))
 
     return Rule(LAMBDA, ("hc", "Ac", "Ac_dot", "D", *acting_names(robot)), compute)
-
-
-# Constraints, compared with the motion of the arm, and the multipliers with elimination on numbers
-
-Rows = Sequence[Sequence[float]]

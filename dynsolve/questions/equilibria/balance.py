@@ -28,8 +28,6 @@ from dynsolve.derivation.singular.zeros import never_together
 from dynsolve.questions.parameters.derive import minimal_parameters
 from dynsolve.robot.model import Robot
 
-# What the parameters must satisfy for gravity to move nothing, in whatever configuration
-
 
 def never_zero(robot: Robot) -> frozenset[str]:
     """The names of the masses and of the acceleration of gravity."""

@@ -39,8 +39,6 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.questions.equilibria.solving import Equilibria, equilibria, wanted_rows
 from dynsolve.robot.model import Robot
 
-# The equations of motion near an equilibrium, linear: ẋ = A x + B u
-
 MOST_PRODUCTS = 200_000
 """An inertia matrix whose determinant may come to more products of terms is not inverted."""
 

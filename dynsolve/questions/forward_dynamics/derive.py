@@ -31,8 +31,6 @@ from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import FOR_EVERY_Q
 
-# Forward dynamics: the accelerations that given forces make
-
 MOST_PRODUCTS = 50_000
 """Accelerations that may come to more products of terms are not multiplied out: nobody could read them."""
 
@@ -131,6 +129,3 @@ def reduced(
         equations.append((both[0], both[1]))
         divided.append(both != (left, right))
     return Reduced(Z, tuple(equations), tuple(used), any(divided))
-
-
-# Forward dynamics, put back

@@ -50,8 +50,6 @@ from dynsolve.questions.inverse.solving import (
 )
 from dynsolve.questions.inverse.subproblems import Remainder, Solved, TwoLines, recognized
 
-# Which unknown is solved for next, and from which equations
-
 MOST_SYSTEMS = 40
 """So many systems are kept; those that come later are turned more often."""
 

@@ -28,8 +28,6 @@ from dynsolve.derivation.reached import angle_rows, near, same_configuration
 from dynsolve.questions.inverse.equations import Equation
 from dynsolve.questions.inverse.subproblems import Solved, TwoLines
 
-# How a task is solved, as data
-
 
 class Definition(Struct, frozen=True):
     """A name for what is known before the steps of its part: x_c = x - d6 r13."""

@@ -1,13 +1,8 @@
 """Determinants, joint rates and accelerations, compared with elimination on numbers.
 
-The Jacobian is taken as it is printed, for `kinematic_check` has held it to the motion of the
+The Jacobian is taken as it is printed, for `task.check` has held it to the motion of the
 arm.  Rates x for a velocity b are right where Jᵀ (J x - b) = 0, so that no others come nearer
 to b, and where W x is a sum of rows of J, so that none of those have a lesser xᵀ W x.
-
-Generalized forces and holding torques, compared with the power of the forces in numbers.
-
-A generalized force is the power of the forces while one coordinate alone moves at unit rate; how
-points move then, and what gravity takes at rest, comes from recursive Newton-Euler.
 """
 
 from __future__ import annotations
@@ -24,8 +19,6 @@ from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.tree_values import compile_trees, plain_name
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
-
-# Generalized forces and holding torques, compared with the power of the forces in numbers
 
 
 def state_numbers(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:

@@ -4,8 +4,6 @@ Spong, Hutchinson, Vidyasagar, section 4.10: the power of a force F and a moment
 point is Fᵀ v + Mᵀ ω = (J_vᵀ F + J_ωᵀ M)ᵀ q̇, whatever the motion, so that the generalized
 forces are Q = J_vᵀ F + J_ωᵀ M: the transpose of what takes rates to velocities takes forces to
 torques.
-
-Forces from outside and the torques that hold them, as rules; the formulas are in `statics`.
 """
 
 from __future__ import annotations
@@ -18,8 +16,6 @@ from dynsolve.derivation import kinematics
 from dynsolve.derivation.graph import Rule
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import FOR_EVERY_Q, TIP, Load
-
-# Forces from outside, and the torques that hold them at rest
 
 
 def wrench(load: Load, H: Matrix | None) -> tuple[Matrix, Matrix]:

@@ -3,10 +3,7 @@
 Spong, Hutchinson, Vidyasagar, section 4.6 for the Jacobian of a point, 4.8 for that of a
 task (the analytical Jacobian: ∂r/∂q), 4.11 for J̇ in accelerations: d²r/dt² = J_r q̈ + J̇_r q̇.
 
-What exercises ask of the kinematics as rules: points, the task, its Jacobian and their rates.
-
-A robot has the rules of those stages of which something is asked; the formulas are in
-`task` and `rates`.  A point's quantities are called by its name: `pP`, `JvP`, `JwP`, `vP`.
+A point's quantities are called by its name: `pP`, `JvP`, `JwP`, `vP`.
 """
 
 from __future__ import annotations
@@ -25,8 +22,6 @@ from dynsolve.notation.tree import Reference
 from dynsolve.questions.rates import derive as rates
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
-
-# Points, the task r(q), its Jacobian, and how Jacobians change in time
 
 
 def task_value(robot: Robot, task: Task, positions: Mapping[str, Matrix]) -> Matrix:

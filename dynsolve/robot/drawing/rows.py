@@ -39,8 +39,6 @@ from dynsolve.robot.drawing.normals import (
 )
 from dynsolve.robot.model import Convention
 
-# The rows of a Denavit-Hartenberg table from the normals of an arm
-
 
 class DrawnRow(Struct, frozen=True):
     """A row of the table: the joint whose variable it holds, None for a fixed frame.

@@ -42,8 +42,6 @@ from dynsolve.robot.model import Axes, BodyTurn, Joint, Robot
 from dynsolve.robot.questions import Limits, ModelQuestions, Target
 from dynsolve.robot.shapes import Density
 
-# Exact values put for symbols, in expressions (`Substitution`) and in a whole robot (`robot_with`)
-
 Replacements = Mapping[tuple[str, int], Node]
 """Constant formulas by (name, number of dots): ("theta1", 1) is a velocity."""
 

@@ -49,8 +49,6 @@ from dynsolve.problem.model import Problem
 from dynsolve.problem.table import NotLinear, linear_rates
 from dynsolve.robot.model import Convention, Coordinate, JointType, Robot
 
-# A Denavit-Hartenberg table as it is written
-
 COLUMNS = ("theta", "d", "a", "alpha")
 ANGLES = (0, 3)
 LETTERS = ("θ", "d", "a", "α")

@@ -36,8 +36,6 @@ from dynsolve.questions import newton_euler
 from dynsolve.questions.parameters import REFERENCE
 from dynsolve.robot.model import JointType
 
-# Names of answers inside a value
-
 OWN_LETTERS = frozenset({"h", "c"})
 """Letters that name an answer on the left alone: on the right the student's own, but for a last guess."""
 
