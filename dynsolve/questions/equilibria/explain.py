@@ -51,7 +51,7 @@ from dynsolve.questions.equilibria.solving import (
     multipliers,
     wanted_rows,
 )
-from dynsolve.questions.equilibria.stability import Point, Stability, turned
+from dynsolve.questions.equilibria.stability import Point, Stability, by_coordinates, turned
 from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.questions.set_forms import SetForms, vanishing
 from dynsolve.robot.model import JointType, Robot
@@ -485,10 +485,10 @@ def _along(context: Context, point: Point, place: Prose) -> Iterator[Line]:
 def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:
     """At q₁ = -90°, q₂ = 0"""
     names = [q.name for q in shown.robot.coordinates]
-    at = [
-        equation(angle_node(angle, names), angle_node(Angle(degrees=degrees)))
-        for angle, degrees in turned(point.values)
-    ]
+    at = []
+    for angle, degrees in turned(point.values):
+        moving, fixed = by_coordinates(angle, names)
+        at.append(equation(angle_node(moving, names), angle_node(fixed + Angle(degrees=degrees))))
     if at and len(at) == len(case):
         return ("At ", side_by_side(at))
     if not case:

@@ -8,12 +8,12 @@ from typing import Any
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
-from dynsolve.notation.build import times
+from dynsolve.notation.build import times, total
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase
-from dynsolve.questions.equilibria.stability import Point, Stability, turned
+from dynsolve.questions.equilibria.stability import Point, Stability, by_coordinates, turned
 from dynsolve.questions.export import Export, alternatives, existence, inequalities, plain_inequality, skipped
 
 
@@ -48,10 +48,11 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
         return {"stability": point.stability.value, **conditions}
 
     def told(point: Point) -> dict[str, Any]:
-        at = {
-            printer.text(angle_node(angle)): printer.text(times(degrees / 180, [(Symbol("pi"), 1)]))
-            for angle, degrees in turned(point.values)
-        }
+        at: dict[str, str] = {}
+        for angle, degrees in turned(point.values):
+            moving, fixed = by_coordinates(angle, export.robot.ring.names)
+            turns = times(degrees / 180, [(Symbol("pi"), 1)])
+            at[printer.text(angle_node(moving))] = printer.text(total([angle_node(fixed), turns]))
         return {**at, **stability(point)}
 
     yield "equilibria_stability", [[told(point) for point in points] for points in found.points]

@@ -21,16 +21,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from itertools import product
 from math import prod
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
+from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.factors import trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
-from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.ring_values import ring_of
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.elimination import ParameterSigns
@@ -170,7 +174,8 @@ class _Search:
 
     def __init__(self, robot: Robot, wanted: Sequence[Expr], held: Multipliers | None) -> None:
         self.robot = robot
-        self.there = Transfer(robot.ring, search_ring(robot.ring, (), {}))
+        ring = search_ring(robot.ring, (), {}) if held else _search_ring(robot.ring, wanted)
+        self.there = Transfer(robot.ring, ring)
         self.signs = assumed_signs(robot, self.there)
         self.special, self.of_rank = Special(self.signs), Special(self.signs)
         self.held = held.moved(self.there) if held else None
@@ -262,6 +267,21 @@ class _Search:
         if settled and self.held:
             moved = (factor for factor in self.of_rank.factors if factor not in self.special.factors)
             yield from filter(None, (_of_rank(factor, self.held, settled, self.signs) for factor in moved))
+
+
+def _search_ring(ring: Ring, wanted: Sequence[Expr]) -> Ring:
+    """The ring to search in, with q - a as an angle of it where that is shorter: a is that of a slope."""
+    found = search_ring(ring, (), {})
+    fixed = [pair.angle for pair in found.pairs if not {*names_of(pair.angle)} & {*found.names}]
+    for slope in (angle for angle in fixed if angle.terms):
+        others = [found]
+        for place, angle in product(range(len(found.plan.turning)), (slope, -slope)):
+            turning = [*found.plan.turning]
+            vector, offset = turning[place]
+            turning[place] = (vector, offset + angle)
+            others.append(ring_of(found.coordinates, replace(found.plan, turning=tuple(turning))))
+        found = min(others, key=lambda other: sum(len(one) for one in map(Transfer(ring, other), wanted)))
+    return found
 
 
 def _is_singular(inertia: Matrix, case: Alternative, free: Sequence[int]) -> bool:

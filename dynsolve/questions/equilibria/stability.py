@@ -15,7 +15,7 @@ Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import StrEnum
 from fractions import Fraction
 from functools import partial
@@ -64,6 +64,12 @@ def turned(values: Values) -> list[tuple[Angle, Fraction]]:
             angle, degrees = angle * count, degrees * count
         found.append((angle, degrees))
     return found
+
+
+def by_coordinates(angle: Angle, names: Iterable[str]) -> tuple[Angle, Angle]:
+    """What of an angle is of coordinates, and what the rest is on the other side: q₁ and a of q₁ - a."""
+    fixed = Angle(tuple((atom, rate) for atom, rate in angle.terms if not {*dict(atom)} & {*names}))
+    return angle - fixed, -fixed
 
 
 Here = Callable[[Matrix], Matrix]

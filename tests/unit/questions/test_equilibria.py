@@ -12,11 +12,13 @@ from msgspec.structs import replace
 
 import dynsolve
 from dynsolve.derivation.rules import derive
+from dynsolve.derivation.search_ring import search_ring
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Function, Number, Product, Quotient, Relation, Symbol, equation, walk
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
+from dynsolve.questions.equilibria import solving
 from dynsolve.questions.equilibria.check import Case, holding, in_balance, verify_equilibria, verify_excluded
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.stability import Stability
@@ -612,6 +614,29 @@ def test_second_derivatives_do_not_decide_only_where_no_minor_is_negative() -> N
     assert re.search(r"In case 1, where \$m\^\{2\} g > k .*\$: not\s+stable", told)
 
 
+def test_on_a_slope_angles_are_told_by_that_of_the_slope() -> None:
+    """cos(q1 - a) = 0, and q2 = 0 or 180°; of links whose base is turned it is the angle of that."""
+    links = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\n"
+    masses = ", ".join(f"{{mass: m{k}, link: {k}, center: tip, shape: point}}" for k in (1, 2))
+    arm = f"{links}masses: [{masses}]\nfind: [equilibria]\n"
+    tilted = dynsolve.solve(f"gravity: [g*sin(a), -g*cos(a), 0]\n{arm}")
+    (points,) = tilted.to_json()["results"]["equilibria_stability"]
+    assert [point for point in points if point["stability"] == "stable"] == [
+        {"q1": "a - pi/2", "q2": "0", "stability": "stable"}
+    ]
+    assert [point["stability"] for point in points].count("unstable") == 3
+    assert r"At $q_{1} = a - 90^{\circ}$, $q_{2} = 0$: stable" in " ".join(tilted.to_markdown().split())
+    cart = "coordinates: {x: prismatic, theta: revolute}, bodies: [{mass: m1, at: [x, 0, 0]}, {mass: m2, at: "
+    rod = f"model: {{{cart}[x + l*sin(theta), -l*cos(theta), 0]}}]}}\nsprings: [{{of: x, stiffness: k}}]\n"
+    sliding = dynsolve.solve(f"gravity: [g*sin(b), -g*cos(b), 0]\n{rod}find: [equilibria]\n")
+    assert sliding.to_json()["results"]["equilibria_stability"] == [
+        [{"theta": "b", "stability": "stable"}, {"theta": "b + pi", "stability": "unstable"}]
+    ]
+    turned = dynsolve.solve(f"gravity: [0, -g, 0]\nbase: {{rotate: Rz(a)}}\n{arm}")
+    (points,) = turned.to_json()["results"]["equilibria_stability"]
+    assert {"q1": "-a - pi/2", "q2": "0", "stability": "stable"} in points
+
+
 def test_half_angles_are_told_as_angles() -> None:
     """A spring along the chord, ½ k (2 R sin(θ/2))², beside gravity: V″ = (m g R + k R²) cos θ."""
     hoop = """
@@ -1122,8 +1147,12 @@ find: [equilibria]
     assert "need not be an equilibrium" in str(told_of(whirled).outcome)
 
 
-def test_what_squares_decide_is_no_condition() -> None:
-    """On a slope at the angle b two links hang or stand across it; folded they are never stable."""
+def test_what_squares_decide_is_no_condition(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a slope at the angle b two links hang or stand across it; folded they are never stable.
+
+    In a ring with q1 and b apart, as where q1 - b is no shorter.
+    """
+    monkeypatch.setattr(solving, "_search_ring", lambda ring, wanted: search_ring(ring, (), {}))
     slope = """
 gravity: [g*sin(b), -g*cos(b), 0]
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
