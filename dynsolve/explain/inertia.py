@@ -306,6 +306,7 @@ def _parallel_axis(context: Context, body: Body) -> Step:
             equation(shift, factored(context, context.show(link_frame.steiner(body.mass, offset)))),
         ),
         result=(equation(tensor, factored(context, context.form(f"I_body{b}"))),),
+        said="parallel axis",
         uses=(),
     )
 

@@ -233,19 +233,20 @@ def step_blocks(step: Step, inputs: tuple[str, ...] = (), drawn: Drawn | None = 
         picture = attempted(lambda: drawn(figure), lambda: None, f"the picture of {step.title}")
         yield from () if picture is None else (picture,)
     table = () if step.table is None else (Table(step.table.header, step.table.rows),)
-    way = _way(step, inputs)
+    is_result = step.formula is not None and [*map(to_unicode, step.result)] == [to_unicode(step.formula)]
+    way = _way(replace(step, formula=None) if is_result else step, inputs)
     yield from chain(way, table) if step.table_last else chain(table, way)
-    yield from result_blocks(step)
+    yield from result_blocks(step, step.source if is_result else "")
     for note in step.notes:
         yield Note(note)
 
 
-def result_blocks(step: Step) -> Iterator[Block]:
-    """The results of a step, each with its label."""
+def result_blocks(step: Step, source: str = "") -> Iterator[Block]:
+    """The results of a step, each with its label, and its section where no formula stands above."""
     if step.listed:
         yield Equations(step.result, in_columns=True, label=step.id)
     for result, label in labelled_results(step):
-        yield Formula(result, entries=step.entries, optional=step.optional, label=label)
+        yield Formula(result, source, entries=step.entries, optional=step.optional, label=label)
 
 
 def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:

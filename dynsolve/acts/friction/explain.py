@@ -19,12 +19,22 @@ LETTERS = "* f_ck | coefficient of Coulomb friction of coordinate k"
 
 def given(forms: Forms, friction: JointFriction) -> Prose:
     """On q₁ acts viscous friction of coefficient f_v and Coulomb friction of coefficient f_c."""
-    there = [
+    there, resisting = _coefficients(forms, friction), forms.robot.actions.resisting
+    alike = [
+        one for one in resisting if isinstance(one, JointFriction) and _coefficients(forms, one) == there
+    ]
+    if friction is not alike[0]:
+        return ()  # told with the first
+    names = [Symbol(forms.robot.coordinates[one.coordinate].name) for one in alike]
+    return ("On ", *listed(names), " acts ", *listed(there), ".")
+
+
+def _coefficients(forms: Forms, friction: JointFriction) -> list[Prose]:
+    return [
         (f"{kind} friction of coefficient ", measured(forms.of(one.value), one.unit))
         for kind, one in zip(("viscous", "Coulomb"), friction.parameters(forms.robot), strict=True)
         if not one.value.is_zero
     ]
-    return ("On ", Symbol(forms.robot.coordinates[friction.coordinate].name), " acts ", *listed(there), ".")
 
 
 def beside(context: Context, friction: Sequence[JointFriction]) -> tuple[Prose, Node] | None:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.explain.step import Detail
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 from tests.support import solved
 
 ACTING = """
@@ -82,3 +85,33 @@ def test_a_robot_on_which_nothing_acts_has_none_of_it() -> None:
     formula = step("model", plain).formula
     assert formula is not None
     assert shown(formula, plain) == "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = 𝛕"
+
+
+def page(problem: str, detail: Detail = Detail.NORMAL) -> str:
+    return " ".join(report(solved(problem), Format.TEXT, detail=detail).decode().split())
+
+
+def test_what_is_alike_of_joints_and_bodies_is_told_once() -> None:
+    arm = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}]
+masses:
+  - {mass: m1, link: 1, center: [0, c1, 0], inertia: {xx: A1, yy: B1, zz: A1}, about: origin}
+  - {mass: m2, link: 2, center: {near: [c2, 0, 0]}, inertia: {xx: A2, yy: B2, zz: C2}, about: joint}
+friction: {q1: {viscous: b}, q2: {viscous: %s}}
+"""
+    alike, others = page(arm % "b"), page(arm % "c")
+    assert "On q₁ and q₂ acts viscous friction of coefficient b." in alike
+    assert (
+        "On q₁ acts viscous friction of coefficient b. On q₂ acts viscous friction of coefficient c."
+        in others
+    )
+    assert alike.count("The given tensor is about another point") == 1
+
+
+def test_a_formula_that_is_the_result_stands_once() -> None:
+    spring = "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\nsprings: [{stiffness: k, of: q1}]\n"
+    for detail in (Detail.NORMAL, Detail.FULL):
+        text = page(spring, detail)
+        assert "P_s = ½ k q₁² (Siciliano et al. §7.1.2)" in text
+        assert "P_s = ½ k q₁² P_s" not in text and "§7.1.2) P_s = ½ k q₁²" not in text
