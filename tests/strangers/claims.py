@@ -589,6 +589,23 @@ def _minors(m: Mechanism, s: Sentence) -> bool:
     return True in seen
 
 
+@says("... Of its two directions the one with a positive {} is taken.")
+@says("Of its two directions the one with a positive {} is taken.")
+def _turns_forwards(m: Mechanism, s: Sentence) -> bool:
+    """sin α is the entry (3, 2) of the matrix of a row in the standard convention."""
+    i, here = int(s.where.split()[-1]), m.point()
+    return bool((np.linalg.inv(m.frame(i - 1, here)) @ m.frame(i, here))[2, 1] > 0)
+
+
+@says("[Where {}, ]{&} are not <both|all> positive[ in every configuration].")
+def _minors_are_not_positive(m: Mechanism, s: Sentence) -> bool:
+    """Whatever the parameters are that meet what is assumed, it fails in some pose."""
+    let = [node for text, nodes in s.before() if text.startswith("Let ") for node in nodes]
+    points = [here for here in m.points(30) if all(m.holds(node, here) for node in let)]
+    lowest = (m.least(lambda p: float(np.min(np.linalg.eigvalsh(s.matrix(p)))), h.names) for h in points)
+    return bool(points) and all(value < 1e-3 for value in lowest)
+
+
 @says("{} is not positive in every configuration.")
 def _minor_is_not_positive(m: Mechanism, s: Sentence) -> bool:
     (told,) = [shown for shown in s.shown() if shown.parts[0] == s.formulas[0]]

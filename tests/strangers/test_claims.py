@@ -15,6 +15,7 @@ from dynsolve.notation.tree import (
     Derivative,
     Function,
     Letter,
+    Matrix,
     Negative,
     Node,
     Number,
@@ -131,6 +132,14 @@ def test_a_negative_term_is_found(term: Node, is_true: bool) -> None:
     said = Text(
         say("In the last expression no term is negative, and {more}.", more=Relation((MASS, ZERO), (">",)))
     )
+    assert wrong(ELBOW, "", shown, said) == ([] if is_true else ["is not true"])
+
+
+@pytest.mark.parametrize(("last", "is_true"), [(-1, True), (1, False)])
+def test_of_minors_it_is_held_that_not_all_are_positive(last: int, is_true: bool) -> None:
+    shown = Formula(equation(letters.D, Matrix(((Number(1), ZERO), (ZERO, Number(last))))))
+    minors = listed([Letter("Delta", Number(k)) for k in (1, 2)])
+    said = Text(say("{minors} are not both positive in every configuration.", minors=minors))
     assert wrong(ELBOW, "", shown, said) == ([] if is_true else ["is not true"])
 
 
